@@ -15,7 +15,7 @@ from common.job import start
 from common.real_spectra import configured_spectrum
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
-from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
+from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
 from stickiness.measured import plausibility, self_affine_fit, stitching
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
@@ -27,6 +27,7 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
+DRAWN = ("h_rms", "elastic_energy")  # of which verdicts take every draw
 # Spikes beyond which a remark tells what they change: share of the points, relative rms height.
 MANY_SPIKES, LARGE_CHANGE = 1e-3, 0.1
 PICTURE_POINTS = 400  # along a side of the picture of the heights
@@ -47,8 +48,6 @@ VARIABLE_TEXTS = {
     "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
     "h_rms_draws": ("m", "rms height of every draw"),
-    "rms_slope_draws": ("1", "rms gradient of every draw"),
-    "rms_curvature_draws": ("1/m", "rms Laplacian of every draw"),
     "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
@@ -71,19 +70,19 @@ VARIABLE_TEXTS = {
     "measurement": ("1", "measurement of the surface, as listed"),
     "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
-    "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
-    "scatter": ("1", "standard deviation of the offsets", "no two measurements overlap"),
+    "scatter": (
+        "1",
+        "standard deviation of ln C between measurements",
+        "no two measurements overlap",
+    ),
 }
-
-# Quoted numbers, and the standard errors of those that were fitted.
-STANDARD_ERRORS = {n: f"{n}_standard_error" for n in ("hurst", "C0_reference", "q_rolloff")}
 
 
 def main(job):
     entry = job.params.surface
     dataset = analyse(entry) if entry["kind"] == "measured" else self_affine(entry)
     datasets.write(
-        annotate(dataset),
+        dataset,
         job.output[0],
         title=f"spectrum of a real surface: {entry['label']}",
         parameters={"surface": job.wildcards.real_surface, **entry},
@@ -97,8 +96,8 @@ def self_affine(entry):
     points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
     q = np.geomspace(smooth.q0, smooth.q1, points)
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
-    data = {
-        **{name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS},
+    data = {name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS}
+    data |= {
         "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
         "psd": (("end", "wave_number"), [s.psd(q) for s in spectra]),
         "C0": ("end", [s.C0 for s in spectra]),
@@ -109,7 +108,7 @@ def self_affine(entry):
     }
     if "anisotropy" in entry:
         data["axis_ratio"] = entry["anisotropy"]
-    return xr.Dataset(data, coords={"end": ENDS, "wave_number": q})
+    return annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
 
 
 def analyse(entry):
@@ -119,16 +118,24 @@ def analyse(entry):
     spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
     stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
     spectrum = stitched.spectrum if stitched else spectra[0]
+    fit, cutoff = spectrum.fit, spectrum.cutoff
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
     drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
+    remarks = self_affine_fit.remarks(fit, np.nan_to_num(spectrum.anisotropy))
     for one, before in zip(heights, as_read, strict=True):
         remarks += remarks_on_file(one, before)
-    remarks += remarks_on_spectrum(spectrum, stitched, extend_to)
+    remarks += remarks_on_spectrum(spectrum, extend_to)
+    if stitched and np.isnan(stitched.scatter):
+        remarks.append("no two measurements overlap: whether they agree in height cannot be told")
+    elif stitched:
+        remarks.append(
+            f"{len(spectra)} measurements stitched, which differ by a factor of "
+            f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
+        )
     doubts = [doubt for one in heights for doubt in one.doubts]
-    doubts += plausibility.doubt_fit(spectrum.fit)
+    doubts += plausibility.doubt_fit(fit)
     if entry.get("plausibility", "check") == "ignore":
         remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
         doubts = []
@@ -137,40 +144,55 @@ def analyse(entry):
     for remark in remarks:
         logging.info(remark)
 
-    dataset = describe_spectrum(spectrum, extend_to)
-    # Both ends of every moment, and the draws themselves for what depends on several.
-    for name, values in drawn.moments.items():
-        dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
-        dataset[f"{name}_draws"] = "draw", values
-    dataset["q0_draws"] = "draw", drawn.q0
-    dataset = dataset.assign_coords(draw=np.arange(DRAWS)).merge(picture_of(heights[0]))
-    if stitched:
-        places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
-        dataset = dataset.assign_coords(places)
-        dataset["psd_measurement"] = tuple(places), stitched.levels
-        dataset["offset"] = "measurement", stitched.offsets
-        dataset["scatter"] = stitched.scatter
-    return dataset.assign(
+    line = fit.c0_at_hurst(REFERENCE_HURST)
+    errors = {"hurst": fit.hurst_se, "C0_reference": line.c0_se}
+    dataset = xr.merge([tabulate_spectrum(spectrum, extend_to), picture_of(heights[0])]).assign(
+        C0=("end", fit.c0 * np.ones(2)),
+        C0_relative_error=fit.c0_se / fit.c0,
+        C0_reference=line.c0,
+        C0_reference_upper=("end", [line.upper, line.upper]),
+        hurst=fit.hurst,
+        misfit=fit.misfit,
+        q0=fit.q_rolloff or spectrum.lowest,
+        q1=cutoff.q if extend_to is None else extend_to,
+        q_cutoff=cutoff.q,
+        cutoff_detected=int(cutoff.detected),
         h_rms_measured=heights[0].h_rms,
         h_rms_as_read=as_read[0],
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
         masked_spikes=sum(h.spikes for h in heights),
         cropped_fraction=max(h.cropped for h in heights),
-    ).assign_attrs(
+        q0_draws=("draw", drawn.q0),
+        draw=np.arange(DRAWS),
+    )
+    # Both ends of every moment, and the draws themselves for what depends on several.
+    for name, values in drawn.moments.items():
+        dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
+        if name in DRAWN:
+            dataset[f"{name}_draws"] = "draw", values
+    if np.isfinite(spectrum.anisotropy):
+        dataset["anisotropy"] = spectrum.anisotropy
+        dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
+    if fit.q_rolloff is not None:
+        dataset["q_rolloff"], errors["q_rolloff"] = fit.q_rolloff, fit.q_rolloff_se
+    if stitched:
+        places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
+        dataset = dataset.assign_coords(places)
+        dataset["psd_measurement"] = tuple(places), stitched.levels
+        dataset["scatter"] = stitched.scatter
+    return annotate(dataset, **errors).assign_attrs(
         remarks="; ".join(remarks),
-        cutoff=spectrum.cutoff.reason,
+        cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
         not_judged="\n".join(doubts),
     )
 
 
-def describe_spectrum(spectrum, extend_to):
-    """Spectrum, fit and the line at the paper's exponent; extrapolated by the fit if configured."""
-    fit, rings = spectrum.fit, spectrum.rings
-    line = fit.c0_at_hurst(REFERENCE_HURST)
-    q, psd, error = rings.q, rings.psd, rings.standard_error
-    psd, top = [psd, psd], spectrum.cutoff.q
+def tabulate_spectrum(spectrum, extend_to):
+    """Measured and fitted spectrum; extrapolated by the fit to `extend_to` [1/m] if configured."""
+    fit, rings, top = spectrum.fit, spectrum.rings, spectrum.cutoff.q
+    q, psd, error = rings.q, [rings.psd, rings.psd], rings.standard_error
     if extend_to is not None:
         inside = q <= top * (1 + 1e-9)
         count = int(np.ceil(np.log10(extend_to / top) * POINTS_PER_DECADE)) + 1
@@ -182,34 +204,13 @@ def describe_spectrum(spectrum, extend_to):
         psd = [np.append(rings.psd[inside], fit.psd(more) * np.exp(s * spread)) for s in (-1, 1)]
         error = np.append(error[inside], fit.psd(more) * spread)
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
-    dataset = xr.Dataset(
-        {
-            "psd": (("end", "wave_number"), psd),
-            "psd_standard_error": ("wave_number", error),
-            "psd_fit": ("wave_number", fit.psd(q)),
-            "fitted": ("wave_number", fitted.astype("i1")),
-            "C0": ("end", fit.c0 * np.ones(2)),
-            "C0_relative_error": fit.c0_se / fit.c0,
-            "C0_reference": line.c0,
-            "C0_reference_standard_error": line.c0_se,
-            "C0_reference_upper": ("end", [line.upper, line.upper]),
-            "hurst": fit.hurst,
-            "hurst_standard_error": fit.hurst_se,
-            "misfit": fit.misfit,
-            "q0": fit.q_rolloff or spectrum.lowest,
-            "q1": top if extend_to is None else extend_to,
-            "q_cutoff": top,
-            "cutoff_detected": int(spectrum.cutoff.detected),
-        },
-        coords={"end": ENDS, "wave_number": q},
-    )
-    if np.isfinite(spectrum.anisotropy):
-        dataset["anisotropy"] = spectrum.anisotropy
-        dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
-    if fit.q_rolloff is not None:
-        dataset["q_rolloff"] = fit.q_rolloff
-        dataset["q_rolloff_standard_error"] = fit.q_rolloff_se
-    return dataset
+    data = {
+        "psd": (("end", "wave_number"), psd),
+        "psd_standard_error": ("wave_number", error),
+        "psd_fit": ("wave_number", fit.psd(q)),
+        "fitted": ("wave_number", fitted.astype("i1")),
+    }
+    return xr.Dataset(data, coords={"end": ENDS, "wave_number": q})
 
 
 def picture_of(heights):
@@ -256,38 +257,24 @@ def remarks_on_file(heights, with_spikes):
     return found
 
 
-def remarks_on_spectrum(spectrum, stitched, extend_to):
-    """Remarks on the ends of the spectrum, and on how well several measurements agree."""
-
-    def wavelength(q):
-        return amount(2 * np.pi / q, "m")
-
+def remarks_on_spectrum(spectrum, extend_to):
+    """Remarks on the ends of the spectrum."""
     found, fit = [], spectrum.fit
+    longest, shortest = (amount(2 * np.pi / q, "m") for q in (fit.q_min, spectrum.cutoff.q))
     if fit.q_rolloff is None:
         found.append(
-            f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
+            f"no roll-off was found below wavelengths of {longest}, and longer "
             "ones cannot show one: q0 is the lowest wave number of the scan, not of the surface"
         )
-    shorter = f"waves shorter than {wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
+    shorter = f"waves shorter than {shortest} ({spectrum.cutoff.reason})"
     if extend_to is None:
-        found.append(f"{shorter} are not part of slope, curvature and a_V")
-    else:
-        end = wavelength(extend_to)
-        found.append(f"{shorter} follow the fitted law down to {end}: extrapolated, not measured")
-    if stitched is not None and np.isnan(stitched.scatter):
-        found.append("no two measurements overlap: whether they agree in height cannot be told")
-    elif stitched is not None:
-        found.append(
-            f"{len(stitched.offsets)} measurements stitched, which differ by a factor of "
-            f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
-        )
-    return found
+        return [*found, f"{shorter} are not part of slope, curvature and a_V"]
+    end = amount(2 * np.pi / extend_to, "m")
+    return [*found, f"{shorter} follow the fitted law down to {end}: extrapolated, not measured"]
 
 
-def annotate(dataset):
-    """Add units and texts, and the errors of quoted parameters; moments have both their ends."""
-    errors = {name: dataset[name] for name in STANDARD_ERRORS.values() if name in dataset}
-    dataset = dataset.drop_vars(errors)
+def annotate(dataset, **errors):
+    """Add units and texts, and budgets from the standard errors of what was fitted."""
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
     texts = VARIABLE_TEXTS | {
         "C0": (f"m^{2 - 2 * float(dataset.hurst):.4g}", "prefactor of C = C0 q^(-2(H+1))"),
@@ -297,18 +284,13 @@ def annotate(dataset):
     present = {name: text for name, text in texts.items() if name in dataset.variables}
     dataset = datasets.annotate(dataset, **present)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
-    given, band = (
-        not_applicable("given in the configuration"),
-        not_applicable("of the band that was fitted"),
-    )
-    for name, error in STANDARD_ERRORS.items():
-        if name not in dataset:
-            continue
-        parts = dict.fromkeys(("discretisation", "solver", "bandwidth", "sampling", "model"), given)
-        if error in errors:
-            parts |= dict.fromkeys(("discretisation", "solver", "bandwidth"), band)
-            parts["sampling"] = ErrorComponent(COVERS * errors[error], "of the spectrum measured")
-            parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
+    if not errors:
+        given = dict.fromkeys(SOURCES, not_applicable("given in the configuration"))
+        return with_budget(dataset, "hurst", **given)
+    parts = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
+    parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
+    for name, error in errors.items():
+        parts["sampling"] = ErrorComponent(COVERS * error, "of the spectrum measured")
         dataset = with_budget(dataset, name, **parts)
     return dataset
 

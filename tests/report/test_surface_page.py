@@ -47,7 +47,7 @@ def scan(path, seed=1, spoiled=()):
 def analysed(path, **asked):
     """The file that the rule writes, read back."""
     asked = {"kind": "measured", "label": "plate & co", "source": "own", **asked}
-    dataset = analyse_surface.annotate(analyse_surface.analyse(asked))
+    dataset = analyse_surface.analyse(asked)
     datasets.write(dataset, path, title="a", parameters={"surface": "plate", **asked})
     return datasets.read(path)
 
@@ -177,7 +177,7 @@ def test_profiles_and_parametric_surfaces_have_pages(folder):
     asked = {"kind": "self_affine", "label": "sand", "hurst": 0.8, "source": "own"}
     asked |= {"longest_wavelength": "1 mm", "shortest_wavelength": "1 um"}
     asked |= {"h_rms": ["1 um", "3 um"]}
-    dataset = analyse_surface.annotate(analyse_surface.self_affine(asked))
+    dataset = analyse_surface.self_affine(asked)
     datasets.write(dataset, folder / "sand.nc", title="a", parameters=asked)
     page = write_page(datasets.read(folder / "sand.nc"), folder)
     page.check("rms height 1 … 3 µm")

@@ -36,9 +36,8 @@ class Stitched:
 
     spectrum: MeasuredSpectrum  #: errors of its `fit` include the scatter between measurements
     levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
-    offsets: NDArray  #: (k,), mean of ln C minus the stitched one where they overlap, else NaN
     shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
-    scatter: float  #: tau, standard deviation of the offsets in ln C; NaN if no two overlap
+    scatter: float  #: tau, standard deviation of their ln C; NaN if no two overlap
 
 
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
@@ -51,23 +50,20 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
         raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
     logs, variances, q = _on_common_rings(measurements)
     tau2 = _variance_between(logs, variances)
-    mean, shares, rings = _average(q, logs, variances, tau2)
+    shares, rings = _average(q, logs, variances, tau2)
     top = max(measurements, key=lambda m: m.cutoff.q)
     band = min(m.fit.q_min for m in measurements), top.cutoff.q
     fit = fit_rings(rings, *band)
     tau = float(np.sqrt(tau2))
     if tau > 0:
         fit = _add_offsets(fit, logs, variances, tau, q, band)
-    known = np.isfinite(logs)
-    both = known & (known.sum(0) > 1)
-    offsets = [np.mean(d[b]) if b.any() else np.nan for d, b in zip(logs - mean, both, strict=True)]
     anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
     q_low = min(m.lowest for m in measurements)
     area = ring_areas(rings.q, q_low)
     cutoff = replace(top.cutoff, q=fit.q_max)
     whole = MeasuredSpectrum(rings, area, rings, fit, cutoff, q_low, anisotropy)
     levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
-    return Stitched(whole, levels, np.array(offsets), shares, tau)
+    return Stitched(whole, levels, shares, tau)
 
 
 def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
@@ -96,8 +92,8 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
     return logs[:, used], variances[:, used], centres[used]
 
 
-def _average(q, logs, variances, tau2) -> tuple[NDArray, NDArray, RadialPSD]:
-    """Mean of ln C (m,), shares of its weights (k, m), rings whose ln C has it and its variance."""
+def _average(q, logs, variances, tau2) -> tuple[NDArray, RadialPSD]:
+    """Weights of the mean of ln C (k, m), and rings whose ln C has this mean and its variance."""
     weight = np.nan_to_num(1 / (variances + np.nan_to_num(tau2)))
     shares = weight / weight.sum(axis=0)
     mean = np.nansum(shares * logs, axis=0)
@@ -108,7 +104,7 @@ def _average(q, logs, variances, tau2) -> tuple[NDArray, NDArray, RadialPSD]:
         trigamma = special.polygamma(1, dof)
         dof = dof + trigamma * (1 - trigamma / error2) / special.polygamma(2, dof)
     level = np.exp(mean + special.digamma(dof) - np.log(dof))
-    return mean, shares, RadialPSD(q, level, dof)
+    return shares, RadialPSD(q, level, dof)
 
 
 def _variance_between(logs: NDArray, variances: NDArray) -> float:
