@@ -193,8 +193,7 @@ def test_page_tells_of_steep_slopes_missing_points_and_contact_of_periodic_heigh
     gel = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "range": "0.2 um"}
     asked = {"periodic": True, "pressures": ["100 kPa"], "adhesion": gel}
     more = {"ranges": np.geomspace(0.01, 1, 9), "pixels": 4, "tolerance": 1e-4, "gamma": 0.45}
-    setting = contact_measured.read_setting(asked, **more)
-    bem = contact_measured.solve(given, float(single.q0), 1.0, setting)
+    bem = contact_measured.solve(given, float(single.q0), 1.0, asked, **more)
     odd = single.assign(
         rms_slope=single.rms_slope.copy(data=[1.9, 2.1]),
         q1=100 * single.q1,
