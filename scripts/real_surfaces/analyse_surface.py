@@ -16,7 +16,7 @@ from common.real_spectra import configured_spectrum
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
-from stickiness.measured import plausibility, self_affine_fit, stitching
+from stickiness.measured import plausibility, stitching
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
 from stickiness.units import si
@@ -28,8 +28,8 @@ REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 DRAWN = ("h_rms", "elastic_energy")  # of which verdicts take every draw
-# Spikes beyond which a remark tells what they change: share of the points, relative rms height.
-MANY_SPIKES, LARGE_CHANGE = 1e-3, 0.1
+LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
+LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
 VARIABLE_TEXTS = {
@@ -123,10 +123,9 @@ def analyse(entry):
     drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = self_affine_fit.remarks(fit, np.nan_to_num(spectrum.anisotropy))
+    remarks = remarks_on_spectrum(spectrum, extend_to)
     for one, before in zip(heights, as_read, strict=True):
         remarks += remarks_on_file(one, before)
-    remarks += remarks_on_spectrum(spectrum, extend_to)
     if stitched and np.isnan(stitched.scatter):
         remarks.append("no two measurements overlap: whether they agree in height cannot be told")
     elif stitched:
@@ -144,13 +143,13 @@ def analyse(entry):
     for remark in remarks:
         logging.info(remark)
 
-    line = fit.c0_at_hurst(REFERENCE_HURST)
-    errors = {"hurst": fit.hurst_se, "C0_reference": line.c0_se}
+    line, line_se, upper = fit.c0_at_hurst(REFERENCE_HURST)
+    errors = {"hurst": fit.hurst_se, "C0_reference": line_se}
     dataset = xr.merge([tabulate_spectrum(spectrum, extend_to), picture_of(heights[0])]).assign(
         C0=("end", fit.c0 * np.ones(2)),
         C0_relative_error=fit.c0_se / fit.c0,
-        C0_reference=line.c0,
-        C0_reference_upper=("end", [line.upper, line.upper]),
+        C0_reference=line,
+        C0_reference_upper=("end", [upper, upper]),
         hurst=fit.hurst,
         misfit=fit.misfit,
         q0=fit.q_rolloff or spectrum.lowest,
@@ -230,16 +229,11 @@ def remarks_on_file(heights, with_spikes):
     source, found = heights.source, []
     if heights.spikes:
         found.append(
-            f"points of {source} far off all their neighbours, spikes, which are not used: "
-            f"{heights.spikes} (spikes: keep uses them)"
+            f"{heights.spikes} points of {source} are spikes, far off all their neighbours; the "
+            f"rms height is {amount(with_spikes, 'm')} with all points, "
+            f"{amount(heights.h_rms, 'm')} without those not used: if they are part of the "
+            "surface, give spikes: keep"
         )
-        share, change = heights.spikes / heights.heights.size, abs(with_spikes - heights.h_rms)
-        if share > MANY_SPIKES or change > LARGE_CHANGE * heights.h_rms:
-            found.append(
-                f"{share:.2g} of the points of {source} are spikes, and the rms height is "
-                f"{amount(with_spikes, 'm')} with all points, {amount(heights.h_rms, 'm')} "
-                "without those not used: if they are part of the surface, give spikes: keep"
-            )
     if heights.cropped:
         found.append(f"{percent(heights.cropped)} of {source} cut off to leave no missing points")
     if heights.dropped:
@@ -258,8 +252,20 @@ def remarks_on_file(heights, with_spikes):
 
 
 def remarks_on_spectrum(spectrum, extend_to):
-    """Remarks on the ends of the spectrum."""
+    """Remarks on why a surface is not isotropic and self-affine, and on the ends of its spectrum."""
     found, fit = [], spectrum.fit
+    if not fit.is_self_affine:
+        found.append(
+            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
+            "or the instrument's blur (H too high)"
+        )
+    if fit.misfit > LARGE_MISFIT:
+        found.append(f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)")
+    if spectrum.anisotropy > LARGE_ANISOTROPY:
+        found.append(
+            f"C depends on direction (amplitude {spectrum.anisotropy:.2f} of cos 2 phi): theory "
+            "for isotropic surfaces applies to its average at best"
+        )
     longest, shortest = (amount(2 * np.pi / q, "m") for q in (fit.q_min, spectrum.cutoff.q))
     if fit.q_rolloff is None:
         found.append(

@@ -30,22 +30,19 @@ SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "residual", "attrac
 PRECISION = {"tol": 1e-3, "max_iterations": 10000}
 START_TOLERANCE = 1e-4  # of the contact without adhesion, over h_rms
 VARIABLE_TEXTS = {
-    "periodisation": ("1", "way in which the heights were made periodic"),
-    "resolution": ("1", "grid points per shortest wavelength, at least"),
-    "theory_attractive_area": ("1", "attractive area by theory on the spectrum of these heights"),
-    "theory_area_fraction": ("1", "contact area by theory on the spectrum of these heights"),
-    "a_v": ("1", "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))"),
-    "theory_a_v": ("1", "a_V by theory on the spectrum of these heights"),
+    "periodisation": "way in which the heights were made periodic",
+    "resolution": "grid points per shortest wavelength, at least",
+    "theory_attractive_area": "attractive area by theory on the spectrum of these heights",
+    "theory_area_fraction": "contact area by theory on the spectrum of these heights",
+    "a_v": "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))",
+    "theory_a_v": "a_V by theory on the spectrum of these heights",
     "h_rms": ("m", "rms height of the periodic surface"),
     "q1": ("1/m", "highest wave number of the heights pressed"),
-    "adhesive_contact_area": ("1", "area at a gap of zero with adhesion, by pixels"),
-    "adhesive_attractive_area": ("1", "area with gaps up to the range of attraction, by pixels"),
-    "adhesive_mean_gap": ("1", "mean gap over h_rms with adhesion"),
-    "adhesive_residual": ("1", "unbalanced pressure over the strength or the flattening pressure"),
-    "edge_resolution": (
-        "1",
-        f"pixel over range^2 E*/w; edges of contact are resolved up to {edge_zone.COARSEST}",
-    ),
+    "adhesive_contact_area": "area at a gap of zero with adhesion, by pixels",
+    "adhesive_attractive_area": "area with gaps up to the range of attraction, by pixels",
+    "adhesive_mean_gap": "mean gap over h_rms with adhesion",
+    "adhesive_residual": "unbalanced pressure over the strength or the flattening pressure",
+    "edge_resolution": f"pixel over range^2 E*/w; edges are resolved up to {edge_zone.COARSEST}",
     "applied_pressure": ("Pa", "mean pressure"),
 }
 

@@ -58,7 +58,6 @@ CONTACT_TEXTS = {
     "mean_gap": ("m", "mean gap"),
     "mean_gap_discretisation_error": ("m", f"mean gap times {RELATIVE_CHANGE}"),
     "residual": ("1", "complementarity residual over the rms height"),
-    "q0": ("1/m", "lowest wave number of the self-affine range of the surface"),
     "h_rms": ("m", "rms height of the heights pressed"),
     "shortest_wavelength": ("m", "shortest wave of the heights pressed"),
     "cutoff_wavelength": ("m", "shortest wave that the instrument resolves"),
@@ -80,7 +79,6 @@ PULL_OFF_TEXTS = {
     "range": ("m", "range of the attraction simulated"),
     "material_range": ("m", "range of the attraction of the material"),
     "energy_ratio": ("1", "work of adhesion over elastic energy of full contact"),
-    "h_rms": ("m", "rms height of the heights simulated"),
     "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
     "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
     "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
@@ -177,7 +175,6 @@ def press(rough, q0, q_cutoff):
         data[f"{name}_discretisation_error"] = "pressure", error
     data = data.assign(
         mean_pressure=("pressure", loads),
-        q0=q0,
         h_rms=h_rms,
         shortest_wavelength=rough.shortest_wavelength,
         cutoff_wavelength=2 * np.pi / q_cutoff,
@@ -249,7 +246,6 @@ def separate(rough, band, material, law, squeeze):
             "range": range_,
             "material_range": material.range,
             "energy_ratio": predicted.energy_ratio,
-            "h_rms": h_rms,
             "shortest_wavelength": rough.shortest_wavelength,
             "judged_wavelength": 2 * np.pi / q1,
             "squeeze_pressure": squeeze * material.modulus,

@@ -1,6 +1,4 @@
-"""One measurement of a surface, map or line profile, as an isotropic spectrum with its limits.
-
-The spectrum ends where the instrument stops resolving the surface: by its tip, blur or noise.
+"""One measurement of a surface as an isotropic spectrum, up to where the instrument resolves it.
 
 A profile across an isotropic surface has C1(q) = integral of C(sqrt(q^2 + k^2)) dk over all k,
 Abel's transform of C (Nayak 1971, doi:10.1115/1.3451608). Its inverse takes a derivative of a noisy
@@ -219,8 +217,6 @@ def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
     """Wavelength below which heights show the tip, a sphere; None if none, inf if all do."""
-    if not radius > 0:
-        raise ValueError(f"radius must be positive, got {radius!r}")
     # A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
     # which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
     # 2022, doi:10.1016/j.apsadv.2021.100190). The wavelength is the length of the stencil.
@@ -243,33 +239,16 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
 
 
 def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None:
-    """Find the wave number beyond which blur or noise of the instrument dominates, if any does.
-
-    A bend less than half a decade above `q_min` is ignored; the surface may be smooth.
-    """
-    q, slope = _local_exponents(rings.between(q_min, q_nyquist))
-    # From the Nyquist wave number downwards, noise and below it blur: everything from the last
-    # exponent on that is not noise's, and likewise from blur's.
-    noise = _start_of_last_run(slope < NOISE_EXPONENT)
-    blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
-    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
-        if 0 < start < end and q[start - 1] > q_min * _ROOM:
-            falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
-            reason = f"{kind} of the instrument ({falls})"
-            return Cutoff(float(q[start - 1]), reason, detected=True)
-    return None
-
-
-def _local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
-    """Wave numbers and exponents s of C ~ q^-s about rings with others on both sides."""
+    """Find the wave number beyond which blur or noise of the instrument dominates, if any does."""
+    rings = rings.between(q_min, q_nyquist)
     if not len(rings):
-        return np.empty(0), np.empty(0)
+        return None
     q, mean, dof = merge_rings(rings, rings.psd, _BEND_RINGS)
     inside = mean > 0
     x, y, dof = np.log(q[inside]), np.log(mean[inside]), dof[inside]
     y = y - special.digamma(dof) + np.log(dof)
     weight = 1 / (special.polygamma(1, dof) + _SCATTER**2)
-    found = []
+    found = []  # wave numbers and local exponents s of C ~ q^-s
     for centre in x:
         near = np.abs(x - centre) <= _WIDTH / 2
         if np.count_nonzero(near) < 4 or np.ptp(x[near]) < _WIDTH * 0.7:
@@ -277,7 +256,17 @@ def _local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
         w, dx = weight[near], x[near] - np.average(x[near], weights=weight[near])
         found.append((np.exp(centre), -np.sum(w * dx * y[near]) / np.sum(w * dx**2)))
     q, slope = np.array(found).reshape(-1, 2).T
-    return q, slope
+    # From the Nyquist wave number downwards, noise and below it blur: everything from the last
+    # exponent on that is not noise's, and likewise from blur's.
+    noise = _start_of_last_run(slope < NOISE_EXPONENT)
+    blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
+    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
+        # A bend close to `q_min` is ignored; the surface may be smooth.
+        if 0 < start < end and q[start - 1] > q_min * _ROOM:
+            falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
+            reason = f"{kind} of the instrument ({falls})"
+            return Cutoff(float(q[start - 1]), reason, detected=True)
+    return None
 
 
 def _start_of_last_run(flags: NDArray) -> int:

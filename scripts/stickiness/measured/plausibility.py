@@ -56,10 +56,9 @@ def doubt_values(values: NDArray) -> Iterator[str]:
 
 def _written(value: float) -> str:
     """All digits of a number, as YAML reads them: missing points are told by equality."""
-    mantissa, mark, exponent = repr(float(value)).partition("e")
-    if mark and "." not in mantissa:
-        mantissa += ".0"  # YAML takes 1e-09 for a text
-    return (mantissa if mark else mantissa.removesuffix(".0")) + mark + exponent
+    text = repr(float(value)).removesuffix(".0")
+    # YAML takes 1e-09 for a text.
+    return np.format_float_scientific(value) if "e" in text and "." not in text else text
 
 
 def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:

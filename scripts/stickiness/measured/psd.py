@@ -26,12 +26,8 @@ class _Modes:
     psd: NDArray  #: C of every mode [length^4], or C1 [length^3]
     multiplicity: NDArray | float  #: modes, of all signs of q, for which each stands
     variance: float  #: mean square of the tapered heights over that of the taper [length^2]
-    #: Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
-    #: taper correlates neighbouring modes.
-    independence: float
-    #: Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
-    #: q = 0 than this are mixed with the mean and the trend.
-    blur: float
+    independence: float  #: independent modes per mode: a taper w correlates neighbours
+    blur: float  #: half width of the taper's main lobe, in lattice steps; 0 without a taper
 
 
 @dataclass(frozen=True)
@@ -205,10 +201,8 @@ def radial_average(
 ) -> RadialPSD:
     """Average a spectrum over logarithmic rings of ``|q|``; of a profile, C1 over intervals.
 
-    Every mode but q = 0 falls into exactly one ring, those in the corners beyond `q_nyquist`
-    included, so that the sum of psd * modes * dqx * dqy is still the variance. The average over a
-    ring exceeds C at its mean q by about s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10
-    a decade and s = 3.6.
+    The average over a ring exceeds C at its mean q by about s^2 (ln 10/bins_per_decade)^2/24 for
+    C ~ q^-s: 3 % at 10 a decade and s = 3.6.
     """
     bins_per_decade = number("bins_per_decade", bins_per_decade)
     q = spectrum.q
@@ -238,8 +232,5 @@ def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
 
 
 def merge_rings(rings: RadialPSD, values, bins_per_decade) -> tuple[NDArray, NDArray, NDArray]:
-    """Gather narrow rings into wider ones: geometric mean q, mean of `values`, independent modes.
-
-    The means are weighted by independent modes.
-    """
+    """Gather rings into wider ones: geometric mean q, mean of `values`, independent modes."""
     return _average_by_ring(wide_rings(rings, bins_per_decade), rings.dof, rings.q, values)

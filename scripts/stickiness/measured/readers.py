@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.units import si
 
@@ -78,7 +78,7 @@ class Raw:
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
     unit: str | None = None  #: of the heights
-    places: Sequence[float] | NDArray | None = None  #: steps of a map, or positions on a line (n,)
+    places: ArrayLike | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
 
 
@@ -145,21 +145,18 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
     name = _choose(dataset.variables, dataset.data_vars, variable, path, "variable")
     data = dataset[name].astype(float)
-    known = {"source": f"{path}: {name}", "unit": data.attrs.get("units")}
-    along = [dataset.get(dim) for dim in data.dims]
-    if any(c is None or "units" not in c.attrs for c in along):
-        along = None
-    if data.ndim == 1:
-        if along:
-            known |= {"places": along[0].values.astype(float), "place_unit": along[0].units}
-        return Raw(data.values, **known)
-    first, second = (str(dim).lower() for dim in data.dims)
-    if not (first in _X_NAMES or second in _Y_NAMES):
-        data, along = data.transpose(), along and along[::-1]
-    steps = [_find_step(coordinate, path) for coordinate in along or ()]
-    if steps and None not in steps:
-        known |= {"places": steps, "place_unit": "m"}
-    return Raw(np.array(data.values), **known)
+    if data.ndim == 2:
+        first, second = (str(dim).lower() for dim in data.dims)
+        if not (first in _X_NAMES or second in _Y_NAMES):
+            data = data.transpose()
+    places, unit, along = None, None, [dataset.get(dim) for dim in data.dims]
+    if all(c is not None and "units" in c.attrs for c in along):
+        if data.ndim == 1:
+            places, unit = along[0].values.astype(float), along[0].units
+        else:
+            steps = [_find_step(coordinate, path) for coordinate in along]
+            places, unit = (None, None) if None in steps else (steps, "m")
+    return Raw(np.array(data.values), f"{path}: {name}", data.attrs.get("units"), places, unit)
 
 
 def _choose(arrays: Mapping, candidates: Mapping, wanted: str | None, path: Path, what: str) -> str:
@@ -212,11 +209,7 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
 
 
 def _read_text(path: Path) -> Raw:
-    """Read a matrix, one or two columns of a profile, or a list of points x y z.
-
-    Comments and lines before the first row that begins with a number are the header. Decimal
-    commas are allowed if the separator is another.
-    """
+    """Read a matrix, one or two columns of a profile, or a list of points x y z."""
     header, rows = _split_header(path.read_bytes())
     if not rows:
         raise ValueError(
@@ -246,12 +239,10 @@ def _read_text(path: Path) -> Raw:
         shapes.append((count, 1))
         heights, places = heights[-1], heights[0] if columns == 2 else None
     elif "width" in fields:
-        # Without a height the pixels are square.
         size = [fields[name] for name in ("width", "height") if name in fields]
-        size = size if len(size) == 2 else size[0]
+        size = size if len(size) == 2 else size[0]  # without a height the pixels are square
         size = sides(size, heights.shape, f"{path}: Width, Height in the header")
-        places = [side / n for side, n in zip(size, heights.shape, strict=True)]
-        place_unit = "m"
+        places, place_unit = np.divide(size, heights.shape), "m"
     for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
         for line, match in ((line, pattern.search(line)) for line in header):
             if match and int(match[1]) not in (shape[axis] for shape in shapes):
@@ -303,22 +294,18 @@ def _read_rows(path: Path, rows: list[tuple[int, str]]) -> NDArray:
             )
         values.append(row)
     matrix = np.array(values)
-    if separator == "," and "." not in first and _commas_split(matrix):
-        raise ValueError(
-            f"{path}: {matrix.shape[1]} columns without a decimal point that alternate: decimal "
-            "commas, which its separating commas hide; separate by tabs or semicolons, or write "
-            "decimal points"
-        )
+    # Do columns by turns hold whole numbers and their decimals: close to the next but one?
+    pairs = matrix.shape[1] >= 4 and matrix.shape[1] % 2 == 0 and not np.any(matrix[:, 1::2] < 0)
+    if separator == "," and "." not in first and pairs:
+        beside = np.nanmedian(np.abs(np.diff(matrix, axis=1)))
+        whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
+        if beside > _ALTERNATE * whole:
+            raise ValueError(
+                f"{path}: {matrix.shape[1]} columns without a decimal point that alternate: "
+                "decimal commas, which its separating commas hide; separate by tabs or "
+                "semicolons, or write decimal points"
+            )
     return matrix
-
-
-def _commas_split(matrix: NDArray) -> bool:
-    """Whether columns are by turns whole numbers and their decimals: close to the next but one."""
-    if matrix.shape[1] % 2 or matrix.shape[1] < 4 or np.any(matrix[:, 1::2] < 0):
-        return False
-    beside = np.nanmedian(np.abs(np.diff(matrix, axis=1)))
-    whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
-    return bool(beside > _ALTERNATE * whole)
 
 
 def _map_points(path: Path, points: NDArray) -> tuple[NDArray, tuple[float, float]]:
@@ -383,14 +370,13 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     data = _call(path, lambda: reader.topography(channel_index=info.index, **size))
     # Points that could not be measured come masked.
     heights = np.array(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan), float)
-    unit = data.unit
-    if not (known and unit):
-        return Raw(heights, source, unit)
-    if heights.ndim == 1:
-        return Raw(heights, source, unit, np.asarray(data.positions(), dtype=float), unit)
-    scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
-    lengths = zip(data.physical_sizes, heights.shape, strict=True)
-    return Raw(heights, source, unit, [float(side) * scale / n for side, n in lengths], "m")
+    unit, places, place_unit = data.unit, None, "m"
+    if known and unit and heights.ndim == 1:
+        places, place_unit = np.asarray(data.positions(), dtype=float), unit
+    elif known and unit:
+        scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
+        places = np.array(data.physical_sizes, dtype=float) * scale / heights.shape
+    return Raw(heights, source, unit, places, place_unit)
 
 
 def holds_heights(channel) -> bool:

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,21 +22,9 @@ from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
 
 FINE = 200  #: narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
-LARGE_MISFIT = 0.3  #: relative; above, a power law describes the spectrum badly
-LARGE_ANISOTROPY = 0.5  #: C along and across the lay then differ by a factor of three
 COARSE = 10  #: rings per decade for the misfit
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
-
-
-class HurstLine(NamedTuple):
-    """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent [length^(2 - 2H)]."""
-
-    #: Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
-    #: the logarithm.
-    c0: float
-    c0_se: float  #: from the scatter about the line
-    upper: float  #: upper envelope: the largest C q^(2(H+1)) of all rings
 
 
 @dataclass(frozen=True)
@@ -46,15 +33,11 @@ class SelfAffineFit:
 
     hurst: float  #: as fitted; it may be outside 0 < H <= 1
     c0: float  #: [length^(2 - 2H)], so that its unit depends on H
-    #: Of (ln c0, hurst) or (ln c0, hurst, ln q_rolloff). ln c0 and hurst are strongly
-    #: correlated: q = 1 lies far from the data.
-    log_covariance: NDArray
+    log_covariance: NDArray  #: of ln c0, hurst and, with a plateau, ln q_rolloff
     q_min: float  #: lowest and highest wave number used [1/length]
     q_max: float
     q_rolloff: float | None  #: end of the plateau [1/length]; None if the data show none
-    #: Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
-    #: explains it all. The standard errors grow with it.
-    misfit: float
+    misfit: float  #: relative rms departure from the fit beyond sampling noise
     rings: RadialPSD  #: narrow ones, that the fit used
 
     @property
@@ -80,23 +63,20 @@ class SelfAffineFit:
     def psd(self, q: ArrayLike) -> NDArray:
         """Fitted C(q) [length^4], at any `q` [1/length]."""
         q = np.asarray(q, dtype=float)
-        q = q if self.q_rolloff is None else np.maximum(q, self.q_rolloff)
-        return self.c0 * q ** (-2 * (self.hurst + 1))
+        return self.c0 * np.maximum(q, self.q_rolloff or 0.0) ** (-2 * (self.hurst + 1))
 
-    def c0_at_hurst(self, hurst: float) -> HurstLine:
-        """Prefactors at an imposed exponent, in a unit that can be compared between surfaces.
+    def c0_at_hurst(self, hurst: float) -> tuple[float, float, float]:
+        """C0 at an imposed exponent, its standard error, and the largest C q^(2(H+1)) of all rings.
 
-        The line is fitted above `q_rolloff`; the values of the rings cover the whole fit interval.
+        Least squares of ln C over rings of equal weight above `q_rolloff`, less the bias of the
+        logarithm; the error is from the scatter about the line.
         """
-        rings = self.rings
-        level = rings.psd * rings.q ** (2 * (hurst + 1))
-        q, mean, dof = merge_rings(rings, level, COARSE)
-        sloped = q >= (0.0 if self.q_rolloff is None else self.q_rolloff)
-        logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[sloped]
+        level = self.rings.psd * self.rings.q ** (2 * (hurst + 1))
+        q, mean, dof = merge_rings(self.rings, level, COARSE)
+        logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[q >= (self.q_rolloff or 0.0)]
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
         c0 = float(np.exp(logs.mean()))
-        se = c0 * float(scatter / np.sqrt(len(logs)))
-        return HurstLine(c0, se, float(mean.max()))
+        return c0, c0 * float(scatter / np.sqrt(len(logs))), float(mean.max())
 
 
 def fit_rings(
@@ -149,27 +129,6 @@ def fit_rings(
         misfit=misfit,
         rings=rings,
     )
-
-
-def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
-    """One line for each reason why a surface is not isotropic and self-affine."""
-    found = []
-    if not fit.is_self_affine:
-        found.append(
-            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
-            "or the instrument's blur (H too high)"
-        )
-    if fit.misfit > LARGE_MISFIT:
-        found.append(f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)")
-    if anisotropy > LARGE_ANISOTROPY:
-        found.append(
-            f"C depends on direction (amplitude {anisotropy:.2f} of cos 2 phi): theory for "
-            "isotropic surfaces applies to its average at best"
-        )
-    return found
-
-
-# Whittle's likelihood, with weights limited by the misfit
 
 
 def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:

@@ -1,13 +1,10 @@
 """Several measurements stitched to one spectrum; moments of a spectrum with their errors.
 
-Measurements at different magnifications cover different wave numbers at different places. Where
-they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in which tau is the
-scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
-doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
-
-Errors of moments come from drawing spectra that agree with the measured one: rings vary by their
-sampling error, measurements by their scatter, extrapolation and plateau by the covariance of the
-fit. Every moment is computed for each draw, so that correlated errors stay correlated.
+Where measurements overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in which
+tau is the scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka
+2017, doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra). Errors of moments come
+from drawing spectra that agree with the measured one: rings vary by their sampling error,
+measurements by their scatter, extrapolation and plateau by the covariance of the fit.
 """
 
 from __future__ import annotations
@@ -108,17 +105,14 @@ def _average(q, logs, variances, tau2) -> tuple[NDArray, RadialPSD]:
 
 
 def _variance_between(logs: NDArray, variances: NDArray) -> float:
-    """Variance between measurements, from the mean offsets of all pairs that overlap.
-
-    An offset smaller than its sampling error counts as that error.
-    """
+    """Variance between measurements, from the mean offsets of all pairs that overlap."""
     squares = []
     for j, k in combinations(range(len(logs)), 2):
         weight = 1 / (variances[j] + variances[k])
         if np.isfinite(weight).any():
             total = np.nansum(weight)
             offset = np.nansum(weight * (logs[j] - logs[k])) / total
-            squares.append(max(offset**2, 1 / total))
+            squares.append(max(offset**2, 1 / total))  # at least its sampling error
     return float(np.mean(squares)) / 2 if squares else np.nan
 
 
@@ -134,9 +128,6 @@ def _add_offsets(fit, logs, variances, tau, q, band) -> SelfAffineFit:
         change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
         covariance += np.outer(change, change)
     return replace(fit, log_covariance=covariance)
-
-
-# Moments and their errors
 
 
 @dataclass(frozen=True)
@@ -201,7 +192,18 @@ def draw(
         )
     rng = np.random.default_rng(seed)
     rings, top = spectrum.rings, spectrum.cutoff.q * (1 + 1e-9)
-    levels = rings.psd * _relative(spectrum, count, rng, stitched)
+    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
+    # of that mean and variance is positive and lacks the far tail of the posterior of a single
+    # mode: the variance of the measured heights is known.
+    variance = np.log1p(1 / rings.dof)
+    sampling, logs = variance, 0.0
+    if stitched is not None:
+        tau = np.nan_to_num(stitched.scatter)
+        logs = rng.normal(size=(count, len(stitched.shares))) * tau @ stitched.shares
+        # The errors of the rings already hold the offsets, as if these were independent.
+        sampling = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
+    normal = rng.normal(size=(count, len(variance)))
+    levels = rings.psd * np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
     # ln C at the cutoff, H and, with a plateau, ln q_rolloff.
     fit = spectrum.fit
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
@@ -211,29 +213,13 @@ def draw(
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
-        variance = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
+        moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
         if extend_to is not None:
             ends = [spectrum.cutoff.q, extend_to]
             laws = (
                 PowerLawSegments(ends, [np.exp(level)], [-2 * (hurst + 1)])
                 for level, hurst in law[:, :2]
             )
-            variance = variance + [beyond.variance_below(extend_to, order) for beyond in laws]
-        moments[name] = variance / 4 if order == 1 else np.sqrt(variance)
+            moment = moment + [beyond.variance_below(extend_to, order) for beyond in laws]
+        moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
     return Draws(moments, np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest))
-
-
-def _relative(spectrum, count, rng, stitched) -> NDArray:
-    """Drawn over measured C in every ring (count, m)."""
-    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
-    # of that mean and variance is positive and lacks the far tail of the posterior of a single
-    # mode: the variance of the measured heights is known.
-    variance = np.log1p(1 / spectrum.rings.dof)
-    sampling, logs = variance, 0.0
-    if stitched is not None:
-        tau = np.nan_to_num(stitched.scatter)
-        logs = rng.normal(size=(count, len(stitched.shares))) * tau @ stitched.shares
-        # The errors of the rings already hold the offsets, as if these were independent.
-        sampling = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
-    normal = rng.normal(size=(count, len(variance)))
-    return np.exp(logs + normal * np.sqrt(sampling) - variance / 2)

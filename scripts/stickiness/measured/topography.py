@@ -33,9 +33,7 @@ class _Heights:
     cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
     dropped: int = 0  #: number of points that were measured beside missing ones and not used
     spikes: int = 0  #: number of points far off their neighbours, not used
-    #: As `heights` before anything was dropped, masked or filled, NaN where missing; None if
-    #: nothing was dropped or masked.
-    as_read: NDArray | None = None
+    as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
 
     @property
@@ -73,12 +71,12 @@ class Topography(_Heights):
 
     def to_xarray(self) -> xr.DataArray:
         """Return the heights along `x` and `y` with units, so that ``.plot()`` labels itself."""
-        positions = {
-            axis: (axis, step * np.arange(n), {"units": "m", "long_name": f"position along {axis}"})
-            for axis, step, n in zip("xy", (self.dx, self.dy), self.heights.shape, strict=True)
-        }
         attributes = {"units": "m", "long_name": "height"}
-        return xr.DataArray(self.heights, positions, ("x", "y"), "height", attributes)
+        found = xr.DataArray(self.heights, None, ("x", "y"), "height", attributes)
+        for axis, step in (("x", self.dx), ("y", self.dy)):
+            found[axis] = step * np.arange(found.sizes[axis])
+            found[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
+        return found
 
 
 @dataclass(frozen=True)
@@ -88,9 +86,7 @@ class Profile(_Heights):
     heights: NDArray  #: (n,), finite [m]
     dx: float  #: step [m]
     source: str  #: file (and variable or channel) of the heights, for messages
-    #: Largest distance between neighbouring points as measured [m]; above `dx` if they were
-    #: unevenly spaced and have been interpolated.
-    largest_gap: float = 0.0
+    largest_gap: float = 0.0  #: between neighbours as measured [m]; above `dx` if uneven
 
     @property
     def length(self) -> float:
@@ -198,8 +194,7 @@ def read(
     if missing == "crop":
         kept = levelling.complete_rectangle(np.isfinite(left), source)
         left, x = left[kept], x if x is None else x[kept]
-    name = source
-    name += f", {dropped} points beside missing ones dropped" if dropped else ""
+    name = source + (f", {dropped} points beside missing ones dropped" if dropped else "")
     name += f", {masked} spikes masked" if masked else ""
     limit = 0.0 if missing == "refuse" else max_missing
     filled, count = levelling.fill_missing(left, limit, name, x)
@@ -231,14 +226,16 @@ def read(
 def _places(raw: Raw, length, pixel_size, position_unit) -> tuple[float, ...] | NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
+    counts = None
     if length is not None:
-        size = sides(length, shape, f"{raw.source}: length")
-        if is_profile:
-            return np.arange(shape[0]) * size[0] / shape[0]
-        return tuple(side / n for side, n in zip(size, shape, strict=True))
+        size, counts = sides(length, shape, f"{raw.source}: length"), shape
     if pixel_size is not None:
-        steps = sides(pixel_size, (1,) * len(shape), f"{raw.source}: pixel_size")
-        return np.arange(shape[0]) * steps[0] if is_profile else steps
+        counts = (1,) * len(shape)
+        size = sides(pixel_size, counts, f"{raw.source}: pixel_size")
+    if counts:
+        if is_profile:
+            return np.arange(shape[0]) * size[0] / counts[0]
+        return tuple(side / n for side, n in zip(size, counts, strict=True))
     if raw.places is None:
         what = "the profile's length" if is_profile else "its size"
         raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
