@@ -70,11 +70,7 @@ VARIABLE_TEXTS = {
     "measurement": ("1", "measurement of the surface, as listed"),
     "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
-    "scatter": (
-        "1",
-        "standard deviation of ln C between measurements",
-        "no two measurements overlap",
-    ),
+    "scatter": ("1", "standard deviation between measurements in ln C", "no two overlap"),
 }
 
 
@@ -116,23 +112,15 @@ def analyse(entry):
     entries = [one for _, one in measurements(entry)]
     heights = [read_levelled(one) for one in entries]
     spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
-    stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
-    spectrum = stitched.spectrum if stitched else spectra[0]
+    spectrum = stitching.stitch(spectra)
     fit, cutoff = spectrum.fit, spectrum.cutoff
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
-    drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
+    drawn = stitching.draw(spectrum, DRAWS, SEED, extend_to=extend_to)
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = remarks_on_spectrum(spectrum, extend_to)
+    remarks = [*remark_on_spectrum(spectrum, extend_to)]
     for one, before in zip(heights, as_read, strict=True):
-        remarks += remarks_on_file(one, before)
-    if stitched and np.isnan(stitched.scatter):
-        remarks.append("no two measurements overlap: whether they agree in height cannot be told")
-    elif stitched:
-        remarks.append(
-            f"{len(spectra)} measurements stitched, which differ by a factor of "
-            f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
-        )
+        remarks += remark_on_file(one, before)
     doubts = [doubt for one in heights for doubt in one.doubts]
     doubts += plausibility.doubt_fit(fit)
     if entry.get("plausibility", "check") == "ignore":
@@ -175,11 +163,11 @@ def analyse(entry):
         dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
     if fit.q_rolloff is not None:
         dataset["q_rolloff"], errors["q_rolloff"] = fit.q_rolloff, fit.q_rolloff_se
-    if stitched:
+    if isinstance(spectrum, stitching.Stitched):
         places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
         dataset = dataset.assign_coords(places)
-        dataset["psd_measurement"] = tuple(places), stitched.levels
-        dataset["scatter"] = stitched.scatter
+        dataset["psd_measurement"] = tuple(places), spectrum.levels
+        dataset["scatter"] = spectrum.scatter
     return annotate(dataset, **errors).assign_attrs(
         remarks="; ".join(remarks),
         cutoff=cutoff.reason,
@@ -214,69 +202,74 @@ def tabulate_spectrum(spectrum, extend_to):
 
 def picture_of(heights):
     """Levelled heights, thinned to what a picture shows."""
-    if heights.heights.ndim == 1:
-        x = np.arange(len(heights.heights)) * heights.dx
-        return xr.Dataset({"profile": ("x", heights.heights)}, coords={"x": x})
-    thin = max(1, *(n // PICTURE_POINTS for n in heights.heights.shape))
-    picture = heights.heights[::thin, ::thin]
-    x, y = map(np.arange, picture.shape)
-    x, y = x * thin * heights.dx, y * thin * heights.dy
-    return xr.Dataset({"heights": (("x", "y"), picture.astype("f4"))}, coords={"x": x, "y": y})
+    picture = heights.to_xarray()
+    if picture.ndim == 1:
+        return picture.rename("profile")
+    thin = max(1, *(n // PICTURE_POINTS for n in picture.shape))
+    return picture[::thin, ::thin].astype("f4").rename("heights")
 
 
-def remarks_on_file(heights, with_spikes):
+def remark_on_file(heights, with_spikes):
     """Remarks on points that were not used; `with_spikes` is the rms height with all points."""
-    source, found = heights.source, []
+    source = heights.source
     if heights.spikes:
-        found.append(
+        yield (
             f"{heights.spikes} points of {source} are spikes, far off all their neighbours; the "
             f"rms height is {amount(with_spikes, 'm')} with all points, "
             f"{amount(heights.h_rms, 'm')} without those not used: if they are part of the "
             "surface, give spikes: keep"
         )
     if heights.cropped:
-        found.append(f"{percent(heights.cropped)} of {source} cut off to leave no missing points")
+        yield f"{percent(heights.cropped)} of {source} cut off to leave no missing points"
     if heights.dropped:
-        found.append(
+        yield (
             f"{heights.dropped} points of {source} beside missing ones were measured and are "
             "not used (missing_rim)"
         )
     if heights.missing > heights.spikes:
-        found.append(
+        yield (
             f"{percent(heights.missing_fraction)} of the points of {source} were missing and "
             "are interpolated, smoother than the surface"
         )
     if heights.heights.ndim == 1:
-        found.append(f"{source} is a line profile: isotropy is assumed, not seen")
-    return found
+        yield f"{source} is a line profile: isotropy is assumed, not seen"
 
 
-def remarks_on_spectrum(spectrum, extend_to):
-    """Remarks on why a surface is not isotropic and self-affine, and on the ends of its spectrum."""
-    found, fit = [], spectrum.fit
+def remark_on_spectrum(spectrum, extend_to):
+    """Remarks on what is not isotropic or self-affine, and on both ends of the spectrum."""
+    fit = spectrum.fit
     if not fit.is_self_affine:
-        found.append(
+        yield (
             f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
             "or the instrument's blur (H too high)"
         )
     if fit.misfit > LARGE_MISFIT:
-        found.append(f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)")
+        yield f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)"
     if spectrum.anisotropy > LARGE_ANISOTROPY:
-        found.append(
+        yield (
             f"C depends on direction (amplitude {spectrum.anisotropy:.2f} of cos 2 phi): theory "
             "for isotropic surfaces applies to its average at best"
         )
     longest, shortest = (amount(2 * np.pi / q, "m") for q in (fit.q_min, spectrum.cutoff.q))
     if fit.q_rolloff is None:
-        found.append(
+        yield (
             f"no roll-off was found below wavelengths of {longest}, and longer "
             "ones cannot show one: q0 is the lowest wave number of the scan, not of the surface"
         )
-    shorter = f"waves shorter than {shortest} ({spectrum.cutoff.reason})"
-    if extend_to is None:
-        return [*found, f"{shorter} are not part of slope, curvature and a_V"]
-    end = amount(2 * np.pi / extend_to, "m")
-    return [*found, f"{shorter} follow the fitted law down to {end}: extrapolated, not measured"]
+    left_out = "are not part of slope, curvature and a_V"
+    if extend_to is not None:
+        end = amount(2 * np.pi / extend_to, "m")
+        left_out = f"follow the fitted law down to {end}: extrapolated, not measured"
+    yield f"waves shorter than {shortest} ({spectrum.cutoff.reason}) {left_out}"
+    if not isinstance(spectrum, stitching.Stitched):
+        return
+    if np.isnan(spectrum.scatter):
+        yield "no two measurements overlap: whether they agree in height cannot be told"
+    else:
+        yield (
+            f"{len(spectrum.levels)} measurements stitched, which differ by a factor of "
+            f"{np.exp(spectrum.scatter):.2f} in C (standard deviation)"
+        )
 
 
 def annotate(dataset, **errors):

@@ -32,7 +32,6 @@ START_TOLERANCE = 1e-4  # of the contact without adhesion, over h_rms
 VARIABLE_TEXTS = {
     "periodisation": "way in which the heights were made periodic",
     "resolution": "grid points per shortest wavelength, at least",
-    "theory_attractive_area": "attractive area by theory on the spectrum of these heights",
     "theory_area_fraction": "contact area by theory on the spectrum of these heights",
     "a_v": "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))",
     "theory_a_v": "a_V by theory on the spectrum of these heights",
@@ -118,11 +117,10 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)[SOLVED_VARIABLES]
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=gamma)
     areas = [theory.gap_cumulative(ranges, p) for p in pressures]
-    block["theory_attractive_area"] = (("pressure", "range"), areas)
+    scale = 1.5 * block.pressure * block["range"] ** (2 / 3)
+    block["a_v"] = block.attractive_area / scale
+    block["theory_a_v"] = xr.DataArray(areas, dims=("pressure", "range")) / scale
     block["theory_area_fraction"] = "pressure", [theory.area_fraction(p) for p in pressures]
-    for name in ("attractive_area", "theory_attractive_area"):
-        scale = 1.5 * block.pressure * block["range"] ** (2 / 3)
-        block[name.replace("attractive_area", "a_v")] = block[name] / scale
     if material is not None:
         length = material.work_of_adhesion / material.modulus
         # In the units of the scaled heights, pressures over E* q0 h_rms.

@@ -195,7 +195,7 @@ def test_remarks_name_what_is_wrong():
     ]
     assert not found[0].fit.is_self_affine
     lay = replace(found[0], anisotropy=0.8)
-    first, second, *_ = analyse_surface.remarks_on_spectrum(lay, None)
+    first, second, *_ = analyse_surface.remark_on_spectrum(lay, None)
     assert "outside 0 < H <= 1" in first
     assert "direction" in second
-    assert len(analyse_surface.remarks_on_spectrum(found[1], None)) == 2  # on its ends
+    assert len(list(analyse_surface.remark_on_spectrum(found[1], None))) == 2  # on its ends

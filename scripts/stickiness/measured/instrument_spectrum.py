@@ -95,10 +95,9 @@ def analyse(
     heights : Topography or Profile
         Levelled heights, in any one unit of length.
     taper : {"none", "hann", "hann_radial"}
-        Taper of the heights (`psd.power_spectrum`); "none" for periodic heights only.
+        "none" is for periodic heights only.
     limits : Limits, optional
-        Limits of the instrument. Default: the cutoff is detected, and at most half the Nyquist
-        wave number.
+        Default: the cutoff is detected, and at most half the Nyquist wave number.
 
     Returns
     -------
@@ -114,30 +113,26 @@ def analyse(
     values = numbers("heights", heights.heights)
     if values.size and np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
         raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
-    if isinstance(heights, Topography):
-        steps = heights.dx, heights.dy
-        modes = psd.power_spectrum(values, *steps, taper)
-        lowest, spacing = min(modes.dqx, modes.dqy), max(modes.dqx, modes.dqy)
-        narrow, nyquist = radial_average(modes, FINE), modes.q_nyquist
-    else:
-        steps = (heights.dx,)
-        modes = psd.profile_spectrum(values, heights.dx, taper)
-        lowest = spacing = float(modes.q[0])
-        line = radial_average(modes, FINE)
-        narrow = replace(line, psd=line.psd / line.q)  # proportional to C
+    is_map = isinstance(heights, Topography)
+    transform = psd.power_spectrum if is_map else psd.profile_spectrum
+    modes = transform(values, *heights.steps, taper=taper)
+    fine, nyquist = radial_average(modes, FINE), modes.q_nyquist
+    spacings = (modes.dqx, modes.dqy) if is_map else (float(modes.q[0]),)
+    narrow = fine if is_map else replace(fine, psd=fine.psd / fine.q)  # proportional to C
+    if not is_map:
         # Unevenly spaced points resolve no wave shorter than twice their largest gap.
-        nyquist = min(modes.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
-    q_min = (LOWEST_MODES if modes.blur else 1) * spacing
+        nyquist = min(nyquist, np.pi / max(heights.largest_gap, heights.dx))
+    lowest, q_min = min(spacings), (LOWEST_MODES if modes.blur else 1) * max(spacings)
     if limits.fit_from is not None:
         q_min = 2 * np.pi / limits.fit_from
-    cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, steps)
-    if isinstance(heights, Topography):
+    cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
+    if is_map:
         fit = fit_rings(narrow, q_min, cutoff.q)
         rings = radial_average(modes, RINGS)
         area = rings.modes(modes) * modes.dqx * modes.dqy
         anisotropy = modes.anisotropy(fit.q_min, fit.q_max)[0]
     else:
-        narrow, fit = isotropic(line, q_min, cutoff.q)
+        narrow, fit = isotropic(fine, q_min, cutoff.q)
         rings = RadialPSD(*merge_rings(narrow, narrow.psd, RINGS))
         area, anisotropy = ring_areas(rings.q, lowest), np.nan
     cutoff = replace(cutoff, q=fit.q_max)

@@ -27,24 +27,23 @@ REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
 
-@dataclass(frozen=True)
-class Stitched:
-    """Several measurements of one surface as one spectrum."""
+@dataclass(frozen=True, kw_only=True)
+class Stitched(MeasuredSpectrum):
+    """Several measurements of one surface as one spectrum; `fit` has the scatter in its errors."""
 
-    spectrum: MeasuredSpectrum  #: errors of its `fit` include the scatter between measurements
     levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
     shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
     scatter: float  #: tau, standard deviation of their ln C; NaN if no two overlap
 
 
-def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
-    """Log-average two or more measurements of one surface into one spectrum.
+def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
+    """Log-average measurements of one surface into one `Stitched` spectrum; a single one stays.
 
     Each counts within the interval of its fit, the one of the lowest wave numbers also below, where
     most of the variance of the heights is.
     """
-    if len(measurements) < 2:
-        raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
+    if len(measurements) == 1:
+        return measurements[0]
     logs, variances, q = _on_common_rings(measurements)
     tau2 = _variance_between(logs, variances)
     shares, rings = _average(q, logs, variances, tau2)
@@ -54,13 +53,19 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
     tau = float(np.sqrt(tau2))
     if tau > 0:
         fit = _add_offsets(fit, logs, variances, tau, q, band)
-    anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
-    q_low = min(m.lowest for m in measurements)
-    area = ring_areas(rings.q, q_low)
-    cutoff = replace(top.cutoff, q=fit.q_max)
-    whole = MeasuredSpectrum(rings, area, rings, fit, cutoff, q_low, anisotropy)
-    levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
-    return Stitched(whole, levels, shares, tau)
+    lowest = min(m.lowest for m in measurements)
+    return Stitched(
+        rings=rings,
+        area=ring_areas(rings.q, lowest),
+        narrow=rings,
+        fit=fit,
+        cutoff=replace(top.cutoff, q=fit.q_max),
+        lowest=lowest,
+        anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
+        levels=np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof)),
+        shares=shares,
+        scatter=tau,
+    )
 
 
 def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
@@ -147,25 +152,18 @@ class Draws:
 
 
 def draw(
-    spectrum: MeasuredSpectrum,
-    count: int,
-    seed: int,
-    *,
-    stitched: Stitched | None = None,
-    extend_to: float | None = None,
+    spectrum: MeasuredSpectrum, count: int, seed: int, *, extend_to: float | None = None
 ) -> Draws:
     """Draw moments of spectra that agree with a measured one.
 
     Parameters
     ----------
     spectrum : MeasuredSpectrum
-        Of one measurement, or the `spectrum` of `stitched`.
+        Of one measurement or several.
     count : int
         Number of draws.
     seed : int
         Of the random numbers; the same seed draws the same moments.
-    stitched : Stitched, optional
-        If the spectrum was stitched: the scatter between measurements varies, too.
     extend_to : float, optional
         Wave number up to which the fit extrapolates the spectrum [1/length]. Default: slope,
         curvature and energy end at the cutoff.
@@ -197,11 +195,11 @@ def draw(
     # mode: the variance of the measured heights is known.
     variance = np.log1p(1 / rings.dof)
     sampling, logs = variance, 0.0
-    if stitched is not None:
-        tau = np.nan_to_num(stitched.scatter)
-        logs = rng.normal(size=(count, len(stitched.shares))) * tau @ stitched.shares
+    if isinstance(spectrum, Stitched):
+        tau, shares = np.nan_to_num(spectrum.scatter), spectrum.shares
+        logs = rng.normal(size=(count, len(shares))) * tau @ shares
         # The errors of the rings already hold the offsets, as if these were independent.
-        sampling = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
+        sampling = np.maximum(variance - tau**2 * np.sum(shares**2, axis=0), 0.0)
     normal = rng.normal(size=(count, len(variance)))
     levels = rings.psd * np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
     # ln C at the cutoff, H and, with a plateau, ln q_rolloff.

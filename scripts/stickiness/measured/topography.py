@@ -46,6 +46,20 @@ class _Heights:
         """Share of the points that were missing."""
         return self.missing / self.heights.size
 
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """Grid steps along every axis [m]."""
+        return (self.dx, self.dy) if self.heights.ndim == 2 else (self.dx,)
+
+    def to_xarray(self) -> xr.DataArray:
+        """Return the heights along `x` (and `y`) with units, so that ``.plot()`` labels itself."""
+        attributes, axes = {"units": "m", "long_name": "height"}, ("x", "y")
+        found = xr.DataArray(self.heights, None, axes[: self.heights.ndim], "height", attributes)
+        for axis, step in zip(axes, self.steps, strict=False):
+            found[axis] = step * np.arange(found.sizes[axis])
+            found[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
+        return found
+
     def h_rms_as_read(self, kind: Detrend = "plane") -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
         return self.h_rms if self.as_read is None else levelling.rms_of_known(self.as_read, kind)
@@ -68,15 +82,6 @@ class Topography(_Heights):
     def size(self) -> tuple[float, float]:
         """Sides along x and y [m]."""
         return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
-
-    def to_xarray(self) -> xr.DataArray:
-        """Return the heights along `x` and `y` with units, so that ``.plot()`` labels itself."""
-        attributes = {"units": "m", "long_name": "height"}
-        found = xr.DataArray(self.heights, None, ("x", "y"), "height", attributes)
-        for axis, step in (("x", self.dx), ("y", self.dy)):
-            found[axis] = step * np.arange(found.sizes[axis])
-            found[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
-        return found
 
 
 @dataclass(frozen=True)
@@ -154,13 +159,12 @@ def read(
     ------
     ValueError
         If the file does not hold one usable array, its size or unit is unknown or of a wrong
-        dimension, or too much is missing. The message names file, variable and remedy.
+        dimension, or too much is missing.
 
     Notes
     -----
     In NetCDF the axis named x (or lon) is x, else the last one. A text matrix may have a header as
-    Gwyddion writes it (Width, Height, Value units). Text in three columns is a list of points
-    x y z on a grid.
+    Gwyddion writes it. Text in three columns is a list of points x y z on a grid.
     """
     path = Path(path)
     if not path.is_file():
