@@ -160,11 +160,9 @@ def make_periodic(heights, way, q_max, pixels, bem):
 
 
 def press_with_adhesion(heights, lengths, pressures, law):
-    """Quantities with adhesion at every pressure, each from the contact without adhesion.
-
-    This leads to the state with the widest gaps, where loading from afar ends. Whether the grid
-    resolves the edges of contact is stored, so no warning says so.
-    """
+    """Quantities with adhesion at every pressure, each from the contact without adhesion."""
+    # This leads to the state with the widest gaps, where loading from afar ends. Whether the grid
+    # resolves the edges of contact is stored, so no warning says so.
     rows = []
     for contact in repulsive.load_path(heights, lengths, pressures, tol=START_TOLERANCE):
         with warnings.catch_warnings():

@@ -23,10 +23,7 @@ def read_levelled(measurement):
 
 
 def find_cutoff(entry, index, heights, finest):
-    """Cutoff [1/m] of one of a surface's measurements, whose levelled heights these are.
-
-    `finest` is the cutoff of the surface: of its finest measurement.
-    """
+    """Cutoff [1/m] of a measurement with these levelled heights; `finest` is the surface's."""
     listed = measurements(entry)
     if len(listed) == 1:
         return finest

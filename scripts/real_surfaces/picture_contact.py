@@ -142,10 +142,7 @@ class PeriodicHeights:
 
 
 def prepare(heights, q_cutoff, points):
-    """`PeriodicHeights` with waves up to the cutoff [1/m], that of the map or that of the grid.
-
-    The grid has at most `points` along the longer side, and fewer where they resolve all waves.
-    """
+    """`PeriodicHeights` on at most `points` along the longer side, fewer if all waves are there."""
     whole = periodic.periodise(heights.heights, PERIODISATION)
     waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
     nyquist = np.pi / max(heights.dx, heights.dy)
@@ -192,18 +189,15 @@ def halve(field):
 
 
 def find_error(fine, coarse):
-    """Error at every load, from a coarser grid.
-
-    The change passes through zero between loads. The neighbouring loads show how large it is there.
-    """
+    """Error at every load, from a coarser grid."""
+    # The change passes through zero between loads; the neighbouring ones show how large it is.
     return fine * maximum_filter1d(abs(coarse / fine - 1), 3, mode="nearest")
 
 
 def separate(rough, band, material, law, squeeze):
     """States of approach, squeeze and separation of `PeriodicHeights`, as a dataset.
 
-    `band` are q0 and q1 [1/m] of the spectrum that is judged, `squeeze` is the mean pressure before
-    separation over E* q0 h_rms. What the grid cannot show, or does not converge, is left out.
+    `band` are q0 and q1 [1/m] of the spectrum that is judged, `squeeze` is over E* q0 h_rms.
     """
     if material.surface is not None:
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")

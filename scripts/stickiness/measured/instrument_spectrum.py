@@ -68,13 +68,10 @@ class MeasuredSpectrum:
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of an instrument, all optional; lengths in the unit of the heights.
-
-    `fit_to` overrides all below it.
-    """
+    """Limits of an instrument, all optional; lengths in the unit of the heights."""
 
     fit_from: float | None = None  #: longest wavelength of the fit interval
-    fit_to: float | None = None  #: shortest one
+    fit_to: float | None = None  #: shortest one; overrides all that follow
     resolution: float | None = None  #: shortest wavelength that the instrument resolves
     tip_radius: float | None = None  #: of a scanning tip
     detect: bool = True  #: look for blur and noise in the spectrum
@@ -140,10 +137,7 @@ def analyse(
 
 
 def ring_areas(q: NDArray, lowest: float) -> NDArray:
-    """Areas in the plane of q of adjoining rings about the wave numbers q (m,).
-
-    Neighbours meet at their geometric mean; the first ring begins half of `lowest` below q[0].
-    """
+    """Areas in the plane of q of rings about q (m,), which meet at geometric means."""
     middle = np.sqrt(q[1:] * q[:-1])
     edges = np.concatenate([[max(q[0] - lowest / 2, 0.0)], middle, [q[-1] ** 2 / middle[-1]]])
     return np.pi * np.diff(edges**2)
@@ -171,10 +165,7 @@ def isotropic(
 
 
 def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
-    """C/C1 [1/length] of a self-affine spectrum with no upper end, and a plateau below `q_rolloff`.
-
-    C1 exists for H > -1/2 in C ~ q^(-2(H+1)).
-    """
+    """C/C1 [1/length] of a self-affine spectrum without upper end, by H > -1/2 and the roll-off."""
     q = np.asarray(q, dtype=float)
     if q_rolloff is None:
         return special.gamma(hurst + 1) / (np.sqrt(np.pi) * special.gamma(hurst + 0.5)) / q

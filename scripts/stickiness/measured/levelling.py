@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 MAX_MISSING = 0.1  #: default largest share of missing points that are filled
-OUTSTANDING = 5.0  #: rms step at a rim over that elsewhere, above which the rim is dropped
+#: Rms step at a rim over that elsewhere, above which the rim is dropped: 0.75 to 3.4 around holes
+#: cut into measured surfaces, and 40 around those of an instrument that wrote outliers there.
+OUTSTANDING = 5.0
 LARGEST_RIM = 5  #: widest rim that "detect" drops [points]
 OUTLYING = 30.0  #: distance of a spike from its neighbours over the distance of `TYPICAL` points
 TYPICAL = 0.99  #: share of the points below that distance; more spikes than the rest are no spikes
@@ -71,22 +73,14 @@ def _polynomials(shape: tuple[int, ...], kind: Detrend) -> tuple[list[NDArray], 
 
 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
-    """Drop the points beside missing ones, where instruments may write values that are far off.
-
-    Returns a copy, NaN where missing or dropped, and how many points were dropped.
-    """
+    """Heights, NaN where missing or beside missing ones, and how many points this drops."""
     hole = ~np.isfinite(heights)
     wide = _widen(hole, outstanding_rim(heights) if rim == "detect" else rim)
     return np.where(wide, np.nan, heights), int(np.count_nonzero(wide & ~hole))
 
 
 def outstanding_rim(heights: NDArray) -> int:
-    """Width of the rim around missing points with much larger steps of height than elsewhere.
-
-    A rim stands out if the rms step from it to the points beyond is more than `OUTSTANDING` times
-    that between neighbours beyond. The ratio is 0.75 to 3.4 around holes cut into measured
-    surfaces, and 40 around the holes of an instrument that wrote outliers there.
-    """
+    """Width of the rim around missing points with much larger steps of height than elsewhere."""
     hole = ~np.isfinite(heights)
     steps = [np.diff(heights, axis=axis) for axis in range(heights.ndim)]
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
@@ -111,11 +105,7 @@ def _widen(hole: NDArray, rim: int) -> NDArray:
 def fill_missing(
     heights: NDArray, max_missing=MAX_MISSING, source="heights", positions=None
 ) -> tuple[NDArray, int]:
-    """Fill points that are not finite from their neighbours; returns a copy, and how many.
-
-    In a map each is the mean of its (up to four) neighbours: there are no new extremes, and a plane
-    stays a plane. In a profile, at increasing `positions`, it is interpolated linearly.
-    """
+    """Fill points that are not finite from their neighbours; returns a copy, and how many."""
     hole = ~np.isfinite(heights)
     missing = int(np.count_nonzero(hole))
     if missing / hole.size > max_missing:
@@ -132,6 +122,7 @@ def fill_missing(
         warnings.simplefilter("ignore")  # of what SurfaceTopography imports
         from SurfaceTopography import Topography  # takes two seconds
 
+    # Each is the mean of its neighbours: there are no new extremes, and a plane stays a plane.
     masked = Topography(np.ma.array(heights, mask=hole), physical_sizes=heights.shape)
     filled = np.array(masked.interpolate_undefined_data().heights())
     return np.where(hole, filled, heights), missing
@@ -160,10 +151,7 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
 
 
 def find_spikes(heights: NDArray) -> NDArray:
-    """Mask of points more than `OUTLYING` times as far off their neighbours as 99 % of points are.
-
-    Points that are not finite are neither spikes nor neighbours.
-    """
+    """Mask of points more than `OUTLYING` times as far off their neighbours as 99 % of points."""
     level = np.where(np.isfinite(heights), heights, np.nan)
     # Slopes are taken out by the medians of the steps.
     for axis, n in enumerate(level.shape):

@@ -66,10 +66,7 @@ class PowerSpectrum(_Modes):
         return float(min(np.abs(self.qx).max(), self.qy.max()))
 
     def anisotropy(self, q_min: float, q_max: float) -> tuple[float, float]:
-        """Return A (0 to 2) and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two q.
-
-        phi0 in (-pi/2, pi/2] is the direction of the wave vectors with the largest C.
-        """
+        """Return A (0 to 2) and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two q."""
         number("q_min", q_min)
         q = self.q
         inside = (q >= q_min) & (q <= q_max)
@@ -122,25 +119,21 @@ class RadialPSD:
 def power_spectrum(
     heights: ArrayLike, dx: float, dy: float | None = None, taper: Taper = "none"
 ) -> PowerSpectrum:
-    """Two-dimensional power spectral density of heights (nx, ny), levelled if they are measured.
-
-    "hann" is the product of a Hann taper along each axis; "hann_radial" is one of the distance
-    from the centre, zero beyond the largest inscribed circle: isotropic, but it uses less of the
-    data. Both are centred on the middle of the area (SurfaceTopography's on pixel n//2), so that
-    a mirrored map has the same rings.
-    """
+    """Two-dimensional power spectral density of heights (nx, ny), levelled if they are measured."""
     heights = grid("heights", heights)
     if min(heights.shape) < 4:
         raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
     dx, dy = number("dx", dx), number("dy", dx if dy is None else dy)
     nx, ny = heights.shape
-    x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in heights.shape)  # in units of the sides
+    # In units of the sides, from the middle of the area (SurfaceTopography's tapers: from pixel
+    # n//2), so that a mirrored map has the same rings.
+    x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in heights.shape)
     if taper == "none":
         w = np.ones((1, 1))
     elif taper == "hann":
         w = np.cos(np.pi * x[:, None]) ** 2 * np.cos(np.pi * y) ** 2
     elif taper == "hann_radial":
-        sides = nx * dx, ny * dy
+        sides = nx * dx, ny * dy  # isotropic, but it uses less of the data
         r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
         w = np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0)
     else:
@@ -159,10 +152,7 @@ def power_spectrum(
 
 
 def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> ProfileSpectrum:
-    """One-dimensional power spectral density of levelled heights (n,) along a line.
-
-    Along a line both Hann tapers are the same.
-    """
+    """One-dimensional power spectral density of levelled heights (n,) along a line."""
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 1 or len(heights) < 16 or not np.all(np.isfinite(heights)):
         raise ValueError(
@@ -199,11 +189,7 @@ def _transform(heights: NDArray, w: NDArray, cell: float) -> dict:
 def radial_average(
     spectrum: PowerSpectrum | ProfileSpectrum, bins_per_decade: float = 10
 ) -> RadialPSD:
-    """Average a spectrum over logarithmic rings of ``|q|``; of a profile, C1 over intervals.
-
-    The average over a ring exceeds C at its mean q by about s^2 (ln 10/bins_per_decade)^2/24 for
-    C ~ q^-s: 3 % at 10 a decade and s = 3.6.
-    """
+    """Average a spectrum over logarithmic rings of ``|q|``; of a profile, C1 over intervals."""
     bins_per_decade = number("bins_per_decade", bins_per_decade)
     q = spectrum.q
     waves = q > 0
@@ -212,6 +198,8 @@ def radial_average(
     # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
     # rounding would decide.
     ring = np.floor(np.log10(q / q.min()) * bins_per_decade + 0.5).astype(int)
+    # The average exceeds C at the mean q by about s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s:
+    # 3 % at 10 a decade and s = 3.6.
     q, mean, modes = _average_by_ring(ring, weight, q, psd)
     return RadialPSD(q, mean, modes / 2 * spectrum.independence)
 

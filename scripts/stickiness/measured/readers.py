@@ -105,10 +105,7 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
-    """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument".
-
-    `fmt` says it outright: one of these four, or SurfaceTopography's name of a format ("di").
-    """
+    """Return which reader a file needs, "netcdf", "numpy", "text" or "instrument", if not `fmt`."""
     if fmt is not None:
         return fmt if fmt in _FORMATS else INSTRUMENT
     suffix = Path(path).suffix.lower()
@@ -198,9 +195,8 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
         raise ValueError(f"{path}: not a readable numpy file ({reason})") from error
     if isinstance(loaded, np.ndarray):
         if loaded.ndim not in (1, 2):
-            raise ValueError(
-                f"{path}: needs a two-dimensional array or a profile, got shape {loaded.shape}"
-            )
+            found = f"got shape {loaded.shape}"
+            raise ValueError(f"{path}: needs a two-dimensional array or a profile, {found}")
         return Raw(np.array(loaded.T, dtype=float), str(path))
     with loaded:
         arrays = dict(loaded)

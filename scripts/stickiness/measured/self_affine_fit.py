@@ -66,13 +66,10 @@ class SelfAffineFit:
         return self.c0 * np.maximum(q, self.q_rolloff or 0.0) ** (-2 * (self.hurst + 1))
 
     def c0_at_hurst(self, hurst: float) -> tuple[float, float, float]:
-        """C0 at an imposed exponent, its standard error, and the largest C q^(2(H+1)) of all rings.
-
-        Least squares of ln C over rings of equal weight above `q_rolloff`, less the bias of the
-        logarithm; the error is from the scatter about the line.
-        """
+        """C0 at an imposed exponent, its standard error, and the largest C q^(2(H+1)) of a ring."""
         level = self.rings.psd * self.rings.q ** (2 * (hurst + 1))
         q, mean, dof = merge_rings(self.rings, level, COARSE)
+        # Least squares above `q_rolloff`, less the bias of the logarithm.
         logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[q >= (self.q_rolloff or 0.0)]
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
         c0 = float(np.exp(logs.mean()))

@@ -142,9 +142,7 @@ class Draws:
     #: (n,) each: `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy`
     #: [length], the last of full contact per area over E*
     moments: dict[str, NDArray]
-    #: (n,), lowest wave number of the self-affine range [1/length]: the end of the plateau if
-    #: one was found, else the lowest of the scan, without error
-    q0: NDArray
+    q0: NDArray  #: (n,), end of the plateau [1/length]; if there is none, lowest of the scan
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -160,10 +158,8 @@ def draw(
     ----------
     spectrum : MeasuredSpectrum
         Of one measurement or several.
-    count : int
-        Number of draws.
-    seed : int
-        Of the random numbers; the same seed draws the same moments.
+    count, seed : int
+        Number of draws, and seed of the random numbers.
     extend_to : float, optional
         Wave number up to which the fit extrapolates the spectrum [1/length]. Default: slope,
         curvature and energy end at the cutoff.

@@ -51,11 +51,16 @@ class _Heights:
         """Grid steps along every axis [m]."""
         return (self.dx, self.dy) if self.heights.ndim == 2 else (self.dx,)
 
+    @property
+    def size(self) -> tuple[float, ...]:
+        """Sides along every axis [m]."""
+        return tuple(n * step for n, step in zip(self.heights.shape, self.steps, strict=True))
+
     def to_xarray(self) -> xr.DataArray:
         """Return the heights along `x` (and `y`) with units, so that ``.plot()`` labels itself."""
         attributes, axes = {"units": "m", "long_name": "height"}, ("x", "y")
         found = xr.DataArray(self.heights, None, axes[: self.heights.ndim], "height", attributes)
-        for axis, step in zip(axes, self.steps, strict=False):
+        for axis, step in zip(found.dims, self.steps, strict=True):
             found[axis] = step * np.arange(found.sizes[axis])
             found[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
         return found
@@ -78,11 +83,6 @@ class Topography(_Heights):
     dy: float
     source: str  #: file (and variable or channel) of the heights, for messages
 
-    @property
-    def size(self) -> tuple[float, float]:
-        """Sides along x and y [m]."""
-        return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
-
 
 @dataclass(frozen=True)
 class Profile(_Heights):
@@ -92,11 +92,6 @@ class Profile(_Heights):
     dx: float  #: step [m]
     source: str  #: file (and variable or channel) of the heights, for messages
     largest_gap: float = 0.0  #: between neighbours as measured [m]; above `dx` if uneven
-
-    @property
-    def length(self) -> float:
-        """Length of the line [m]."""
-        return len(self.heights) * self.dx
 
 
 def read(
