@@ -170,13 +170,11 @@ def press_with_adhesion(heights, lengths, pressures, law):
             load = {"pressure": contact.mean_pressure, "start": contact}
             state = adhesive.solve(heights, lengths, law, **load, **PRECISION)
         attracted = (state.gap > 0) & (state.gap <= state.law.range)
-        row = {
-            "adhesive_contact_area": state.repulsive_area_fraction,
-            "adhesive_attractive_area": np.mean(attracted),
-            "adhesive_mean_gap": state.mean_gap,
-            "adhesive_residual": state.residual,
-        }
-        rows.append(xr.Dataset(row))
+        row = xr.Dataset({"adhesive_contact_area": state.repulsive_area_fraction})
+        row["adhesive_attractive_area"] = np.mean(attracted)
+        row["adhesive_mean_gap"] = state.mean_gap
+        row["adhesive_residual"] = state.residual
+        rows.append(row)
         logging.info(
             f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "
             f"{state.repulsive_area_fraction:.4f}, {state.iterations} iterations"

@@ -43,7 +43,6 @@ PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
 PULL_OFF_TOLERANCE = 1e-3
-SIMULATED = {"left_out": "", "measurement": ""}  # attributes of a dataset that is not empty
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
 CONTACT_TEXTS = {
@@ -91,22 +90,21 @@ class LeftOutError(Exception):
 
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
-    asked, material, params = job.params.surface, read_material(job.params.entry), job.params
-    contact = None
+    asked, entry, params, contact = job.params.surface, job.params.entry, job.params, None
+    band = float(surface.q0), float(surface.q1)
     try:
         heights, q_cutoff = find_heights(surface, asked)
-        source = heights.source if len(measurements(asked)) > 1 else ""
-        contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), float(surface.q0), q_cutoff)
-        contact.attrs["measurement"] = source
-        rough, band = prepare(heights, q_cutoff, PULL_OFF_POINTS), (surface.q0, surface.q1)
-        pull_off = separate(rough, map(float, band), material, params.law, params.squeeze)
-        pull_off.attrs["measurement"] = source
+        contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), band[0], q_cutoff)
+        if len(measurements(asked)) > 1:
+            contact.attrs["measurement"] = heights.source
+        rough, material = prepare(heights, q_cutoff, PULL_OFF_POINTS), read_material(entry)
+        pull_off = separate(rough, band, material, params.law, params.squeeze)
     except LeftOutError as reason:
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
-    name, entry = job.wildcards.real_surface, params.entry
-    title, made = f"where the heights touch: {asked['label']}", {"surface": name, **asked}
+    name, title = job.wildcards.real_surface, f"where the heights touch: {asked['label']}"
+    made = {"surface": name, **asked}
     datasets.write(contact, job.output.contact, title=title, parameters=made)
     made = {"surface": name, "material": params.material, **entry, "source": asked["source"]}
     title = f"pull-off of {entry['label']} from {asked['label']}"
@@ -180,7 +178,7 @@ def press(rough, q0, q_cutoff):
     data = data.assign_coords(pressure=loads / (q0 * h_rms), **rough.centres(2))
     for name in ("contact", "gap"):
         data[name].encoding = {"zlib": True}
-    return datasets.annotate(data.assign_attrs(SIMULATED), **CONTACT_TEXTS)
+    return datasets.annotate(data.assign_attrs(left_out="", measurement=""), **CONTACT_TEXTS)
 
 
 def halve(field):
@@ -245,7 +243,7 @@ def separate(rough, band, material, law, squeeze):
             "squeeze_pressure": squeeze * material.modulus,
         },
         coords=rough.centres(),
-        attrs=SIMULATED,
+        attrs={"left_out": ""},
     )
     dataset = datasets.annotate(dataset, **PULL_OFF_TEXTS)
     for name, text in QUOTED.items():

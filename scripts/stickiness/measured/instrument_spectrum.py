@@ -165,7 +165,7 @@ def isotropic(
 
 
 def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
-    """C/C1 [1/length] of a self-affine spectrum without upper end, by H > -1/2 and the roll-off."""
+    """C/C1 [1/length] of a self-affine spectrum without an upper end; H is above -1/2."""
     q = np.asarray(q, dtype=float)
     if q_rolloff is None:
         return special.gamma(hurst + 1) / (np.sqrt(np.pi) * special.gamma(hurst + 0.5)) / q

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from stickiness.units import si
 
@@ -78,7 +78,7 @@ class Raw:
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
     unit: str | None = None  #: of the heights
-    places: ArrayLike | None = None  #: steps of a map, or positions on a line (n,)
+    places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
 
 
@@ -105,7 +105,7 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
-    """Return which reader a file needs, "netcdf", "numpy", "text" or "instrument", if not `fmt`."""
+    """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument"."""
     if fmt is not None:
         return fmt if fmt in _FORMATS else INSTRUMENT
     suffix = Path(path).suffix.lower()
@@ -152,7 +152,7 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
             places, unit = along[0].values.astype(float), along[0].units
         else:
             steps = [_find_step(coordinate, path) for coordinate in along]
-            places, unit = (None, None) if None in steps else (steps, "m")
+            places, unit = (None, None) if None in steps else (np.array(steps), "m")
     return Raw(np.array(data.values), f"{path}: {name}", data.attrs.get("units"), places, unit)
 
 
@@ -304,7 +304,7 @@ def _read_rows(path: Path, rows: list[tuple[int, str]]) -> NDArray:
     return matrix
 
 
-def _map_points(path: Path, points: NDArray) -> tuple[NDArray, tuple[float, float]]:
+def _map_points(path: Path, points: NDArray) -> tuple[NDArray, NDArray]:
     """Heights (nx, ny) of points (3, n) in any order, NaN where there is none, and grid steps."""
     points = points[:, np.isfinite(points[:2]).all(axis=0)]
     (i, dx), (j, dy) = (_index(path, points[axis], "xy"[axis]) for axis in (0, 1))
@@ -317,7 +317,7 @@ def _map_points(path: Path, points: NDArray) -> tuple[NDArray, tuple[float, floa
     if len(np.unique(i * heights.shape[1] + j)) < points.shape[1]:
         raise ValueError(f"{path}: as x y z it has two points at one place; remove one")
     heights[i, j] = points[2]
-    return heights, (dx, dy)
+    return heights, np.array([dx, dy])
 
 
 def _index(path: Path, positions: NDArray, name: str) -> tuple[NDArray, float]:
@@ -378,10 +378,9 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
 def holds_heights(channel) -> bool:
     """Whether a channel of SurfaceTopography's holds heights."""
     name = str(channel.name).rsplit("/", 1)[-1]
-    if _NO_HEIGHTS.search(name) and not _HEIGHTS.search(name):
-        return False
+    other = _NO_HEIGHTS.search(name) and not _HEIGHTS.search(name)
     # A pair stands for (lateral, data) where these differ in kind: no heights.
-    return channel.is_height_channel and not isinstance(channel.unit, tuple)
+    return channel.is_height_channel and not other and not isinstance(channel.unit, tuple)
 
 
 def _call(path: Path, call: Callable):

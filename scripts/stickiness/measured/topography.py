@@ -219,30 +219,23 @@ def read(
     }
     if x is not None:
         return Profile(filled, *steps, source, float(gaps.max()), **known)
-    return Topography(filled, *steps, source, **known)
+    return Topography(filled, *map(float, steps), source, **known)
 
 
-def _places(raw: Raw, length, pixel_size, position_unit) -> tuple[float, ...] | NDArray:
+def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
-    counts = None
-    if length is not None:
-        size, counts = sides(length, shape, f"{raw.source}: length"), shape
-    if pixel_size is not None:
-        counts = (1,) * len(shape)
-        size = sides(pixel_size, counts, f"{raw.source}: pixel_size")
-    if counts:
-        if is_profile:
-            return np.arange(shape[0]) * size[0] / counts[0]
-        return tuple(side / n for side, n in zip(size, counts, strict=True))
+    if length is not None or pixel_size is not None:
+        counts = (1,) * len(shape) if length is None else shape
+        name, given = ("pixel_size", pixel_size) if length is None else ("length", length)
+        size = sides(given, counts, f"{raw.source}: {name}")
+        return np.arange(shape[0]) * size[0] / counts[0] if is_profile else np.divide(size, counts)
     if raw.places is None:
         what = "the profile's length" if is_profile else "its size"
         raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
     if not np.all(np.isfinite(raw.places)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
-    scale = _scale(raw.source, "position_unit", position_unit, raw.place_unit)
-    places = np.asarray(raw.places) * scale
-    return places if is_profile else tuple(places.tolist())
+    return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
 
 
 def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:
