@@ -9,6 +9,7 @@ import logging
 import numpy as np
 import xarray as xr
 
+from common import conventions
 from common.config.entries import measurements
 from common.formatting import amount, percent
 from common.job import start
@@ -280,8 +281,7 @@ def annotate(dataset, **errors):
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
-    present = {name: text for name, text in texts.items() if name in dataset.variables}
-    dataset = datasets.annotate(dataset, **present)
+    dataset = conventions.annotate(dataset, **texts)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
     if not errors:
         given = dict.fromkeys(SOURCES, not_applicable("given in the configuration"))

@@ -193,10 +193,7 @@ def find_error(fine, coarse):
 
 
 def separate(rough, band, material, law, squeeze):
-    """States of approach, squeeze and separation of `PeriodicHeights`, as a dataset.
-
-    `band` are q0 and q1 [1/m] of the spectrum that is judged, `squeeze` is over E* q0 h_rms.
-    """
+    """States of approach, squeeze and separation of `PeriodicHeights`; `band` is q0 and q1."""
     if material.surface is not None:
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")
     q0, q1 = band

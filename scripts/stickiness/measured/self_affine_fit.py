@@ -79,11 +79,7 @@ class SelfAffineFit:
 def fit_rings(
     rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum between two wave numbers, with or without a plateau at low q.
-
-    The rings, in ascending order, are so narrow that their mean C is C at `rings.q` (`FINE` a
-    decade). By default a plateau is fitted if it gains more than 10 in Akaike's criterion.
-    """
+    """Fit a self-affine spectrum to narrow rings between two q; `rolloff` None: AIC decides."""
     if not 0 < q_min < q_max:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {q_min:.6g}, q_max = {q_max:.6g}")
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.

@@ -19,7 +19,7 @@ from scipy import special
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
 from stickiness.measured.psd import RadialPSD
-from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
+from stickiness.measured.self_affine_fit import fit_rings
 from stickiness.spectrum.kinds import PowerLawSegments
 
 RINGS = 20  #: per decade
@@ -37,11 +37,7 @@ class Stitched(MeasuredSpectrum):
 
 
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
-    """Log-average measurements of one surface into one `Stitched` spectrum; a single one stays.
-
-    Each counts within the interval of its fit, the one of the lowest wave numbers also below, where
-    most of the variance of the heights is.
-    """
+    """Log-average measurements of one surface into one `Stitched` spectrum; a single one stays."""
     if len(measurements) == 1:
         return measurements[0]
     logs, variances, q = _on_common_rings(measurements)
@@ -50,15 +46,21 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
     top = max(measurements, key=lambda m: m.cutoff.q)
     band = min(m.fit.q_min for m in measurements), top.cutoff.q
     fit = fit_rings(rings, *band)
-    tau = float(np.sqrt(tau2))
-    if tau > 0:
-        fit = _add_offsets(fit, logs, variances, tau, q, band)
+    tau, bent = float(np.sqrt(tau2)), fit.q_rolloff is not None
+    covariance = fit.log_covariance.copy()
+    # Offsets tilt the spectrum: add what raising each measurement by tau changes.
+    for offsets in tau * np.eye(len(logs)) if tau > 0 else ():
+        _, raised = _average(q, logs + offsets[:, None], variances, tau**2)
+        other = fit_rings(raised, *band, rolloff=bent)
+        change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
+        change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
+        covariance += np.outer(change, change)
     lowest = min(m.lowest for m in measurements)
     return Stitched(
         rings=rings,
         area=ring_areas(rings.q, lowest),
         narrow=rings,
-        fit=fit,
+        fit=replace(fit, log_covariance=covariance),
         cutoff=replace(top.cutoff, q=fit.q_max),
         lowest=lowest,
         anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
@@ -77,6 +79,7 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
     logs = np.full((len(measurements), count), np.nan)
     variances = np.full_like(logs, np.nan)
     for k, measurement in enumerate(measurements):
+        # The broadest counts below the interval of its fit, too: most of the variance is there.
         low = measurement.lowest if measurement is broadest else measurement.fit.q_min
         slack = 1 + 1e-9
         rings = measurement.narrow.between(low / slack, measurement.cutoff.q * slack)
@@ -119,20 +122,6 @@ def _variance_between(logs: NDArray, variances: NDArray) -> float:
             offset = np.nansum(weight * (logs[j] - logs[k])) / total
             squares.append(max(offset**2, 1 / total))  # at least its sampling error
     return float(np.mean(squares)) / 2 if squares else np.nan
-
-
-def _add_offsets(fit, logs, variances, tau, q, band) -> SelfAffineFit:
-    """Add to the covariance what raising each measurement by tau changes: offsets tilt spectra."""
-    covariance = fit.log_covariance.copy()
-    bent = fit.q_rolloff is not None
-    for k in range(len(logs)):
-        raised = logs.copy()
-        raised[k] += tau
-        other = fit_rings(_average(q, raised, variances, tau**2)[-1], *band, rolloff=bent)
-        change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
-        change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
-        covariance += np.outer(change, change)
-    return replace(fit, log_covariance=covariance)
 
 
 @dataclass(frozen=True)
