@@ -112,8 +112,8 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     material = read_material(bem["adhesion"]) if "adhesion" in bem else None
     pressures = np.sort(bem["pressures"])
     if has_units(bem["pressures"]):
-        moduli = [si(pressure, "Pa") / material.modulus for pressure in bem["pressures"]]
-        pressures = np.sort(moduli) / (q0 * h_rms)
+        over_modulus = [si(pressure, "Pa") / material.modulus for pressure in bem["pressures"]]
+        pressures = np.sort(over_modulus) / (q0 * h_rms)
     block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)[SOLVED_VARIABLES]
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=gamma)
     areas = [theory.gap_cumulative(ranges, p) for p in pressures]

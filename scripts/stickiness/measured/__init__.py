@@ -6,7 +6,7 @@
 
 from importlib import import_module
 
-# Loaded when they are first used: checks of the configuration need two light modules alone.
+# Loaded when they are first used: checks of the configuration need one light module alone.
 _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "jacksboro", "read"), "topography"),
     **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
@@ -21,3 +21,7 @@ def __getattr__(name: str):
     if name not in _PLACES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(f"{__name__}.{_PLACES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -92,7 +92,7 @@ def analyse(
     heights : Topography or Profile
         Levelled heights, in any one unit of length.
     taper : {"none", "hann", "hann_radial"}
-        "none" is for periodic heights only.
+        Hann's along both axes, or of the distance from the centre; none for periodic heights only.
     limits : Limits, optional
         Default: the cutoff is detected, and at most half the Nyquist wave number.
 
