@@ -92,7 +92,7 @@ def analyse(
     heights : Topography or Profile
         Levelled heights, in any one unit of length.
     taper : {"none", "hann", "hann_radial"}
-        Hann's along both axes, or of the distance from the centre; none for periodic heights only.
+        "hann" fades along both axes, "hann_radial" from the centre; "none" if they are periodic.
     limits : Limits, optional
         Default: the cutoff is detected, and at most half the Nyquist wave number.
 
