@@ -79,7 +79,7 @@ class SelfAffineFit:
 def fit_rings(
     rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` does not."""
+    """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` is None."""
     if not 0 < q_min < q_max:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {q_min:.6g}, q_max = {q_max:.6g}")
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
