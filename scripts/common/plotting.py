@@ -56,7 +56,6 @@ mpl.rc("xtick", direction="in", top=True, labelsize=8)
 mpl.rc("ytick", direction="in", right=True, labelsize=8)
 mpl.rc("legend", fontsize=8, title_fontsize=8, frameon=False, handlelength=1.7)
 mpl.rc("legend", labelspacing=0.3, columnspacing=1.0, borderaxespad=0.4)
-mpl.rc("figure.constrained_layout", use=True)
 mpl.rc("savefig", dpi=200)
 mpl.rc("pdf", fonttype=42)  # text stays text
 
@@ -72,7 +71,8 @@ def open_figure(outputs, rows, height, **grid):
 
     Panels named by a letter show it. Files are whole or not there, and free of the time of writing.
     """
-    figure, panels = plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
+    look = {"figsize": (WIDTH, height), "layout": "constrained"} | grid
+    figure, panels = plt.subplot_mosaic(rows, **look)
     yield panels
     for name, ax in panels.items():
         if name in string.ascii_uppercase:
