@@ -67,7 +67,7 @@ class Problem:
 def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
     """Return the relative errors by discretisation, solver and sampling, each covering 90 %.
 
-    The numbers of seeds in the settings may be arrays that broadcast.
+    Here and below the numbers of seeds in the settings may be arrays that broadcast.
     """
     models, at = problem.models, (column, problem.surface, pressure)
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
@@ -87,8 +87,8 @@ def predicted_error(problem: Problem, settings: Settings, pressure: float, colum
     with n fine seeds, N coarse ones, M whose long waves alone are looked at, and z = 1.645; for
     plain means the inner bracket is 1/n.
     """
-    parts = error_parts(problem, settings, pressure, column)
-    return np.sqrt(sum(part**2 for part in parts.values()))
+    parts = error_parts(problem, settings, pressure, column).values()
+    return np.sqrt(sum(part**2 for part in parts))
 
 
 def worst_error(problem: Problem, settings: Settings) -> tuple[float, str, float]:
@@ -119,7 +119,7 @@ def joint_error(errors: ArrayLike) -> NDArray:
 
 
 def mean_variance(problem: Problem, settings: Settings, pressure: float, column: str) -> NDArray:
-    """Return the relative variance of a mean; the numbers of seeds may be arrays that broadcast."""
+    """Return the relative variance of a mean."""
     multilevel = sum(part for part, _ in _levels(problem, settings, pressure, column))
     plain = 1 / np.asarray(settings.seeds)
     surface, pressure, factor = nearest_measured(problem.surface, pressure)
@@ -157,8 +157,7 @@ def _levels(problem, settings, pressure, column):
 def predicted_cost(problem: Problem, settings: Settings) -> NDArray:
     """Return the cost of a case in pairs of Fourier transforms of 1024 x 1024 doubles.
 
-    With the coarser grids on which every realisation is solved too. The numbers of seeds may be
-    arrays that broadcast.
+    With the coarser grids on which every realisation is solved too.
     """
     models, surface = problem.models, problem.surface
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance / FULL
@@ -172,16 +171,13 @@ def predicted_cost(problem: Problem, settings: Settings) -> NDArray:
 
 
 def cheapest(
-    problem: Problem, accuracy: float, *, plain: bool | None = None, least: Settings = LEAST
+    problem: Problem, accuracy: float, *, plain: bool = False, least: Settings = LEAST
 ) -> Settings:
     """Return the cheapest settings predicted to reach an accuracy in all columns at all loads.
 
-    Among settings whose cost is within 5 % of the lowest, the most accurate.
-
-    The accuracy is the relative error that is to cover 90 %. `plain` is true for plain means only,
-    false for multilevel ones only; by default whichever is cheaper. `least` has the fewest pixels
-    and seeds, coarse ones too, and the largest tolerance that are allowed. An UnreachableError says
-    what could be reached, for which quantity and at which pressure.
+    Among settings whose cost is within 5 % of the lowest, the most accurate. `plain` leaves out
+    coarse seeds. `least` has the fewest pixels and seeds, and the largest tolerance that are
+    allowed. An UnreachableError says what could be reached.
     """
     waves = problem.surface.magnification * problem.surface.window
     coarsest = least.pixels_per_wavelength
@@ -193,9 +189,8 @@ def cheapest(
             "magnification or window"
         )
     tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
-    kinds = {None: COARSE_SEEDS, True: COARSE_SEEDS[:1], False: COARSE_SEEDS[1:]}[plain]
     seeds = [n for n in SEEDS if n >= least.seeds]
-    coarse = [n for n in kinds if n >= least.coarse_seeds]
+    coarse = [0] if plain else [n for n in COARSE_SEEDS if n >= least.coarse_seeds]
     found = []
     for pixels, tolerance in itertools.product(grids, tolerances):
         grid = Settings(pixels, tolerance, np.array(seeds)[:, None], np.array(coarse))
@@ -217,10 +212,10 @@ def cheapest(
 
 
 def allow_for_few_seeds(problem: Problem, chosen: Settings, accuracy: float) -> Settings:
-    """Return the settings with as many more fine seeds as Student's t requires.
+    """Return the settings with as many more fine seeds as Student's t requires, if any number does.
 
     `cheapest` uses the true scatter. An answer knows only the standard error of its few seeds, so
-    that the error it states is larger. If no number in `SEEDS` is enough, the last one is taken.
+    that the error it states is larger.
     """
     parts = [error_parts(problem, chosen, *at) for at in problem.points]
     fixed = [math.hypot(one["discretisation"], one["solver"]) for one in parts]
