@@ -86,8 +86,6 @@ rule tabulate_tradeoff:
         laws=f"{TRADEOFF}/accuracy.csv",
         summary=f"{TRADEOFF}/tradeoff.csv",
         table=f"{TRADEOFF}/tradeoff.md",
-        presets=f"{TRADEOFF}/presets.md",
-        validation=f"{TRADEOFF}/validation.md",
     log:
         f"{TRADEOFF}/logs/tabulate_tradeoff/tradeoff.log",
     benchmark:
