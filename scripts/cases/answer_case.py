@@ -7,7 +7,7 @@ import xarray as xr
 
 from common import conventions
 from common.conventions import VARIANT
-from common.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
+from common.error_budgets import BY_THEORY, NOT_MEASURED, SIMULATED, Simulation, theory_parts
 from common.job import start
 from common.quantities import derive, quote, statistics
 from stickiness import datasets
@@ -17,12 +17,10 @@ from stickiness.accuracy.error_models import (
     extrapolated,
     grid_error,
     read_models,
-    single_error,
 )
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
-from stickiness.accuracy.settings import Problem, covering_factor, joint_error, seeds_enough
-from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, part, with_budget
-from stickiness.statistics import students_t
+from stickiness.accuracy.settings import Problem, joint_error, seeds_enough
+from stickiness.error_budget import ErrorComponent, not_applicable, part, with_budget
 
 DIMS = ("column", "pressure")
 BY_SIMULATION = {
@@ -57,18 +55,26 @@ def main(job):
         for name in ("a_v", "kappa"):
             if job.input.get(name):
                 files[name] = datasets.read(job.input[name], [f"{name}_standard_error"])
-        found = [simulate(problem, settings, column, files) for column in columns]
-        texts = dict(BY_SIMULATION)
+        made = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
+        simulation = Simulation(models, made)
+        found, texts = [simulate(simulation, name, files) for name in columns], dict(BY_SIMULATION)
+        if lacking := [column for column in columns if not has_error_model(column)]:
+            texts["solver"] += f"; of {', '.join(lacking)} not known: {NOT_MEASURED}"
     else:
         state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
         state = derive(state.sel(variant=VARIANT), job.params.fit_interval)
-        found, texts = [by_theory(problem, column, state) for column in columns], dict(THEORY_ALONE)
-    if lacking := [column for column in columns if not has_error_model(column)]:
-        texts["solver"] += f"; of {', '.join(lacking)} not known: {NOT_MEASURED}"
+        values, texts = [quote(column, state) for column in columns], THEORY_ALONE
+        found = [
+            (value, theory_parts(models, column, value, plan["surface"], "gap_density"))
+            for column, value in zip(columns, values, strict=True)
+        ]
 
     outside = np.array([extrapolated(surface, load, **knobs) for load in loads], np.int8)
     dataset = xr.Dataset(
-        {"value": (DIMS, [value for value, _ in found]), "extrapolated": ("pressure", outside)},
+        {
+            "value": (DIMS, [value.values for value, _ in found]),
+            "extrapolated": ("pressure", outside),
+        },
         coords={"column": columns, "pressure": loads},
     )
     dataset = conventions.annotate(
@@ -77,13 +83,11 @@ def main(job):
         value="value of the column at a load",
         extrapolated=OUTSIDE,
     )
-    parts = {}
-    for source in (one for one in SOURCES if one in texts):
-        errors = [np.abs(by_source.get(source, np.zeros(len(loads)))) for _, by_source in found]
-        parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), texts[source])
-    dataset = with_budget(
-        dataset, "value", bandwidth=not_applicable("the case's own spectrum"), **parts
-    )
+    parts = {"bandwidth": not_applicable("the case's own spectrum")}
+    for source, text in texts.items():
+        errors = [np.broadcast_to(by_source[source].error, len(loads)) for _, by_source in found]
+        parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), text)
+    dataset = with_budget(dataset, "value", **parts)
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
         dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
@@ -91,32 +95,22 @@ def main(job):
     datasets.write(dataset, job.output[0], title=title, parameters={**plan, "case": case})
 
 
-def simulate(problem, settings, column, files):
-    """Return the values of a column at every load, and its errors by source, covering 90 %."""
-    mean, standard_error, left = (part.values for part in statistics(column, **files))
-    if not has_error_model(column):
-        return mean, {
-            "discretisation": left,
-            "solver": np.full_like(mean, np.nan),
-            "sampling": students_t(settings.seeds) * standard_error,
-        }
-    models, surface, size = problem.models, problem.surface, np.abs(mean)
-    pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
-    grid, solver, factor = [], [], []
-    for load, found in zip(problem.pressures, np.abs(left) / size, strict=True):
-        grid.append(grid_error(models, column, surface, load, pixels, found))
-        solver.append(single_error(models, "solver", column, surface, load, tolerance=tolerance))
-        factor.append(covering_factor(problem, settings, load, column))
-    sampling = factor * standard_error
-    return mean, {"discretisation": size * grid, "solver": size * solver, "sampling": sampling}
-
-
-def by_theory(problem, column, state):
-    """Return the same by Persson's theory on the lattice spectrum."""
-    values = quote(column, state).values
-    at = problem.models, "theory", column, problem.surface
-    model = [single_error(*at, load) for load in problem.pressures]
-    return values, {"discretisation": QUADRATURE["gap_density"] * values, "model": values * model}
+def simulate(simulation, column, files):
+    """Return the values of a column at every load, and their errors by source."""
+    mean, standard_error, left = statistics(column, **files)
+    parts = simulation.parts(column, mean, standard_error, left)
+    if has_error_model(column):
+        problem, size = simulation.problem, abs(mean)
+        at, pixels = (
+            (problem.models, column, problem.surface),
+            simulation.settings.pixels_per_wavelength,
+        )
+        error = [
+            grid_error(*at, load, pixels, found)
+            for load, found in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
+        ]
+        parts["discretisation"] = ErrorComponent(size * error, "")
+    return mean, parts
 
 
 def describe_miss(dataset, problem, settings, plan, case):
