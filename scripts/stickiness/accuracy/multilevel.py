@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy import fft
 
 from stickiness.arguments import integer
@@ -40,23 +40,17 @@ class Estimate:
     coefficient: NDArray
 
 
-def plain_mean(values: ArrayLike) -> Estimate:
-    """Mean over axis 0 of at least two finite samples and its standard error, without controls."""
-    values = _check_samples("values", values, 2)
-    return Estimate(values.mean(0), _error(values), np.zeros(values.shape[1:]))
-
-
-def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike) -> Estimate:
+def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> Estimate:
     """Mean of expensive samples (N, ...), corrected by controls that are known for many more.
 
     `controls` (N, k) are of the same seeds, and serve every trailing entry of `values`; one without
     scatter is left out. `elsewhere` (M, k) are controls of other seeds. The standard error is that
     of the residuals, each against coefficients fitted without it, and that of the controls' mean.
     """
-    controls = _check_samples("controls", controls, 2)
-    elsewhere = _check_samples("elsewhere", elsewhere, 2)
+    fewest = 4 * (controls.shape[1] + 1)
     # With fewer the coefficients scatter so much that the standard error comes out too small.
-    values = _check_samples("values", values, 4 * (controls.shape[-1] + 1))
+    if len(values) < fewest:
+        raise ValueError(f"values must hold at least {fewest} samples, got {len(values)}")
     flat = values.reshape(len(values), -1)
     corrected, coefficient = _regress(flat, controls, elsewhere.mean(0))
     variance = _error(corrected) ** 2 + _error(elsewhere @ coefficient) ** 2
@@ -68,20 +62,20 @@ def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike
 
 
 def multilevel_mean(
-    fine: ArrayLike,
-    coarse: ArrayLike,
-    many: ArrayLike,
-    controls: ArrayLike | None = None,
-    elsewhere: ArrayLike | None = None,
+    fine: NDArray,
+    coarse: NDArray,
+    many: NDArray,
+    controls: NDArray,
+    elsewhere: NDArray,
     fewest: int = _FEWEST,
 ) -> Estimate:
     """Mean of a few fine solutions (n, ...), corrected by many coarse ones.
 
     `coarse` (n, ...) are the same quantities of the same seeds on the coarse grid, `many` (N, ...)
     those of other seeds. `controls` (N, k) and `elsewhere` (M, k) are descriptors of the seeds of
-    `many`, and of seeds that are not solved; without them the plain mean of `many` is taken. From
-    `fewest` fine seeds on, the coefficient of the coarse solution is the slope of fine against
-    coarse, entry by entry; with fewer it is the ratio of their means.
+    `many`, and of seeds that are not solved. From `fewest` fine seeds on, the coefficient of the
+    coarse solution is the slope of fine against coarse, entry by entry; with fewer it is the ratio
+    of their means.
 
     A slope fitted to a few seeds scatters too much to help: with four it can double the variance of
     a plain mean. The ratio of means does not, and it suits areas at ranges that the coarse grid
@@ -89,9 +83,7 @@ def multilevel_mean(
     of one sign a ratio means little, and 1 is taken. Neither helps where the coarse solutions hold
     noise of their own, such as P(u) at gaps that their grid does not resolve.
     """
-    fine, coarse = _check_samples("fine", fine, 2), _check_samples("coarse", coarse, 2)
-    many = _check_samples("many", many, 2)
-    level = plain_mean(many) if controls is None else controlled_mean(many, controls, elsewhere)
+    level = controlled_mean(many, controls, elsewhere)
     one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
     return corrected_mean(fine, coarse, level, one_sign, fewest)
 
@@ -191,14 +183,3 @@ def _left_out_ratios(fine: NDArray, coarse: NDArray) -> NDArray:
 
 def _error(samples: NDArray) -> NDArray:
     return samples.std(0, ddof=1) / np.sqrt(len(samples))
-
-
-def _check_samples(name: str, values: ArrayLike, fewest: int) -> NDArray:
-    values = np.asarray(values, dtype=float)
-    if values.ndim == 0 or len(values) < fewest:
-        raise ValueError(
-            f"{name} must hold at least {fewest} samples along axis 0, got shape {values.shape}"
-        )
-    if not np.all(np.isfinite(values)):
-        raise ValueError(f"{name} must be finite, got {np.sum(~np.isfinite(values))} that are not")
-    return values
