@@ -7,7 +7,7 @@ import xarray as xr
 
 from common import conventions
 from common.conventions import VARIANT
-from common.error_budgets import BY_THEORY, NOT_MEASURED, SIMULATED, Simulation, theory_parts
+from common.error_budgets import Simulation, theory_parts
 from common.job import start
 from common.quantities import derive, quote, statistics
 from stickiness import datasets
@@ -20,21 +20,10 @@ from stickiness.accuracy.error_models import (
 )
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
 from stickiness.accuracy.settings import Problem, joint_error, seeds_enough
-from stickiness.error_budget import ErrorComponent, not_applicable, part, with_budget
+from stickiness.error_budget import SOURCES, ErrorComponent, part, with_budget
 
 DIMS = ("column", "pressure")
-BY_SIMULATION = {
-    "discretisation": "as in the ensemble's file, or as measured if that is less",
-    "solver": "by the tolerance, as measured",
-    "sampling": "Student's t of the standard error",
-    "model": SIMULATED["model"].text,
-}
-THEORY_ALONE = {
-    "discretisation": "of the quadrature, as tested",
-    "solver": BY_THEORY["solver"].text,
-    "sampling": BY_THEORY["sampling"].text,
-    "model": "of theory in place of simulation, as measured",
-}
+GRID = "as in the ensemble's file, or as measured if that is less"
 OUTSIDE = "1 where surface, load, grid or tolerance is outside what the laws were measured on"
 NO_SEEDS = (
     "no number of seeds is predicted to be enough; ask for less accuracy, or for more than is "
@@ -57,17 +46,11 @@ def main(job):
                 files[name] = datasets.read(job.input[name], [f"{name}_standard_error"])
         made = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
         simulation = Simulation(models, made)
-        found, texts = [simulate(simulation, name, files) for name in columns], dict(BY_SIMULATION)
-        if lacking := [column for column in columns if not has_error_model(column)]:
-            texts["solver"] += f"; of {', '.join(lacking)} not known: {NOT_MEASURED}"
+        found = [simulate(simulation, column, files) for column in columns]
     else:
         state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
         state = derive(state.sel(variant=VARIANT), job.params.fit_interval)
-        values, texts = [quote(column, state) for column in columns], THEORY_ALONE
-        found = [
-            (value, theory_parts(models, column, value, plan["surface"], "gap_density"))
-            for column, value in zip(columns, values, strict=True)
-        ]
+        found = [by_theory(models, column, state, plan["surface"]) for column in columns]
 
     outside = np.array([extrapolated(surface, load, **knobs) for load in loads], np.int8)
     dataset = xr.Dataset(
@@ -83,9 +66,11 @@ def main(job):
         value="value of the column at a load",
         extrapolated=OUTSIDE,
     )
-    parts = {"bandwidth": not_applicable("the case's own spectrum")}
-    for source, text in texts.items():
-        errors = [np.broadcast_to(by_source[source].error, len(loads)) for _, by_source in found]
+    parts = {}
+    for source in SOURCES:
+        components = [by_source[source] for _, by_source in found]
+        errors = [np.broadcast_to(one.error, len(loads)) for one in components]
+        text = "; ".join(dict.fromkeys(one.text for one in components))
         parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), text)
     dataset = with_budget(dataset, "value", **parts)
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
@@ -109,8 +94,14 @@ def simulate(simulation, column, files):
             grid_error(*at, load, pixels, found)
             for load, found in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
         ]
-        parts["discretisation"] = ErrorComponent(size * error, "")
+        parts["discretisation"] = ErrorComponent(size * error, GRID)
     return mean, parts
+
+
+def by_theory(models, column, state, surface):
+    """Return the same by Persson's theory on the lattice spectrum."""
+    value = quote(column, state)
+    return value, theory_parts(models, column, value, surface, "gap_density")
 
 
 def describe_miss(dataset, problem, settings, plan, case):

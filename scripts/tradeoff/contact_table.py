@@ -1,6 +1,7 @@
 """Rows of the table and points of the error models for contact without adhesion."""
 
 from dataclasses import dataclass, field
+from functools import cache
 
 import numpy as np
 
@@ -66,7 +67,7 @@ class Resampling:
         # With replacement: means of few seeds then scatter about the mean of all as they would
         # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
         rng = np.random.default_rng(1)
-        self.pool, self.levels = pool, {}
+        self.pool, self.coarse_mean = pool, cache(self._average_coarse)
         count = min(len(fine) for fine in pool.fine.values() if len(fine) >= FEWEST_FINE)
         self.fine = rng.integers(count, size=(SEEDS[-1], repetitions))
         self.many = rng.integers(len(pool.coarse), size=(repetitions, COARSE_SEEDS[-1]))
@@ -77,11 +78,9 @@ class Resampling:
         pool, chosen = self.pool, self.fine[: settings.seeds]
         fine, truth = pool.fine[settings.pixels_per_wavelength][chosen], pool.fine_mean
         mean = fine.mean(0)
-        if count := settings.coarse_seeds:
-            if count not in self.levels:
-                self.levels[count] = self._average_coarse(count)
-            twin, truth = pool.fine[COARSE][chosen], pool.truth
-            mean = multilevel.corrected_mean(fine, twin, self.levels[count]).mean
+        if settings.coarse_seeds:
+            level, twin = self.coarse_mean(settings.coarse_seeds), pool.fine[COARSE][chosen]
+            mean, truth = multilevel.corrected_mean(fine, twin, level).mean, pool.truth
         return pool.by_quantity(mean / truth - 1)
 
     def _average_coarse(self, count):
@@ -93,11 +92,7 @@ class Resampling:
 
 
 def make_pool(measured):
-    """Make the pool of a file of `measure_contact`, and find its errors by the grid.
-
-    The finest grid, which has fewer seeds, is the reference. The relative errors of the mean of
-    every entry come with their standard error, by pixels.
-    """
+    """Make the pool of a file of `measure_contact`; the finest grid, of few seeds, is the truth."""
     usual, unit = datasets.parameters(measured)["tolerance"], float(measured.pair_time)
     is_fine = measured.seed < SOLVED_FROM
     fine_ones, coarse_ones = (measured.isel(solution=k.values) for k in (is_fine, ~is_fine))
@@ -106,32 +101,16 @@ def make_pool(measured):
     more = select(coarse_ones, COARSE, usual)
     entries = {p: flatten(derive_columns(extrapolate(solved, p))) for p in pixels}
     fine = {p: values for p, (values, *_) in entries.items()}
-    _, quantity, pressure = entries[COARSE]
-    coarse = flatten(derive_columns(more))[0]
-    controls, elsewhere = measured.long_waves.values, measured.other_long_waves.values
-    few = fine[best][: len(fine[last])]
-    ratio = fine[last].sum(0) / few.sum(0)
-    estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, controls, elsewhere)
+    coarse, quantity, pressure = flatten(derive_columns(more))
+    waves = measured.long_waves.values, measured.other_long_waves.values
+    ratio = fine[last].sum(0) / fine[best][: len(fine[last])].sum(0)
+    estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, *waves)
     costs = {p: float(one.seconds.mean()) / unit for p, one in (*solved.items(), ("coarse", more))}
-    costs["described"] = float(measured.describing_seconds) / unit
-    # Up to the `best` grid with many seeds against it, from there on with few against the finest.
-    grid_errors = {best: compare_means(few, fine[last])}
-    for p in pixels[:-2]:
-        off, noise = compare_means(fine[p], fine[best])
-        first, its_noise = grid_errors[best]
-        grid_errors[p] = (1 + off) * (1 + first) - 1, np.hypot(noise, its_noise)
-    pool = SeedPool(
-        *(fine, coarse, controls, elsewhere, pressure, quantity),
+    return SeedPool(
+        *(fine, coarse, *waves, pressure, quantity),
         *(estimate.mean * ratio, estimate.standard_error * ratio, fine[best].mean(0) * ratio),
-        costs,
+        costs | {"described": float(measured.describing_seconds) / unit},
     )
-    return pool, grid_errors
-
-
-def compare_means(coarse, exact):
-    """Relative difference of two means over the same seeds, and its standard error."""
-    noise = (coarse / exact.mean(0) - exact * coarse.mean(0) / exact.mean(0) ** 2).std(0)
-    return coarse.mean(0) / exact.mean(0) - 1, noise / np.sqrt(max(len(exact) - 1, 1))
 
 
 def select(measured, pixels, tolerance):
@@ -177,8 +156,8 @@ def flatten(quantities):
 
 def tabulate_contact(measured, records):
     """Add rows and points of one file of `measure_contact`."""
-    pool, grid_errors = make_pool(measured)
-    tabulate_grids(pool, grid_errors, records)
+    pool = make_pool(measured)
+    tabulate_grids(pool, records)
     tabulate_tolerances(measured, records)
     tabulate_seeds(pool, records)
     tabulate_theory(measured, pool, records)
@@ -189,24 +168,35 @@ def cover(errors):
     return {key: np.quantile(np.abs(error), COVERED) for key, error in errors.items()}
 
 
-def tabulate_grids(pool, grid_errors, records):
+def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
-    loads = len(np.unique(pool.pressure))
-    *grids, finest = sorted(pool.fine)
-    exact = pool.fine[finest]
+    loads, fine, costs = len(np.unique(pool.pressure)), pool.fine, pool.costs
+    *grids, last = sorted(fine)
+    exact = fine[last]
     for pixels in grids:
-        errors = cover(pool.by_quantity(pool.fine[pixels][: len(exact)] / exact - 1))
+        errors = cover(pool.by_quantity(fine[pixels][: len(exact)] / exact - 1))
         # Areas are extrapolated from two grids.
-        cost = pool.costs[pixels] + (pool.costs[pixels // 2] if pixels > COARSE else 0.0)
+        cost = costs[pixels] + (costs[pixels // 2] if pixels > COARSE else 0.0)
         records.add("points per wavelength", str(pixels), errors, cost / loads)
-    for pixels, parts in grid_errors.items():
-        if pixels > COARSE:
-            errors, noise = map(pool.by_quantity, parts)
-            records.add_points("discretisation", errors, noise, pixels=pixels)
-    for pixels in pool.fine:
-        records.add_point("fine_cost", "", pool.costs[pixels] / loads, pixels=pixels)
-    records.add_point("coarse_cost", "", pool.costs["coarse"] / loads)
-    records.add_point("described_cost", "", pool.costs["described"])
+    # Up to the `best` grid with many seeds against it, from there on with few against the finest.
+    *coarser, best = grids
+    first, its_noise = compare_means(fine[best][: len(exact)], exact)
+    errors = {best: (first, its_noise)}
+    for pixels in coarser[1:]:
+        off, noise = compare_means(fine[pixels], fine[best])
+        errors[pixels] = (1 + off) * (1 + first) - 1, np.hypot(noise, its_noise)
+    for pixels, parts in errors.items():
+        records.add_points("discretisation", *map(pool.by_quantity, parts), pixels=pixels)
+    for pixels in fine:
+        records.add_point("fine_cost", "", costs[pixels] / loads, pixels=pixels)
+    records.add_point("coarse_cost", "", costs["coarse"] / loads)
+    records.add_point("described_cost", "", costs["described"])
+
+
+def compare_means(coarse, exact):
+    """Relative difference of two means over the same seeds, and its standard error."""
+    noise = (coarse / exact.mean(0) - exact * coarse.mean(0) / exact.mean(0) ** 2).std(0)
+    return coarse.mean(0) / exact.mean(0) - 1, noise / np.sqrt(max(len(exact) - 1, 1))
 
 
 def tabulate_tolerances(measured, records):

@@ -39,10 +39,6 @@ def main(job):
         slope = synthesis.moments(finer, length).rms_slope
         return load_curve(heights, length, loads, ranges, tolerance).assign(rms_slope=slope)
 
-    def solve_timed(*setting):
-        curve, seconds = measuring.time_task(solve, *setting)
-        return curve.assign(seconds=seconds)
-
     # Only a few seeds are solved on the finest grid, which is the reference of the others.
     *grids, finest = [COARSE, *params.pixels]
     few = fine[: counts["finest"]]
@@ -55,7 +51,7 @@ def main(job):
     describe = multilevel.descriptors, model_spectrum(surface), length
     waves, seconds = measuring.time_task(*describe, coarse)
     other_waves, other_seconds = measuring.time_task(*describe, described)
-    dataset = measuring.record(wanted, solve_timed).assign(
+    dataset = measuring.record(wanted, solve).assign(
         long_waves=(("coarse_seed", "descriptor"), waves),
         other_long_waves=(("other", "descriptor"), other_waves),
         describing_seconds=np.mean([seconds / len(coarse), other_seconds / len(described)]),

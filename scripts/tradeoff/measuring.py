@@ -25,11 +25,15 @@ TEXTS = {
 
 
 def record(wanted, solve):
-    """Solve with every (pixels, tolerance, seed) that is wanted; settings along `solution`."""
+    """Solve with every (pixels, tolerance, seed) that is wanted; settings along `solution`.
+
+    The processor time of a solution is added as `seconds`, if it does not have times of its own.
+    """
     wanted, parts = list(dict.fromkeys(wanted)), []
     for pixels, tolerance, seed in wanted:
         logging.info("seed %d on %d points, tolerance %g", seed, pixels, tolerance)
-        parts.append(solve(pixels, tolerance, seed))
+        solved, seconds = time_task(solve, pixels, tolerance, seed)
+        parts.append(solved if "seconds" in solved else solved.assign(seconds=seconds))
     settings = zip(SETTINGS, zip(*wanted, strict=True), strict=True)
     found = xr.concat(parts, "solution")
     return found.assign_coords({name: ("solution", list(values)) for name, values in settings})

@@ -62,15 +62,12 @@ def cheapest_adhesive(problem, accuracy):
     def worst(settings):
         return max((adhesive_error(problem, settings, *at), *at[::-1]) for at in problem.points)
 
-    every = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
-    found = [
-        (adhesive_cost(problem, one), one)
-        for one in itertools.starmap(Settings, every)
-        if worst(one)[0] <= accuracy
-    ]
+    knobs = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
+    every = list(itertools.starmap(Settings, knobs))
+    found = [(adhesive_cost(problem, one), one) for one in every if worst(one)[0] <= accuracy]
     if found:
         return min(found)[1]
-    left, column, pressure = worst(Settings(PIXELS[-1], TOLERANCES[0], SEEDS[-1], COARSE_SEEDS[-1]))
+    left, column, pressure = worst(every[-1])
     raise UnreachableError(
         f"the best that full adhesion reaches is {left:.2g}, for {column} at pressure {pressure:g}"
     )

@@ -85,8 +85,11 @@ def validate(models, paths, accuracies):
     within = []
     for path in paths:
         measured = datasets.read(path)
-        surface, (pool, _) = Surface.of(datasets.parameters(measured)), make_pool(measured)
-        resampling, loads = Resampling(pool), measured.pressure.values.tolist()
+        surface, loads = (
+            Surface.of(datasets.parameters(measured)),
+            measured.pressure.values.tolist(),
+        )
+        resampling = Resampling(make_pool(measured))
         for quantities, accuracy in itertools.product(VALIDATED, accuracies):
             problem = Problem(models, surface, loads, columns_of(quantities), DESCRIBED_SEEDS)
             try:

@@ -109,13 +109,9 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
 
 def can_reuse(plan: Plan, other: Plan) -> bool:
     """Whether a plan can use the realisations that another one solves."""
-    grid, other_grid = (
-        (one.settings.pixels_per_wavelength, one.settings.tolerance) for one in (plan, other)
-    )
+    one, two = (replace(each.settings, seeds=0, coarse_seeds=0) for each in (plan, other))
     return (
-        (plan.surface, grid) == (other.surface, other_grid)
-        and plan.simulated
-        and other.simulated
+        (plan.surface, one, True) == (other.surface, two, plan.simulated and other.simulated)
         and set(plan.pressures) <= set(other.pressures)
         and other.gaps >= plan.gaps
         and set(plan.measured) <= set(other.measured)
@@ -150,8 +146,3 @@ def seeds_in(part: str) -> list[int]:
     """Return the seeds of a file by its name, numbered from 1."""
     first, last = map(int, part.split("-"))
     return list(range(first, last + 1))
-
-
-def coarse_range(part: str) -> range:
-    """Return the coarse seeds of a file, numbered from 0."""
-    return range(seeds_in(part)[0] - 1, seeds_in(part)[-1])
