@@ -56,9 +56,9 @@ def main(job):
         other_long_waves=(("other", "descriptor"), other_waves),
         describing_seconds=np.mean([seconds / len(coarse), other_seconds / len(described)]),
     )
-    coordinates = {"coarse_seed": coarse, "other": described}
+    names = list(multilevel.DESCRIPTORS)
     measuring.write(
-        dataset.assign_coords(coordinates, descriptor=list(multilevel.DESCRIPTORS)),
+        dataset.assign_coords(coarse_seed=coarse, other=described, descriptor=names),
         job.output[0],
         "contact of many realisations with several grids and tolerances",
         {**surface, "tolerance": usual, "at_pixels": params.at_pixels},
