@@ -1,8 +1,7 @@
 """The committed table of errors and costs: medians over surfaces and loads of every setting."""
 
+import numpy as np
 import pandas as pd
-
-from common.formatting import percent
 
 KEYS = ["problem", "quantity", "setting", "value"]
 COMMENT = """\
@@ -36,3 +35,7 @@ def tables(medians):
         errors = part.pivot_table("error", "value", "quantity", sort=False).map(percent)
         cost = part.groupby("value", sort=False).cost.median().map("{:.3g}".format)
         yield [f"{problem}: {setting}", *errors, "cost"], errors.assign(cost=cost).itertuples()
+
+
+def percent(value):
+    return f"{100 * value:.2g} %" if np.isfinite(value) else "–"

@@ -48,9 +48,9 @@ def main(job):
         if name in params.fidelities
     }
     with plotting.open_figure(job.output, "AB;CD;EF;GH", 9.5) as panels:
-        for names, title, found, labels, predict in (
-            ("ACEG", "contact", medians[is_contact], CONTACT, predict_contact),
-            ("BDFH", "adhesion", medians[~is_contact], ADHESION, predict_adhesion),
+        for names, title, found, labels, error, cost in (
+            ("ACEG", "contact", medians[is_contact], CONTACT, predicted_error, cost_of_load),
+            ("BDFH", "adhesion", medians[~is_contact], ADHESION, adhesive_error, adhesive_cost),
         ):
             styles = {quantity: pick_look(index) for index, quantity in enumerate(labels)}
             found = found[found.quantity.isin(labels)]
@@ -67,9 +67,9 @@ def main(job):
             for name, settings in presets.items():
                 look = {"linestyle": "", "marker": PRESET_MARKS[name]}
                 keys.append(make_key(f"simulation, {name}", **look))
-                cost, errors = predict(problem, settings)
-                for style, error in zip(styles.values(), errors, strict=True):
-                    last.plot(cost, error, color=style["color"], **look)
+                worst = worst_errors(problem, settings, error)
+                for style, largest in zip(styles.values(), worst, strict=True):
+                    last.plot(cost(problem, settings), largest, color=style["color"], **look)
             finish(last, COST)
             last.legend(handles=keys, loc="lower left")
         kinds = {"plain mean": "--", "with a control variate": "-"}
@@ -77,14 +77,8 @@ def main(job):
         panels["F"].legend(handles=keys, loc="lower left")
 
 
-def predict_contact(problem, settings):
-    """Cost of one load, and the largest error of every quantity."""
-    cost = predicted_cost(problem, settings) / len(problem.pressures)
-    return cost, worst_errors(problem, settings, predicted_error)
-
-
-def predict_adhesion(problem, settings):
-    return adhesive_cost(problem, settings), worst_errors(problem, settings, adhesive_error)
+def cost_of_load(problem, settings):
+    return predicted_cost(problem, settings) / len(problem.pressures)
 
 
 def draw_setting(ax, found, styles, setting):

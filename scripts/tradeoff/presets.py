@@ -8,7 +8,7 @@ they are plain. A pull-off is a result of one realisation, not a mean: only its 
 import itertools
 from dataclasses import replace
 
-from common.formatting import percent
+from common.tradeoff_table import percent
 from stickiness.accuracy.error_models import Settings, Surface, single_error
 from stickiness.accuracy.plan import preset
 from stickiness.accuracy.quantities import MODELLED, columns_of
