@@ -22,13 +22,15 @@ from tradeoff.measuring import COVERED, SETTINGS, time_task
 
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
 FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
-REPETITIONS = 60  # of means that are resampled
 DESCRIBED_SEEDS = 2048
 
 
-@dataclass
+@dataclass(eq=False)
 class SeedPool:
-    """Solved seeds of one surface; an entry is one load of one column of a quantity."""
+    """Solved seeds of one surface, from which means of random seeds are drawn.
+
+    An entry is one load of one column of a quantity.
+    """
 
     fine: dict  # (seed, entry), by pixels per shortest wavelength, 2 included
     coarse: np.ndarray  # (seed, entry): more seeds on 2 pixels
@@ -40,6 +42,18 @@ class SeedPool:
     truth_error: np.ndarray  # its standard error
     fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
     costs: dict = field(default_factory=dict)  # of all loads of a seed, by pixels or kind
+    repetitions: int = 60  # of means that are drawn
+    described: int = DESCRIBED_SEEDS
+
+    def __post_init__(self):
+        # With replacement: means of few seeds then scatter about the mean of all as they would
+        # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
+        rng = np.random.default_rng(1)
+        count = min(len(fine) for fine in self.fine.values() if len(fine) >= FEWEST_FINE)
+        self.chosen = rng.integers(count, size=(SEEDS[-1], self.repetitions))
+        self.many = rng.integers(len(self.coarse), size=(self.repetitions, COARSE_SEEDS[-1]))
+        self.others = rng.integers(len(self.elsewhere), size=(self.repetitions, self.described))
+        self.average_coarse = cache(self._average_coarse)
 
     def by_quantity(self, errors):
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
@@ -59,34 +73,20 @@ class SeedPool:
             total += DESCRIBED_SEEDS * self.costs["described"]
         return total
 
-
-class Resampling:
-    """Repeated estimates from random seeds of a pool."""
-
-    def __init__(self, pool, repetitions=REPETITIONS, described=DESCRIBED_SEEDS):
-        # With replacement: means of few seeds then scatter about the mean of all as they would
-        # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
-        rng = np.random.default_rng(1)
-        self.pool, self.coarse_mean = pool, cache(self._average_coarse)
-        count = min(len(fine) for fine in pool.fine.values() if len(fine) >= FEWEST_FINE)
-        self.fine = rng.integers(count, size=(SEEDS[-1], repetitions))
-        self.many = rng.integers(len(pool.coarse), size=(repetitions, COARSE_SEEDS[-1]))
-        self.others = rng.integers(len(pool.elsewhere), size=(repetitions, described))
-
     def draw(self, settings):
         """Relative errors of the means of every repetition, by quantity and load."""
-        pool, chosen = self.pool, self.fine[: settings.seeds]
-        fine, truth = pool.fine[settings.pixels_per_wavelength][chosen], pool.fine_mean
+        chosen = self.chosen[: settings.seeds]
+        fine, truth = self.fine[settings.pixels_per_wavelength][chosen], self.fine_mean
         mean = fine.mean(0)
         if settings.coarse_seeds:
-            level, twin = self.coarse_mean(settings.coarse_seeds), pool.fine[COARSE][chosen]
-            mean, truth = multilevel.corrected_mean(fine, twin, level).mean, pool.truth
-        return pool.by_quantity(mean / truth - 1)
+            level, twin = self.average_coarse(settings.coarse_seeds), self.fine[COARSE][chosen]
+            mean, truth = multilevel.corrected_mean(fine, twin, level).mean, self.truth
+        return self.by_quantity(mean / truth - 1)
 
     def _average_coarse(self, count):
-        pool, means = self.pool, []
+        means = []
         for many, others in zip(self.many[:, :count], self.others, strict=True):
-            solved = pool.coarse[many], pool.controls[many], pool.elsewhere[others]
+            solved = self.coarse[many], self.controls[many], self.elsewhere[others]
             means.append(multilevel.controlled_mean(*solved).mean)
         return multilevel.Estimate(np.array(means), np.zeros(1), np.empty(0))
 
@@ -237,11 +237,11 @@ def tabulate_seeds(pool, records):
     explained = np.minimum(slopes / pool.coarse.std(0, ddof=1), 1)
     records.add_points("coarse_share", pool.by_quantity(np.sqrt(1 - explained**2)))
 
-    resampling, loads = Resampling(pool), len(np.unique(pool.pressure))
+    loads = len(np.unique(pool.pressure))
     for seeds, more in MEANS:
         settings = Settings(best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
-        records.add("seeds", text, cover(resampling.draw(settings)), pool.cost(settings) / loads)
+        records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / loads)
 
 
 def tabulate_theory(measured, pool, records):

@@ -14,7 +14,7 @@ from stickiness.accuracy.error_models import FULL, Surface, read_models, single_
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, UnreachableError, cheapest
 from tradeoff.adhesion_table import tabulate_adhesion
-from tradeoff.contact_table import DESCRIBED_SEEDS, Resampling, make_pool, tabulate_contact
+from tradeoff.contact_table import DESCRIBED_SEEDS, make_pool, tabulate_contact
 from tradeoff.fit_models import ROWS, Records, fit_models
 from tradeoff.presets import list_presets
 
@@ -89,20 +89,20 @@ def validate(models, paths, accuracies):
             Surface.of(datasets.parameters(measured)),
             measured.pressure.values.tolist(),
         )
-        resampling = Resampling(make_pool(measured))
+        pool = make_pool(measured)
         for quantities, accuracy in itertools.product(VALIDATED, accuracies):
             problem = Problem(models, surface, loads, columns_of(quantities), DESCRIBED_SEEDS)
             try:
                 chosen = cheapest(problem, accuracy)
             except UnreachableError:
                 continue
-            within.append(np.mean(find_worst_errors(resampling, problem, chosen) <= accuracy))
+            within.append(np.mean(find_worst_errors(pool, problem, chosen) <= accuracy))
     return within
 
 
-def find_worst_errors(resampling, problem, settings):
+def find_worst_errors(pool, problem, settings):
     """Largest error of each repetition over columns and loads, with what the tolerance adds."""
-    errors, worst = resampling.draw(settings), []
+    errors, worst = pool.draw(settings), []
     for load, column in problem.points:
         at = problem.models, "solver", column, problem.surface, load
         # Down to the tolerance of the measurement, which has no error beside itself.

@@ -94,11 +94,11 @@ def test_control_variates_of_a_pool_reduce_the_error():
         truth=fine[4].mean(0) * others.mean(0) / coarse.mean(0),
         truth_error=0.0 * mean,
         fine_mean=fine[4].mean(0),
+        repetitions=400,
+        described=1024,
     )
-    resampling = contact_table.Resampling(pool, 400, 1024)
     plain, multilevel = (
-        np.sqrt(np.mean(resampling.draw(Settings(4, 1e-8, 4, n))["area", 0.01] ** 2))
-        for n in (0, 256)
+        np.sqrt(np.mean(pool.draw(Settings(4, 1e-8, 4, n))["area", 0.01] ** 2)) for n in (0, 256)
     )
     assert plain == pytest.approx(math.hypot(0.1, 0.05) / 2, rel=0.3)
     assert multilevel < 0.3 * plain
