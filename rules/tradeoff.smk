@@ -93,7 +93,7 @@ rule tabulate_tradeoff:
     conda:
         "../envs/environment.yaml"
     params:
-        presets=PRESETS,
+        **PRESETS,
         accuracies=TRADE["validation"]["accuracies"],
         code=source_hash("tradeoff/tabulate_tradeoff.py"),
     script:

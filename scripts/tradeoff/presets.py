@@ -8,9 +8,7 @@ they are plain. A pull-off is a result of one realisation, not a mean: only its 
 import itertools
 from dataclasses import replace
 
-from common.tradeoff_table import percent
 from stickiness.accuracy.error_models import Settings, Surface, single_error
-from stickiness.accuracy.plan import preset
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import (
     COARSE_SEEDS,
@@ -33,7 +31,6 @@ ADHESIVE_COLUMNS = tuple(itertools.chain(*ADHESIVE_QUANTITIES.values()))
 ADHESIVE_TOLERANCE = 1e-7  # of the solver of full adhesion, whatever the settings say
 PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
 FEWEST = 8  # seeds from which on a mean of adhesive contact has a control
-HEAD = ("preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", "adhesive cost")
 
 
 def adhesive_error(problem, settings, pressure, column):
@@ -89,24 +86,16 @@ def worst_errors(problem, settings, error):
     return [max(error(problem, settings, p, c) for p in problem.pressures) for c in problem.columns]
 
 
-def list_presets(models, presets, surface, fidelities, descriptor_seeds):
-    """Head and lines of a table of presets, by the rule and as configured, with their errors."""
-    where = models, Surface.of(surface), presets["pressures"]
-    contact = Problem(*where, columns_of(MODELLED), descriptor_seeds)
-    adhesion = Problem(*where, ADHESIVE_COLUMNS, descriptor_seeds)
-    chosen, lines = {}, []
+def list_presets(models, presets, surface, descriptor_seeds):
+    """Lines of a table of presets: settings, cost of contact and of full adhesion, by the rule."""
+    problem = Problem(models, Surface.of(surface), presets["pressures"], (), descriptor_seeds)
+    lines = []
     for name in presets["accuracy"]:
         try:
-            by_rule = preset_by_rule(models, presets, name, surface, descriptor_seeds)
-            chosen[f"{name}, by the rule"] = by_rule
+            chosen = preset_by_rule(models, presets, name, surface, descriptor_seeds)
         except UnreachableError as refusal:
             lines.append([f"{name}: out of reach, {str(refusal).split(';')[0]}"])
-        chosen[f"{name}, configured"] = preset(fidelities[name])
-    for text, settings in chosen.items():
-        pixels, tolerance, seeds, coarse = vars(settings).values()
-        costs = predicted_cost(contact, settings), adhesive_cost(adhesion, settings)
-        knobs = [pixels, f"{tolerance:.0e}", seeds, coarse, *(f"{cost:.0f}" for cost in costs)]
-        errors = worst_errors(contact, settings, predicted_error)
-        errors += worst_errors(adhesion, settings, adhesive_error)
-        lines.append([text, *knobs, *map(percent, errors)])
-    return [*HEAD, *contact.columns, *adhesion.columns], lines
+            continue
+        costs = predicted_cost(problem, chosen), adhesive_cost(problem, chosen)
+        lines.append([name, *vars(chosen).values(), *(f"{cost:.0f}" for cost in costs)])
+    return lines

@@ -66,13 +66,13 @@ def main(job):
     with datasets.whole_file(job.output.laws) as path:
         write_models(path, models, COMMENT)
     models = read_models(job.output.laws)  # as they are written, rounded
-    presets = job.params.presets
+    given = job.params.surface, job.params.descriptor_seeds
     write_page(
         job.input.template,
         job.output.table,
         tables=summary.tables(medians),
-        asked=presets["presets"],
-        presets=list_presets(models, **presets),
+        asked=job.params.presets,
+        presets=list_presets(models, job.params.presets, *given),
         within=np.array(validate(models, job.input.validation, job.params.accuracies)),
     )
 
