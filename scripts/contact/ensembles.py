@@ -13,7 +13,7 @@ from common.model_surfaces import read_all
 from common.quantities import gap_density
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
-from stickiness.accuracy.quantities import MEASURED, QUANTITIES
+from stickiness.accuracy.quantities import MEASURED, means_of
 from stickiness.error_budget import with_budget
 
 # Variables of realisations that an ensemble's file keeps seed by seed, all that are read of them,
@@ -62,8 +62,7 @@ def average_files(inputs, seeds, loads, averaged):
 
 def choose_means(quantities):
     """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
-    needed = {mean for quantity in quantities for mean in QUANTITIES[quantity].means}
-    needed |= {"area_fraction", "mean_gap"}
+    needed = means_of(quantities) | {"area_fraction", "mean_gap"}
     measured = {name: itemgetter(name) for name in MEASURED}
     return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, units
-from stickiness.accuracy import model_choice, multilevel
 from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.persson import Persson
@@ -57,7 +56,6 @@ MISUSES = [
     (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
-    (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
     (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),
     (
         lambda: dmt.attraction_of_areas([0.3, 0.2, 0.1], [3, 2, 1], LAW),
@@ -74,12 +72,6 @@ MISUSES = [
         "kappa_rep must be positive",
     ),
     (lambda: equivalent_sphere.error_factor(1.0, -1.0), "strength must be positive"),
-    (
-        lambda: model_choice.ErrorTable({("maugis", 0.8): ((), 0, 0)}).relative_error(
-            "maugis", 0.8, 32, 0.0, 0.1, 0.1
-        ),
-        "values must be positive",
-    ),
     (lambda: moduli.Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
     (
         lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [2.0, 1.0]),
