@@ -14,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.repulsive import convolution, dilute_contact, free_edges, half_space
+from stickiness.repulsive import convolution, dilute_contact, half_space
 from stickiness.repulsive.half_space import measure_slope
 from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
@@ -46,9 +46,7 @@ class Problem:
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""
         shape = self.heights.shape
-        if self.periodic:
-            return half_space.half_space(shape, self.sides, dtype, self.solid)
-        return free_edges.free_half_space(shape, self.sides, dtype)
+        return half_space.half_space(shape, self.sides, dtype, self.solid, self.periodic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +59,7 @@ class State:
     area_fraction: float
     residual: float
     iterations: int
-    pairs: float
+    fft_pairs: float
 
 
 class _Field:
@@ -125,7 +123,7 @@ class _Grid:
         return np.flatnonzero(hit)
 
 
-def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False, logger=None):
+def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False):
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
     Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
@@ -161,11 +159,6 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         stalled += 1
         if best is None or residual < best[-1]:
             best, stalled = (points, pressure, shift, residual), 0
-        if logger is not None:
-            logger.info(
-                "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
-                *(*grid.shape, residual, points.size / heights.size, iterations),
-            )
         if residual <= tol or iterations >= max_iterations or stalled > max_stalled:
             break
         if below.size + points.size == 1:
@@ -356,5 +349,5 @@ def _state(grid, best, field, last, iterations):
         area_fraction=touching.size / gap.size,
         residual=residual,
         iterations=iterations,
-        pairs=grid.pairs,
+        fft_pairs=grid.pairs,
     )
