@@ -161,10 +161,6 @@ class Kernels:
     _gap: EvenTable
     _mean: EvenTable
 
-    def diffusion(self, y: ArrayLike) -> NDArray:
-        """Factor S of pressure diffusion at the area A = erf(y)."""
-        return self.correction.diffusion(y)
-
     def area_scale(self, y: ArrayLike) -> NDArray:
         """T(y) = 2 int_y^inf dt / (t^3 diffusion(t)), which is 1/y^2 without a correction."""
         log_y = np.log(np.asarray(y, dtype=float))
@@ -182,7 +178,7 @@ class Kernels:
         small = log_step < 0.25
         half = 0.5 * log_step[small]
         t = y[small][:, None] * np.exp(half[:, None] * (1 + _NODES))
-        result[small] = half * np.sum(_WEIGHTS * 2 / (t**2 * self.diffusion(t)), axis=-1)
+        result[small] = half * np.sum(_WEIGHTS * 2 / (t**2 * self.correction.diffusion(t)), axis=-1)
         return result
 
     def invert_area_scale(self, t: ArrayLike) -> NDArray:
@@ -192,7 +188,7 @@ class Kernels:
         log_y = -0.5 * log_t
         for _ in range(60):
             value = self.area_scale(np.exp(log_y))
-            slope = -2 / (np.exp(2 * log_y) * self.diffusion(np.exp(log_y)) * value)
+            slope = -2 / (np.exp(2 * log_y) * self.correction.diffusion(np.exp(log_y)) * value)
             step = (np.log(value) - log_t) / slope
             log_y = log_y - step
             if np.all(np.abs(step) < 1e-14 * (1 + np.abs(log_y))):

@@ -1,11 +1,7 @@
 """Scales of a rough surface on a layer, for Persson's contact theory.
 
-On a layer a wave costs 1/S times the pressure and the energy in full contact of a half-space, see
-`solids`. With ``m(q) = pi int q'^3 C/S^2 dq'`` the area A(m) is that of the half-space; waves dm
-cost the energy ``(1/2) (S/q) dm``, so that every 1/q in the mean gap becomes S/q:
-
-    ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q,   s^2 = m(q).
-
+With ``m(q) = pi int q'^3 C/S^2 dq'``, S of `solids`, the area A(m) is that of the half-space; waves
+dm cost the energy ``(1/2) (S/q) dm``: ``ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q``, ``s^2 = m(q)``.
 Unlike 1/q, S/q may rise with q. So this integral is not taken by parts, as in `theory`, and the
 distribution of gaps is left out: u1 may be negative. The mean gap is within 6 % of simulations. The
 area is too small, by up to a half on thin incompressible layers.

@@ -1,13 +1,11 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-`solver` states the problem and the method. The pressures of the contact set are short vectors;
-whole grids are touched once per update of the set. Between updates the pressure is corrected in
-single precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
-enough, and the next update starts from the true gap (iterative refinement). That gap is computed in
-double precision as soon as rounding matters, and always for the result.
-
-Where few points may touch, only these take part in corrections and in changes of the set
-(`dilute_contact`), as long as this makes progress.
+For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
+pressure. Points under tension are released and points that penetrate are added, until neither is
+left. Between updates of the set the pressure is corrected in single precision: a correction reduces
+the gap by a factor of 10 to 1000, for which seven digits are enough, and the next update starts
+from the true gap (iterative refinement), in double precision as soon as rounding matters. Below a
+per cent of contact only points that may touch take part (`dilute_contact`).
 """
 
 from dataclasses import dataclass
@@ -21,7 +19,9 @@ from stickiness.solids import HALF_SPACE, Solid
 
 _FIRST_SET_FACTOR = 2.0  # first set over the contact that is expected
 _LARGEST_FIRST_SET = 0.5  # of all points: beyond this the first set is all of them
-PREDICTION = 0.7  #: c in "contact where p > c k g": 0.5 to 1 predict about equally well
+# c in "contact where p > c k g", k being the stiffness of a single pixel, which predicts the set to a
+# per cent from a guess of the gap; 0.5 to 1 do about equally well.
+PREDICTION = 0.7
 _REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing much
 _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
 _FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
