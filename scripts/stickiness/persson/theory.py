@@ -8,7 +8,7 @@ u1 = d(A ubar)/dA, are integrals from q(m) up that end with a jump of -1/q to ze
     ubar = (2/sqrt(pi)) int d(-1/q) s kappa(p(m)/s),
     u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm).
 
-All terms are positive, and C(q), which shells do not have, drops out. For T, F, kappa see `kernels`.
+All terms are positive, and C(q), which shells do not have, drops out. T, F, kappa: see `kernels`.
 """
 
 from __future__ import annotations

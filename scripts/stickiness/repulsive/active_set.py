@@ -19,8 +19,8 @@ from stickiness.solids import HALF_SPACE, Solid
 
 _FIRST_SET_FACTOR = 2.0  # first set over the contact that is expected
 _LARGEST_FIRST_SET = 0.5  # of all points: beyond this the first set is all of them
-# c in "contact where p > c k g", k being the stiffness of a single pixel, which predicts the set to a
-# per cent from a guess of the gap; 0.5 to 1 do about equally well.
+# c in "contact where p > c k g", k being the stiffness of a single pixel, which predicts the set to
+# a per cent from a guess of the gap; 0.5 to 1 do about equally well.
 PREDICTION = 0.7
 _REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing much
 _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little

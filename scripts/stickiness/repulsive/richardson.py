@@ -44,8 +44,8 @@ class Rule:
 
 # Fitted on 84 contacts of magnification 16 to 64, with up to 2048 points per side. On 49 others, of
 # magnification 64 and 128, up to 4096 points and Hurst exponents 0.5 to 0.9, the error covers the
-# true one of a single surface in 90 to 100 %, quantity by quantity; it is two to five times its rms,
-# because the fit includes surfaces of few spots.
+# true one of a single surface in 90 to 100 %, quantity by quantity. It is two to five times the rms
+# of the true one, because the fit includes surfaces of few spots.
 RULES = {
     "area_fraction": Rule(change=0.3, part=0.10, noise=5.0),
     "mean_gap": Rule(change=1.0, part=1.0, noise=30.0, order=2.6),

@@ -107,17 +107,10 @@ class Ellipse:
 
     Averaged over directions C is ``<C(q/g)/g^2>``. It is like a square root at the ends of the
     waves that the ellipse of a knot holds, and a power law away from them.
-
-    Parameters
-    ----------
-    ratio : float
-        Of the correlation lengths, long over short, from 1 to 1e4.
-    angle : float
-        Direction of the long correlation length from x [rad].
     """
 
-    ratio: float = 1.0
-    angle: float = 0.0
+    ratio: float = 1.0  #: of the correlation lengths, long over short, from 1 to 1e4
+    angle: float = 0.0  #: direction of the long correlation length from x [rad]
 
     def __post_init__(self):
         if not 1 <= number("anisotropy", self.ratio) <= MOST:
@@ -218,30 +211,24 @@ class Ellipse:
 CIRCLE = Ellipse()
 
 
-def find_amplitude(ratio: float, hurst: float) -> float:
-    """Amplitude A of C ~ 1 + A cos 2 phi of a self-affine spectrum with a direction.
-
-    That is what `measured.psd.PowerSpectrum.anisotropy` finds of its surfaces.
-    """
-    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
-    density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
-    return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density))
-
-
 def find_ratio(amplitude: float, hurst: float) -> float:
-    """Ratio of the correlation lengths of a measured amplitude, at most `_LARGEST_FOUND`.
+    """Ratio of the correlation lengths, at most `_LARGEST_FOUND`, of a self-affine spectrum.
 
-    The inverse of `find_amplitude`, with a Hurst exponent from 0.1 to 1.
+    `amplitude` is A of C ~ 1 + A cos 2 phi, as `measured.psd.PowerSpectrum.anisotropy` finds it.
     """
     hurst = min(max(hurst, 0.1), 1.0)
-    if amplitude >= find_amplitude(_LARGEST_FOUND, hurst):
+    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
+
+    def excess(log_ratio: float) -> float:
+        ratio = np.exp(log_ratio)
+        density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
+        return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density)) - amplitude
+
+    if excess(np.log(_LARGEST_FOUND)) <= 0:
         return _LARGEST_FOUND
     if amplitude <= 0:
         return 1.0
-    found = brentq(
-        lambda log: find_amplitude(np.exp(log), hurst) - amplitude, 0, np.log(_LARGEST_FOUND)
-    )
-    return float(np.exp(found))
+    return float(np.exp(brentq(excess, 0, np.log(_LARGEST_FOUND))))
 
 
 def _expm1_over(beta: NDArray, x: NDArray) -> NDArray:
