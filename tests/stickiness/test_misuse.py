@@ -80,10 +80,6 @@ MISUSES = [
         "values must be positive",
     ),
     (lambda: moduli.Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
-    (
-        lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [2.0, 1.0]),
-        "frequencies must be one increasing",
-    ),
     (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), "heights leave the range of floats"),
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),

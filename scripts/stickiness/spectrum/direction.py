@@ -204,7 +204,7 @@ class Ellipse:
         s2, c2 = np.sin(w / 2) ** 2, np.cos(w / 2) ** 2
         low, high = 4 * length * s2, 4 * length * c2
         # Each of the roots vanishes with the sine of one end.
-        ends = _expm1_ratio(low) * _expm1_ratio(-high)
+        ends = _expm1_over(low, 1.0) * _expm1_over(-high, 1.0)
         return 0.5 * np.exp(-2 * length * np.cos(w)) / np.sqrt(ends)
 
 
@@ -231,7 +231,7 @@ def find_ratio(amplitude: float, hurst: float) -> float:
     return float(np.exp(brentq(excess, 0, np.log(_LARGEST_FOUND))))
 
 
-def _expm1_over(beta: NDArray, x: NDArray) -> NDArray:
+def _expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
     """Integral of exp(beta t) from 0 to x, that is expm1(beta x)/beta, regular at beta = 0."""
     safe = np.where(beta == 0, 1.0, beta)
     return np.where(beta == 0, x, np.expm1(safe * x) / safe)
@@ -241,12 +241,6 @@ def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
     """Inverse of `_expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
     safe = np.where(beta == 0, 1.0, beta)
     return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)
-
-
-def _expm1_ratio(x: NDArray) -> NDArray:
-    """(exp(x) - 1)/x."""
-    safe = np.where(x == 0, 1.0, x)
-    return np.where(x == 0, 1.0, np.expm1(safe) / safe)
 
 
 def _cell_quadrature() -> tuple[NDArray, NDArray]:
