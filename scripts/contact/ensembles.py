@@ -93,15 +93,15 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     optional = [name for name in OPTIONAL if name in averaged]
     dataset = realisations[[*KEPT, *optional]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
-    ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
-    limits = grid_limits.estimate_limits(realisations, ruled)
     for name, quantity in averaged.items():
         values, more = quantity(realisations), coarse(dataset, quantity)
         if name in MEASURED:
-            limits[name] = grid_limits.estimate_first_order(values)
-        dataset = add_errors(dataset, name, values, more, limit=limits.get(name))
-    if "attractive_area" in averaged:  # the one quantity that is extrapolated
-        dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
+            limit = grid_limits.estimate_first_order(values)
+        else:
+            limit = grid_limits.estimate(name, realisations, quantity)
+        dataset = add_errors(dataset, name, values, more, limit=limit)
+        if name == "attractive_area":  # the one quantity that is extrapolated
+            dataset[f"{name}_{EXTRAPOLATION}"] = limit.shift
     return dataset
 
 

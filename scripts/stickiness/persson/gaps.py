@@ -8,9 +8,8 @@ share) and interpolated at the nodes of P(u) (`GapProfile`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +43,6 @@ _ONSETS = np.geomspace(1.5, 96.0, 13)  # of exp(-p^2/(m_shell - m)), negative ex
 _SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over the finer ones'
 _FAR = 9.5  # widths from which on a Gaussian is nothing
 _BLOCK = 10  # gaps that are looked at together
-_MOST_KEPT = 64
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 
@@ -59,6 +57,14 @@ class Setting:
     variant: str  #: see `persson.Persson`
     nodes: float  #: multiplies the number of quadrature nodes
     curves: dict[float, GapCurve] = field(default_factory=dict)  #: by load, whatever the variant
+
+    def curve(self, p: float) -> GapCurve:
+        """u1 at the load `p`, made once."""
+        if p not in self.curves:
+            if len(self.curves) >= 64:
+                self.curves.clear()
+            self.curves[p] = GapCurve.at(self, p)
+        return self.curves[p]
 
 
 @dataclass(frozen=True)
@@ -188,7 +194,7 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
     exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
     laid so that no Gaussian is much narrower than one of them.
     """
-    curve = keep(setting.curves, p, lambda: GapCurve.at(setting, p))
+    curve = setting.curve(p)
     y_end = curve.y_end
     edges, change, thinned = _panel_edges(setting, curve, reach)
     if len(change) < _MANY_PANELS * setting.nodes:
@@ -298,15 +304,6 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
     before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
     near = setting.kernels.invert_area_scale(before / p**2)
     return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
-
-
-def keep(known: dict, key: Hashable, make: Callable) -> Any:
-    """Value of a key, made once; few are kept."""
-    if key not in known:
-        if len(known) >= _MOST_KEPT:
-            known.clear()
-        known[key] = make()
-    return known[key]
 
 
 def over_blocks(function: Callable, u: NDArray, profile: GapProfile) -> NDArray:

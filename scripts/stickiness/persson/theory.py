@@ -213,9 +213,12 @@ class Persson:
         doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
         reach = min(_REACH * 2**doublings, _FARTHEST)
         rows = []
-        for at in ((float(load), reach) for load in p.ravel()):
-            profile = gaps.keep(self._profiles, at, lambda: gaps.gap_profile(self._setting, *at))
-            rows.append(gaps.over_blocks(function, u.ravel(), profile))
+        for load in map(float, p.ravel()):
+            if (load, reach) not in self._profiles:
+                if len(self._profiles) >= 64:
+                    self._profiles.clear()
+                self._profiles[load, reach] = gaps.gap_profile(self._setting, load, reach)
+            rows.append(gaps.over_blocks(function, u.ravel(), self._profiles[load, reach]))
         return np.reshape(rows, p.shape + u.shape)[()]
 
 
