@@ -199,14 +199,19 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
             few = changed <= _FEW_CHANGES * points.size
             reduction = min(loose, _REDUCTION_NEARLY_SETTLED) if few else loose
             goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
-        residuals, scale = _scaled(gaps)
+        scale = float(np.std(gaps)) or 1.0
+        residuals = np.empty(gaps.size, np.float32)
+        np.subtract(float(gaps.mean()), gaps, out=residuals, casting="same_kind")
+        residuals /= np.float32(scale)
         gaps = None  # frees memory
         change, count = close_gap(
             precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
         )
         iterations += count
-        pressure = _changed(pressure, change, scale)
-        change = residuals = None
+        change = np.multiply(change, scale, dtype=float)
+        change -= change.mean()
+        change += pressure
+        pressure, change, residuals = change, None, None
         keep = pressure > 0
         changed = points.size - int(np.count_nonzero(keep))
         if changed:
@@ -313,23 +318,6 @@ def _joined(grid, field, points, pressure, extra, shift):
     gaps = field.image[joined].astype(float, copy=False)
     gaps += shift
     return joined, spread, gaps
-
-
-def _scaled(gaps):
-    """Residuals of zero mean in single precision, and their unit: the rms gap."""
-    mean, scale = float(gaps.mean()), float(np.std(gaps)) or 1.0
-    residual = np.empty(gaps.size, np.float32)
-    np.subtract(mean, gaps, out=residual, casting="same_kind")
-    residual /= np.float32(scale)
-    return residual, scale
-
-
-def _changed(pressure, change, scale):
-    """Pressure plus a change of zero sum."""
-    total = np.multiply(change, scale, dtype=float)
-    total -= total.mean()
-    total += pressure
-    return total
 
 
 def _state(grid, best, field, last, iterations):

@@ -384,27 +384,12 @@ class Sum(Spectrum):
             total = total + variance
         return total
 
-    def __repr__(self) -> str:
-        return f"Sum({', '.join(map(repr, self.parts))})"
-
 
 def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
     """Spectrum of rough solids that press on each other: their roughness is independent and adds.
 
-    Parameters
-    ----------
-    first, *others : Spectrum
-        Of each solid: either all are discrete spectra of periodic windows (`Shells`), or none.
-
-    Returns
-    -------
-    Spectrum
-        C = C_1 + C_2 + ...: shells of shells, else a `Sum`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is no spectrum, or if shells are to be added to a density.
+    Either all are discrete spectra of periodic windows (`Shells`), or none; ValueError otherwise.
+    The result, C = C_1 + C_2 + ..., is shells of shells, else a `Sum`.
 
     Examples
     --------
