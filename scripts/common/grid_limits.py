@@ -44,8 +44,7 @@ def estimate(name, realisations, quantity):
 def estimate_first_order(values):
     """Limit of the mean of a quantity that counts whole pixels at the edge: no shift, a wide error.
 
-    What a grid leaves out is then as much as its last change. Twice that covers single surfaces,
-    whose changes scatter.
+    A grid then leaves out as much as its last change: twice that covers single surfaces.
     """
     fine, half = (values.isel(resolution=k, drop=True).mean("seed") for k in (-1, -2))
     return Limit(xr.zeros_like(fine), 2 * abs(fine - half))

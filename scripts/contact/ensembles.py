@@ -44,10 +44,7 @@ VARIABLES = {
 
 
 def average_files(inputs, seeds, loads, averaged):
-    """Means and errors from files of realisations and coarse solutions, with their parameters.
-
-    The files may be those of another case with more seeds and loads.
-    """
+    """Means and errors from files, be they of a case with more seeds and loads; parameters."""
     optional = [name for name in OPTIONAL if name in averaged]
     realisations = read_all(inputs.realisations, (*NEEDED, *optional))
     realisations = realisations.sel(seed=seeds, pressure=loads)

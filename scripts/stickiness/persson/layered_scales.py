@@ -53,11 +53,7 @@ class LayeredScales:
         return (q / self.solid.factor(q)) ** 2
 
     def _gauss_nodes(self, nodes: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Wave numbers, m there, and what m grows by with the weight of each.
-
-        The first panel, of relative width 1e-8 at most, is one shell: F(p/s) changes there at
-        small loads.
-        """
+        """Wave numbers, m there, and what m grows by with the weight of each."""
         edges = self.spectrum.q0 * np.exp(scale_edges(self.spectrum))
         edges[-1] = self.spectrum.q1
         # so close that ln m grows by little between them
@@ -73,6 +69,7 @@ class LayeredScales:
         before = np.concatenate([[0.0], np.cumsum(growth.sum(axis=1))[:-1]])
         # up to a node: the integral of the interpolating polynomial
         within = growth / w @ _partial_weights(x).T
+        # The first panel, of relative width 1e-8 at most: F(p/s) changes there at small loads.
         shell = self.spectrum.q0, growth[0].sum(), 0.0
         rest = q[1:], before[1:, None] + within[1:], growth[1:]
         return tuple(np.append(one, all_else) for one, all_else in zip(shell, rest, strict=True))

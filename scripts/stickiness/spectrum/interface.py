@@ -138,10 +138,10 @@ class Spectrum(ABC):
         return share[order] * self.total_variance(order)
 
     def elastic_energy(self, solid: Solid = HALF_SPACE) -> float:
-        """Elastic energy of full contact per nominal area over E* [length].
+        """Elastic energy of full contact per nominal area over E* [length], less the mean's.
 
         (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300); of q^2 C/S
-        for a `solid` that is a layer, to 1e-12. The energy of the mean pressure is not included.
+        for a `solid` that is a layer, to 1e-12.
         """
         if check_solid(solid) == HALF_SPACE:
             return self.total_variance(1) / 4
@@ -149,11 +149,7 @@ class Spectrum(ABC):
         return averaged.integrate(lambda q: q / solid.factor(q), *averaged.band) / 4
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
-        """Return 2 pi * integral from `low` to `high` of q f(q) C(q) dq for a smooth f.
-
-        This is the mean of f over the waves in between, a shell at `high` included, times their
-        height variance.
-        """
+        """Return 2 pi * integral from `low` to `high`, included, of q f(q) C(q) dq, f smooth."""
         low, high = max(low, self.q0), min(high, self.q1)
         if not high > low:
             return 0.0
