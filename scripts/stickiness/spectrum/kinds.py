@@ -145,25 +145,20 @@ class SelfAffine(PowerLawSegments):
         name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
         size = number(name, size)
         self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
+        plateau = [] if q_rolloff is None else [q_rolloff]
+        knots, slope = [q0, *plateau, q1], -2 * (hurst + 1)
+        exponents = [*(0.0 for _ in plateau), slope]
         with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
-            self._build(q0, q1, np.float64(1.0))
+            levels = np.full(len(exponents), np.float64(knots[-2]) ** slope)
+            super().__init__(knots, levels, exponents, self.ellipse)
             self.C0 = size if h_rms is None else float(size**2 / self.total_variance())
-            self._build(q0, q1, np.float64(self.C0))
+            super().__init__(knots, self.C0 * levels, exponents, self.ellipse)
             variances = np.array([self.total_variance(power) for power in (0, 2, 4)])
         if not np.all(np.isfinite(variances) & (variances > 0)):
             raise ValueError(
                 f"q0 = {q0!r}, q1 = {q1!r} and {name} = {size!r} leave the range of floats: take a "
                 "unit of length in which they are nearer to 1"
             )
-
-    def _build(self, q0: float, q1: float, prefactor: float) -> None:
-        slope = -2 * (self.hurst + 1)
-        bend = q0 if self.q_rolloff is None else self.q_rolloff
-        level = prefactor * np.float64(bend) ** slope
-        if self.q_rolloff is None:
-            super().__init__([q0, q1], [level], [slope], self.ellipse)
-        else:
-            super().__init__([q0, bend, q1], [level, level], [0.0, slope], self.ellipse)
 
     @property
     def q_longest(self) -> float:
