@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness.repulsive import convolution, dilute_contact, half_space
-from stickiness.repulsive.half_space import measure_slope
 from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
 
@@ -259,14 +258,10 @@ def _highest(problem):
 
     At small loads the area of contact is about twice the load over the rms slope.
     """
-    heights = problem.heights
-    area = 2 * problem.load / (measure_slope(heights, problem.sides) or 1.0)
+    heights, sure = problem.heights, problem.periodic and problem.solid == HALF_SPACE
+    area = 2 * problem.load / (half_space.measure_slope(heights, problem.sides) or 1.0)
     count = int(_FIRST_SET_FACTOR * area * heights.size) + 1
-    if (
-        not problem.periodic
-        or problem.solid != HALF_SPACE
-        or count > _LARGEST_FIRST_SET * heights.size
-    ):
+    if not sure or count > _LARGEST_FIRST_SET * heights.size:
         return np.arange(heights.size)
     return np.sort(np.argpartition(heights.ravel(), -count)[-count:])
 

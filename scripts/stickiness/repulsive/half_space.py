@@ -222,9 +222,7 @@ def coarsen(n):
 
 def average_pixels(heights):
     """Means of two by two pixels; the last row or column of an odd number counts twice."""
-    for axis in (0, 1):
-        if heights.shape[axis] % 2:
-            heights = np.concatenate([heights, heights.take([-1], axis)], axis)
+    heights = np.pad(heights, [(0, n % 2) for n in heights.shape], mode="edge")
     return (heights[::2, ::2] + heights[1::2, ::2] + heights[::2, 1::2] + heights[1::2, 1::2]) / 4
 
 
@@ -254,12 +252,7 @@ def _double(field, axis):
     between /= 16
     shape = list(field.shape)
     shape[axis] *= 2
-    fine = np.empty(shape, field.dtype)
-    even, odd = [slice(None)] * 2, [slice(None)] * 2
-    even[axis], odd[axis] = slice(0, None, 2), slice(1, None, 2)
-    fine[tuple(even)] = field
-    fine[tuple(odd)] = between
-    return fine
+    return np.stack([field, between], axis + 1).reshape(shape)
 
 
 def _resample(field, n, axis):

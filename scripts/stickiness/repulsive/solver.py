@@ -206,14 +206,9 @@ def press(
 
 
 def load_path(heights, length, pressures, tol=1e-8, **options):
-    """Solve one surface at several mean pressures; yields one `Contact` for each, in order.
+    """Solve one surface at several mean pressures [E*]; yields one `Contact` for each, in order.
 
-    Parameters
-    ----------
-    pressures : iterable of float
-        Mean pressures in units of E*.
-    heights, length, tol, **options
-        As for `solve`.
+    The other arguments are those of `solve`.
     """
     for pressure in pressures:
         yield solve(heights, length, pressure, tol=tol, **options)
@@ -266,5 +261,5 @@ def _guess_from_coarser_grids(problem, work):
     work.append(state.fft_pairs * heights.size)
     if problem.periodic:
         return {"gap": half_space.interpolate(state.gap, shape)}
-    fine = np.repeat(np.repeat(state.pressure, 2, axis=0), 2, axis=1)
+    fine = state.pressure.repeat(2, axis=0).repeat(2, axis=1)
     return {"pressure": np.ascontiguousarray(fine[: shape[0], : shape[1]])}
