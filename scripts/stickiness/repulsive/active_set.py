@@ -87,34 +87,27 @@ class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
     def __init__(self, problem, rough):
-        heights = problem.heights
-        self.shape = heights.shape
-        self.heights = heights
-        self.active = np.zeros(heights.size, bool)
+        self.heights, self.shape = problem.heights, problem.heights.shape
+        self.solid, self.sides = problem.solid, problem.sides
+        self.active = np.zeros(self.heights.size, bool)
         dtype = np.float32 if rough else np.float64
         self.exact = _Field(problem.operator(dtype))
         self.quick = self.exact
         if not rough:
             self.quick = _Field(problem.operator(np.float32), memory=self.exact)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
-        largest = float(np.abs(heights).max())
+        largest = float(np.abs(self.heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
-        self.solid, self.sides = problem.solid, problem.sides
+        self._operators = {self.quick.operator, self.exact.operator}
         self.spent = 0.0  # convolutions on coarser grids, by their share of the points
-        self._before = self._count()
-
-    def _count(self):
-        pairs = self.quick.operator.pairs + self.spent
-        if self.exact is not self.quick:
-            pairs += self.exact.operator.pairs
-        return pairs
+        self.spent = -self.pairs
 
     @property
     def pairs(self):
         """Convolutions since this object was made."""
-        return self._count() - self._before
+        return self.spent + sum(operator.pairs for operator in self._operators)
 
     def rows(self, points):
         hit = np.zeros(self.shape[0], bool)

@@ -245,9 +245,8 @@ class Shells(Spectrum):
         gradient = np.cumsum(self.variance * self.q**2)
         (variance,) = nonnegative(variance=variance)
         i = np.minimum(np.searchsorted(gradient, variance, side="left"), len(self.q) - 1)
-        after = np.concatenate([np.cumsum(self.variance[::-1])[::-1], [0.0]])
         rest = np.maximum(gradient[i] - variance, 0.0) / self.q[i] ** 2
-        return self.q[i], after[i + 1] + rest
+        return self.q[i], self.variance_above(self.q[i]) + rest
 
     def truncated(self, q1: float) -> Shells:
         """Return the shells up to and including `q1`."""
