@@ -28,7 +28,7 @@ _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
+class Contact(active_set.State):
     """Solution of a repulsive contact problem.
 
     Attributes
@@ -62,15 +62,8 @@ class Contact:
         Root mean square of the heights about their mean.
     """
 
-    pressure: np.ndarray
-    gap: np.ndarray
     mean_pressure: float
-    area_fraction: float
     mean_gap: float
-    shift: float
-    residual: float
-    iterations: int
-    fft_pairs: float
     length: tuple
     rms_height: float
 

@@ -59,20 +59,19 @@ class PowerLaws:
         """2 pi * integral of q'^(1 + power) C from the first knot to `q`."""
         q = np.clip(*nonnegative(q=q), *self.ends)
         i = self._segment(q)
-        before = np.concatenate([[0.0], np.cumsum(self._whole_segments(power))])
-        return before[i] + self._integral(i, self.knots[i], q, power)
+        return self._below_knots(power)[i] + self._integral(i, self.knots[i], q, power)
 
     def above(self, q: ArrayLike, power: float) -> NDArray:
         """2 pi * integral of q'^(1 + power) C from `q` to the last knot."""
         q = np.clip(*nonnegative(q=q), *self.ends)
         i = self._segment(q)
-        after = np.concatenate([np.cumsum(self._whole_segments(power)[::-1])[::-1], [0.0]])
+        after = np.append(np.cumsum(self._whole_segments(power)[::-1])[::-1], 0.0)
         return after[i + 1] + self._integral(i, q, self.knots[i + 1], power)
 
     def invert_gradient(self, variance: ArrayLike) -> NDArray:
         """Wave number at which ``below(q, 2)`` is `variance`."""
         (variance,) = nonnegative(variance=variance)
-        before = np.concatenate([[0.0], np.cumsum(self._whole_segments(2))])
+        before = self._below_knots(2)
         i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(self.level) - 1)
         beta = self.exponent[i] + 4
         level = 2 * np.pi * self.level[i] * self.knots[i] ** 4
@@ -95,6 +94,9 @@ class PowerLaws:
         from_knot = np.log(a / self.knots[i])
         level = self.level[i] * self.knots[i] ** (2 + power)
         return 2 * np.pi * level * np.exp(beta * from_knot) * _expm1_over(beta, np.log(b / a))
+
+    def _below_knots(self, power: float) -> NDArray:
+        return np.append(0.0, np.cumsum(self._whole_segments(power)))
 
     def _whole_segments(self, power: float) -> NDArray:
         i = np.arange(len(self.level))

@@ -186,7 +186,10 @@ class Spectrum(ABC):
         i, j = i[half], j[half]
         band = self.modes_in_band(i, j, dq)
         i, j = i[band], j[band]
-        order = np.lexsort((j, i, self.rank_modes(i, j)))
+        rank = i**2 + j**2
+        if not self.ellipse.is_circle:  # equal norms have equal ranks
+            rank = np.round(np.log(self.ellipse.norm(i, j)), 10)
+        order = np.lexsort((j, i, rank))
         i, j = i[order], j[order]
         variance = self.mode_variance(i, j, dq)
         if not variance.any():
@@ -198,10 +201,6 @@ class Spectrum(ABC):
         norm = dq * self.ellipse.norm(i, j)
         above = norm >= self.q0 * (1 - LATTICE_ROUNDING)
         return above & (norm <= self.q1 * (1 + LATTICE_ROUNDING))
-
-    def rank_modes(self, i: NDArray, j: NDArray) -> NDArray:
-        """Numbers that rise with the norm of lattice vectors; equal norms give equal numbers."""
-        return i**2 + j**2 if self.isotropic else np.round(np.log(self.ellipse.norm(i, j)), 10)
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance C dq^2 of each mode of the band."""

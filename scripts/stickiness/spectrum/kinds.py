@@ -362,10 +362,6 @@ class Sum(Spectrum):
         """Whether lattice vectors lie in the band of any part."""
         return np.any([part.modes_in_band(i, j, dq) for part in self.parts], axis=0)
 
-    def rank_modes(self, i: NDArray, j: NDArray) -> NDArray:
-        # the parts have no common norm
-        return i**2 + j**2
-
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Sum of what the parts contribute, each scaled to its prescribed h_rms."""
         total = 0
