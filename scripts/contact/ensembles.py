@@ -9,7 +9,6 @@ from common.contact_curves import MEASURED_TEXTS
 from common.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
-from common.model_surfaces import read_all
 from common.quantities import gap_density
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -41,20 +40,6 @@ VARIABLES = {
     f"attractive_area_{EXTRAPOLATION}": f"{TEXTS['attractive_area']}: of the mean, extrapolated "
     "from below the edge gap",
 }
-
-
-def average_files(inputs, seeds, loads, averaged):
-    """Means and errors from files, be they of a case with more seeds and loads; parameters."""
-    optional = [name for name in OPTIONAL if name in averaged]
-    realisations = read_all(inputs.realisations, (*NEEDED, *optional))
-    realisations = realisations.sel(seed=seeds, pressure=loads)
-    kept = (*COARSE, *optional)
-    others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
-    more = join_coarse(others, kept) if others else xr.Dataset()
-    dataset = add_statistics(realisations, more, averaged)
-    largest = float(realisations.residual.max())
-    parameters = datasets.parameters(realisations) | {"seeds": seeds, "largest_residual": largest}
-    return dataset, {**parameters, **describe_sampling(parameters, dataset)}
 
 
 def choose_means(quantities):

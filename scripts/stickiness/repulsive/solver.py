@@ -56,15 +56,12 @@ class Contact(active_set.State):
         Convolutions (a forward and a backward transform each) on all grids, those on
         coarser ones (also inside the preconditioner) counted by their share of the points of
         the given grid.
-    length : tuple of float
-        Sides of the periodic cell, or of the surface if its edges are free.
     rms_height : float
         Root mean square of the heights about their mean.
     """
 
     mean_pressure: float
     mean_gap: float
-    length: tuple
     rms_height: float
 
 
@@ -186,9 +183,7 @@ def press(
         gap *= unit
         state = replace(state, pressure=field, gap=gap, shift=state.shift * unit + mean)
     mean_gap = float(state.gap.mean())
-    contact = Contact(
-        mean_pressure=pressure, mean_gap=mean_gap, length=lengths, rms_height=rms, **vars(state)
-    )
+    contact = Contact(mean_pressure=pressure, mean_gap=mean_gap, rms_height=rms, **vars(state))
     if not state.residual <= tol:
         raise ConvergenceError(
             f"residual {state.residual:.2e} h_rms after {state.iterations} iterations exceeds tol "
