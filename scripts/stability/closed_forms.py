@@ -5,7 +5,6 @@ from functools import cache
 
 import numpy as np
 from scipy.integrate import quad
-from scipy.optimize import brentq
 from scipy.special import erf, erfinv
 
 THICK = 40.0  # thickness times wave number from which a layer is a half-space to 1e-30
@@ -23,17 +22,6 @@ def integrate_band(hurst, magnification, power):
         for ends in zip(pieces[:-1], pieces[1:], strict=True)
     ]
     return float(np.exp(largest) * np.sum(parts))
-
-
-def westergaard(pressure):
-    """Area fraction and mean gap of a wave cos(x) on a half-space, full from a pressure of 1/2.
-
-    Westergaard, J. Appl. Mech. 6, 49 (1939), doi:10.1115/1.4008919. The mean gap integrates
-    dp/d(gap): 0 at full contact, 1 at the first touch.
-    """
-    share = min(2 * pressure, 1.0)
-    gap = 1 - share + share * np.log(share) if share > 0 else 1.0
-    return 2 / np.pi * np.arcsin(np.sqrt(share)), gap
 
 
 def hertz_attraction(t):
@@ -91,16 +79,6 @@ def layer_response(k, poisson, backing):
             return float((cosh - 1) / (sinh + 2 * x))
         kappa = 3 - 4 * nu
         return float((kappa * sinh - 2 * x) / (kappa * cosh + 2 * x * x + (1 + kappa * kappa) / 2))
-
-
-def press_springs(heights, overlap):
-    """Mean gap and area fraction of heights on springs that are pressed in by a mean overlap."""
-    top = float(heights.max())
-    level = brentq(
-        lambda z: np.mean(np.maximum(heights - z, 0)) - overlap,
-        float(heights.mean()) - overlap - float(np.ptp(heights)), top, xtol=1e-14, rtol=1e-14,
-    )  # fmt: skip
-    return float(np.mean(np.maximum(level - heights, 0))), float(np.mean(heights > level))
 
 
 def filter_waves(field, factor):
