@@ -58,8 +58,8 @@ def count_outcomes(dataset):
     by = Counter(tested.outcome.values.tolist())
     return (
         f"The limits of the prediction overlap with {by[COMPATIBLE]} of {tested.sizes['case']} "
-        f"published observations whatever the unknown inputs, with {by[SOME]} for some of them, "
-        f"and with {by[MISSED]} for none. The value itself agrees with "
+        "published observations whichever unknown input is varied, with "
+        f"{by[SOME]} for some values, and with {by[MISSED]} for none. The value itself agrees with "
         f"{int(tested.value_inside.sum())}. None is a sharp test, because no spectrum is known."
     )
 

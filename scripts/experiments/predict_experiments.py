@@ -6,7 +6,6 @@ middle.
 
 from dataclasses import dataclass
 from functools import cache
-from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -42,7 +41,7 @@ _QUANTITY = "the quantity observed, in its SI unit"
 _OUTCOMES = ", ".join(f"{code} {word}" for code, word in enumerate(OUTCOMES))
 _GRADES = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
 _CURVE = "pull-off over that from a smooth surface"
-_LOWEST, _HIGHEST = (f"{end} limit over all that is plausible" for end in ("lowest", "highest"))
+_LOWEST, _HIGHEST = (f"{end} limit with each input at its ends" for end in ("lowest", "highest"))
 _BEYOND = "looks at no roughness, or beyond the heights followed"
 VARIABLES = {
     "case": ("1", "experiment and case"),
@@ -201,12 +200,7 @@ def combine_inputs(ends, swept):
         low, high = ends[key]
         inputs[key][:] = np.sqrt(low * high) if low > 0 else high / 2
         inputs[key][1 + 2 * place : 3 + 2 * place] = low, high
-    corners = list(product(*(ends[key] for key in swept)))
-    columns = dict(zip(swept, np.transpose(corners), strict=True)) if swept else {}
-    return {
-        key: np.concatenate([found, columns.get(key, np.full(len(corners), found[0]))])
-        for key, found in inputs.items()
-    }
+    return inputs
 
 
 def predict(observation):
@@ -398,7 +392,7 @@ def predict_all(observations):
         "predicted",
         discretisation=not_applicable("closed form"),
         solver=not_applicable("closed form"),
-        sampling=ErrorComponent(inputs, "of all that is plausible of the inputs"),
+        sampling=ErrorComponent(inputs, "of what is plausible of each input"),
         bandwidth=not_applicable("the spectrum is swept with the inputs"),
         model=ErrorComponent(model, "larger side of its limits"),
     )
