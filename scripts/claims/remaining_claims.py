@@ -27,25 +27,23 @@ PAPER = "violano"  # the paper's criterion
 RUBBER = "fuller_tabor/one_MPa"
 
 
-@claim(19, "map")
-def sticky_roughness(files):
-    shortest = datasets.parameters(files["map"])["shortest_over_range"]
+@claim(19)
+def sticky_roughness(map):
+    shortest = datasets.parameters(map)["shortest_over_range"]
     value, low, high = (
         np.array([find_roughness(q0, shortest, sign) for q0 in EXAMPLES]) for sign in (0, -1, 1)
     )
     inside = (low <= PRINTED_LIMITS) & (high >= PRINTED_LIMITS)
     return Finding(
-        value=float(value[1]),
+        value[1],
+        grade(False, bool(inside.all())),
         claimed=PRINTED_LIMITS[1],
-        verdict=grade(False, bool(inside.all())),
         errors={"model": float(max(high[1] - value[1], value[1] - low[1]))},
-        facts={
-            "wanted": DEFAULT_SHARE,
-            "shortest": shortest,
-            "limits": {"value": value, "low": low, "high": high},
-            "times": PRINTED_LIMITS / value,
-            "jtb": criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0),
-        },
+        wanted=DEFAULT_SHARE,
+        shortest=shortest,
+        limits={"value": value, "low": low, "high": high},
+        times=PRINTED_LIMITS / value,
+        jtb=criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0),
     )
 
 
@@ -62,27 +60,24 @@ def find_roughness(range_times_q0, shortest, sign):
     return float(np.exp(brentq(excess, np.log(2.0), np.log(1e9))))
 
 
-@claim(20, "asphalt")
-def sticky_asphalt(files):
-    ends = [files["asphalt"].sel(end=end) for end in ("rough", "smooth")]
-    value, smooth = (find_modulus(end, 0) for end in ends)
-    low, high = find_modulus(ends[0], -1), find_modulus(ends[1], 1)
-    inside = low <= PRINTED_MODULUS <= high
+@claim(20)
+def sticky_asphalt(asphalt):
+    rough, smooth = (asphalt.sel(end=end) for end in ("rough", "smooth"))
+    value, low, high = (find_modulus(rough, sign) for sign in (0, -1, 1))
+    limits = low, find_modulus(smooth, 1)
+    inside = limits[0] <= PRINTED_MODULUS <= limits[1]
     length = WORK_OF_ADHESION / (PRINTED_MODULUS * 1e6)
-    h_rms, q0 = (float(ends[0][name]) for name in ("h_rms", "q0"))
     return Finding(
-        value=value,
+        value,
+        OPEN if inside else NOT,
         claimed=PRINTED_MODULUS,
-        verdict=OPEN if inside else NOT,
-        errors={"model": max(value - low, find_modulus(ends[0], 1) - value)},
-        facts={
-            "wanted": DEFAULT_SHARE,
-            "c0": [end.C0 for end in ends],
-            "smooth": smooth,
-            "limits": (low, high),
-            "inside": inside,
-            "jtb": criteria.dmt_validity(h_rms, q0, length, RANGE).margin,
-        },
+        errors={"model": max(value - low, high - value)},
+        wanted=DEFAULT_SHARE,
+        c0=[rough.C0, smooth.C0],
+        smooth=find_modulus(smooth, 0),
+        limits=limits,
+        inside=inside,
+        jtb=criteria.dmt_validity(float(rough.h_rms), float(rough.q0), length, RANGE).margin,
     )
 
 
@@ -93,28 +88,24 @@ def find_modulus(surface, sign):
     return float(WORK_OF_ADHESION / rough.threshold(RANGE, sign=sign) / 1e6)
 
 
-@claim(21, "remaining")
-def truncation(files):
-    table = files["remaining"]
-    ratios = {hurst: compare(table, hurst) for hurst in (0.8, 0.5)}
+@claim(21)
+def truncation(remaining):
+    ratios = {hurst: compare(remaining, hurst) for hurst in (0.8, 0.5)}
     smooth, rough = (float(np.mean(ratios[hurst])) for hurst in (0.8, 0.5))
-    changes = [abs(1 - ratio) for ratio in (smooth, rough)]
-    late = {hurst: extend(hurst) for hurst in (0.8, 0.5)}
-    settled = abs(1 - late[0.8]) < NEGLIGIBLE
-    scatter = np.std(ratios[0.8], ddof=1) / np.sqrt(len(ratios[0.8]))
+    late = [extend(hurst) - 1 for hurst in (0.8, 0.5)]
+    number = len(ratios[0.8])
+    scatter = np.std(ratios[0.8], ddof=1) / np.sqrt(number)
     return Finding(
-        value=smooth,
+        smooth,
+        grade(max(abs(1 - smooth), abs(1 - rough)) < NEGLIGIBLE, abs(late[0]) < NEGLIGIBLE),
         claimed=1.0,
-        verdict=grade(max(changes) < NEGLIGIBLE, settled),
-        errors={"sampling": float(students_t(len(ratios[0.8])) * scatter)},
-        facts={
-            "coarse": COARSE,
-            "fine": FINE,
-            "rough": rough,
-            "surfaces": sum(map(len, ratios.values())),
-            "broad": (BROAD, BROADEST),
-            "late": [late[0.8] - 1, late[0.5] - 1],
-        },
+        errors={"sampling": float(students_t(number) * scatter)},
+        coarse=COARSE,
+        fine=FINE,
+        rough=rough,
+        surfaces=sum(map(len, ratios.values())),
+        broad=(BROAD, BROADEST),
+        late=late,
     )
 
 
@@ -138,31 +129,27 @@ def compare(table, hurst):
     return ratios
 
 
-@claim(22, "experiments")
-def stickiness_of_experiments(files):
-    dataset = files["experiments"]
-    entries = datasets.parameters(dataset)["experiments"]
-    rubber = dataset.sel(case=RUBBER)
-    limit = float(rubber.criterion_roughness.sel(criterion=PAPER))
-    read = (dataset.tests == 1) & (dataset.observed_known == GRADES.index("read"))
-    codes = dataset.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
-    named = {
-        code: [name_case(str(c), entries) for c in codes.case.values[codes.values == code]]
-        for code in (COMPATIBLE, SOME, MISSED)
-    }
-    verdicts = {MISSED: NOT, SOME: QUALIFIED, COMPATIBLE: REPRODUCED}
+@claim(22)
+def stickiness_of_experiments(experiments):
+    entries = datasets.parameters(experiments)["experiments"]
+    rubber = experiments.sel(case=RUBBER)
+    read = (experiments.tests == 1) & (experiments.observed_known == GRADES.index("read"))
+    codes = experiments.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
+    missed, some, compatible = (
+        [name_case(str(case), entries) for case in codes.case.values[codes.values == code]]
+        for code in (MISSED, SOME, COMPATIBLE)
+    )
+    # The worst outcome among the observations that were read from a publication.
+    worst = NOT if missed else QUALIFIED if some else REPRODUCED if compatible else OPEN
     return Finding(
-        value=limit * 1e6,
-        # The worst outcome among the observations that were read from a publication.
-        verdict=next((verdict for code, verdict in verdicts.items() if named[code]), OPEN),
+        float(rubber.criterion_roughness.sel(criterion=PAPER)) * 1e6,
+        worst,
         errors={"model": np.nan},
-        facts={
-            "rubber": rubber,
-            "missed": named[MISSED],
-            "some": named[SOME],
-            "compatible": named[COMPATIBLE],
-            "wanted": DEFAULT_SHARE,
-        },
+        rubber=rubber,
+        missed=missed,
+        some=some,
+        compatible=compatible,
+        wanted=DEFAULT_SHARE,
     )
 
 

@@ -47,8 +47,9 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     assert claim.facts["load"] == pytest.approx(0.02)
     assert claim.facts["loading"] == pytest.approx(0.04)
     if "pull_off" not in made:
-        assert float(claim.facts["area"]) == pytest.approx(0.03)
-        assert claim.facts["net"] == pytest.approx(0.0225)
+        last = claim.facts["last"]
+        assert float(last.repulsive_area_fraction) == pytest.approx(0.03)
+        assert float(last.net_repulsive_area_fraction) == pytest.approx(0.0225)
     assert float(claim.facts["lost"]) == pytest.approx(0.25)
 
 
