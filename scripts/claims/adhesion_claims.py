@@ -126,49 +126,35 @@ def area_at(curve, load, way):
 
 
 @claim(11)
-def inverse_kappa_ad(
-    adhesive_rough,
-    adhesive_rough_near,
-    adhesive_smooth,
-    adhesion_rough,
-    adhesion_rough_near,
-    adhesion_smooth,
-    fit_bem_64,
-    fit_bem_128,
-):
-    sets = (
-        ratios_to_formula(adhesive_rough, adhesion_rough),
-        ratios_to_formula(adhesive_rough_near, adhesion_rough_near),
-        ratios_to_formula(adhesive_smooth, adhesion_smooth),
-    )
-    ratios = {name: np.concatenate([ratio[name] for ratio in sets]) for name in sets[0]}
-    slopes = ratios["inverse_kappa_ad"]
-    known = (ratios["error"] < LARGEST_ERROR) & (slopes > 0)
+def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
+    sets = map(list_points, adhesive_sets, adhesion_sets)
+    points = xr.concat(sets, "point", data_vars="all")
+    over = {name: (points[name] / points.formula).values for name in points}
+    slopes = over["inverse_kappa_ad"]
+    known = (over["inverse_kappa_ad_total_error"] < LARGEST_ERROR) & (slopes > 0)
     if not known.any():
         return Finding(np.nan, OPEN, claimed=1.0, load=LOAD, known=0)
-    slopes, net = slopes[known], ratios["inverse_kappa_ad_net"]
-    net = net[(ratios["net_error"] < LARGEST_ERROR) & (net > 0)]
-    resolved = np.isfinite(ratios["direct"])
+    slopes, net = slopes[known], over["inverse_kappa_ad_net"]
+    net = net[(over["inverse_kappa_ad_net_total_error"] < LARGEST_ERROR) & (net > 0)]
     apart = np.abs(np.log(np.concatenate([slopes, net]))).max()
-    fits = [
-        value_and_error(at_load(fit).isel(window=0), "a_v_mean")
-        for fit in (fit_bem_64, fit_bem_128)
-    ]
+    direct = points.inverse_kappa_ad_direct.values
+    resolved = np.isfinite(direct)
+    fits = [at_load(fit).isel(window=0) for fit in (fit_bem_64, fit_bem_128)]
     return Finding(
         np.exp(np.mean(np.log(slopes))),
         grade(apart < np.log(1.25), apart < np.log(4)),
         claimed=1.0,
-        errors={source: float(np.mean(ratios[source][known])) for source in error_budget.SOURCES},
+        errors={source: float(np.mean(over[source][known])) for source in error_budget.SOURCES},
         load=LOAD,
         known=slopes.size,
         slopes=find_ends(slopes),
         net=find_ends(net),
-        limit=find_ends(ratios["limit"][known]),
-        dmt_points=int(ratios["dmt"][known].sum()),
-        decades=np.ptp(np.log10(ratios["direct"][resolved])),
-        direct=find_ends(ratios["inverse_kappa_ad_direct"][resolved]),
-        a_v=fits,
-        factors=[PAPER_A_V / a_v for a_v, _ in fits],
+        limit=find_ends(over["limit"][known]),
+        dmt_points=int(points.dmt.values[known].sum()),
+        decades=np.ptp(np.log10(direct[resolved])),
+        direct=find_ends(over["inverse_kappa_ad_direct"][resolved]),
+        a_v=[value_and_error(fit, "a_v_mean") for fit in fits],
+        factors=[PAPER_A_V / float(fit.a_v_mean) for fit in fits],
     )
 
 
@@ -177,23 +163,16 @@ def find_ends(values):
     return (values.min(), values.max(), values.size) if values.size else None
 
 
-def ratios_to_formula(full, limit):
-    """All points of one set, and their errors, over the formula; `direct` and `dmt` as such."""
+def list_points(full, limit):
+    """Points of one set of the full simulation, with the formula, the DMT limit and the errors."""
     full, limit = at_load(full), at_load(limit)
-    formula = xr.zeros_like(full.inverse_kappa_ad) + criteria.inverse_kappa_ad(
-        float(full.q0_h_rms),
-        1.0,
-        (full.adhesion_length_over_range * full.range_over_h_rms * full.q0_h_rms).values,
-        (full.range_over_h_rms * full.q0_h_rms).values,
-        PAPER_A_V,
-    )
-    names = ("inverse_kappa_ad", "inverse_kappa_ad_net", "inverse_kappa_ad_direct")
-    ratios = {name: full[name] / formula for name in names}
-    ratios["error"] = error_budget.total_error(full, "inverse_kappa_ad") / formula
-    ratios["net_error"] = error_budget.total_error(full, "inverse_kappa_ad_net") / formula
-    for source in error_budget.SOURCES:
-        ratios[source] = error_budget.part(full, "inverse_kappa_ad", source) / formula
-    ratios["limit"] = limit.inverse_kappa_ad / formula
-    ratios["dmt"] = full.model == "dmt"
-    ratios["direct"] = full.inverse_kappa_ad_direct
-    return {name: values.values.ravel() for name, values in ratios.items()}
+    q0_h_rms = float(full.q0_h_rms)
+    range_ = (full.range_over_h_rms * full.q0_h_rms).values
+    length = (full[LENGTH] * full.range_over_h_rms * full.q0_h_rms).values
+    formula = criteria.inverse_kappa_ad(q0_h_rms, 1.0, length, range_, PAPER_A_V)
+    names = ["inverse_kappa_ad", "inverse_kappa_ad_net"]
+    names += [f"{name}_total_error" for name in names] + ["inverse_kappa_ad_direct"]
+    errors = {s: error_budget.part(full, names[0], s) for s in error_budget.SOURCES}
+    others = {"limit": limit.inverse_kappa_ad, "dmt": full.model == "dmt"}
+    points = full[names].assign(formula=full[names[0]] * 0 + formula, **errors, **others)
+    return points.stack(point=full[names[0]].dims, create_index=False).drop_vars(points.coords)

@@ -58,9 +58,8 @@ def test_loop_is_graded_by_its_width_and_its_pull_off(files, made, verdict):
     ("scale", "verdict"), [(1, REPRODUCED), (2, QUALIFIED), (5, NOT), (0.2, NOT)]
 )
 def test_simulation_is_compared_with_the_formula(files, scale, verdict):
-    for name in ("rough", "rough_near"):
-        files[f"adhesive_{name}"] = adhesive(64, q0_h_rms=0.3, scale=scale)
-    files["adhesive_smooth"] = adhesive(128, q0_h_rms=0.006, scale=scale)
+    files["adhesive_sets"] = [adhesive(64, 0.3, scale), adhesive(128, 0.006, scale)]
+    files["adhesion_sets"] = files["adhesion_sets"][1:]
     claim = adhesion_claims.inverse_kappa_ad(files)
     assert claim.value == pytest.approx(scale)
     assert claim.uncertainty == pytest.approx(0.05 * scale)
