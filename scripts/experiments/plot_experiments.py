@@ -47,12 +47,10 @@ def draw_pull_off(ax, dataset, experiments):
             at = float(case.criterion_roughness.sel(criterion=criterion)) * 1e6
             ax.plot(at, 2 * LEAST_SHOWN, marker, color=colour, mfc="white")
     handles, _ = ax.get_legend_handles_labels()
-    keys = [
-        make_key("observed", linewidth=5),
-        make_dot("limit by the paper", marker="v", mfc="white"),
-        make_dot("onset, finest wave", marker="^", mfc="white"),
-    ]
-    ax.legend(handles=[*handles, *keys], loc="upper right", fontsize=7, bbox_to_anchor=(1, 0.95))
+    handles += [make_key("observed", linewidth=5)]
+    handles += [make_dot("limit by the paper", marker="v", mfc="white")]
+    handles += [make_dot("onset, finest wave", marker="^", mfc="white")]
+    ax.legend(handles=handles, loc="upper right", fontsize=7, bbox_to_anchor=(1, 0.95))
     ax.set(xscale="log", yscale="log", xlim=(0.07, 300), ylim=(LEAST_SHOWN, 3))
     ax.set(xlabel="rms height [µm]", ylabel="pull-off over that from a smooth surface")
 

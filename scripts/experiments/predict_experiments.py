@@ -73,12 +73,7 @@ VARIABLES = {
 
 def main(job):
     experiments = job.params.experiments
-    observations = [
-        read_observation(name, case, entry)
-        for name, entry in experiments.items()
-        for case in entry["cases"]
-    ]
-    dataset = predict_all(observations)
+    dataset = predict_all(experiments)
     title, parameters = "published experiments, predicted", {"experiments": experiments}
     datasets.write(dataset, job.output.dataset, title=title, parameters=parameters)
     write_page(
@@ -212,8 +207,7 @@ def predict(observation):
     or, if a limiting one was observed, at the predicted one.
     """
     quantity, h_rms = observation.quantity, observation.inputs.get("h_rms")
-    count = len(observation.inputs["hurst"])
-    rough = observation.pair(np.broadcast_to(ROUGHNESS, (count, len(ROUGHNESS))))
+    rough = observation.pair(np.tile(ROUGHNESS, (len(observation.inputs["hurst"]), 1)))
     spheres = observation.press(rough)
     curve = [one.relative for one in spheres] if spheres else list(map(rough.remaining, SIGNS))
     if quantity == "limiting_roughness":
@@ -228,26 +222,24 @@ def predict(observation):
         h_rms = limit[1] if h_rms is None else h_rms
     pair = observation.pair(h_rms[:, None])
     spheres, length, reach = observation.press(pair), pair.adhesion_length, pair.range
+    found = np.array([pair.remaining(sign) for sign in SIGNS])
     if quantity == "limiting_roughness":
         found = limit[..., None]
     elif quantity == "relative_pull_off" and spheres:
-        found = [one.relative for one in spheres]
+        found = np.array([one.relative for one in spheres])
     elif quantity == "relative_pull_off":
         stress = np.array([pair.roughness.tension(length, reach, sign) for sign in SIGNS])
         found = np.minimum(stress * reach / length, 1.0)
+    elif quantity == "work_of_approach":
+        found[0] /= LATE
     elif quantity == "work_of_separation" and spheres:
-        found = [one.work * pair.work_of_adhesion for one in spheres]
-    else:
-        low, value, high = map(pair.remaining, SIGNS)
-        if quantity == "work_of_approach":
-            low = low / LATE
-        elif quantity == "work_of_separation":
-            high = np.minimum(high * HYSTERESIS, 1.0)
-        found = np.array([low, value, high])
-        if quantity != "sticks":
-            found = found * pair.work_of_adhesion
-    waves = 2 * spheres[1].zone_radius * pair.q0 / (2 * np.pi) if spheres else np.array([[np.nan]])
-    return np.asarray(found)[..., 0], np.array(curve), pair, float(waves[MIDDLE, 0])
+        found = np.array([one.work for one in spheres])
+    elif quantity == "work_of_separation":
+        found[2] = np.minimum(found[2] * HYSTERESIS, 1.0)
+    if quantity.startswith("work_of"):
+        found = found * pair.work_of_adhesion
+    waves = 2 * spheres[1].zone_radius * pair.q0 / (2 * np.pi) if spheres else pair.q0 * np.nan
+    return found[..., 0], np.array(curve), pair, float(waves[MIDDLE, 0])
 
 
 def find_fall(heights, values, level):
@@ -343,6 +335,7 @@ def predict_case(observation):
     low, value, high = predicted
     most, effect = find_effect(observation, value)
     data = {
+        "case": observation.place,
         "quantity": observation.quantity,
         "observed_low": observed[0, MIDDLE],
         "observed_high": observed[1, MIDDLE],
@@ -367,13 +360,18 @@ def predict_case(observation):
         "criterion_outcome": ("criterion", judge_criteria(observation, observed, pair)),
         "criterion_roughness": ("criterion", find_roughness(observation)),
     }
-    return xr.Dataset(data, coords={"criterion": list(CRITERIA), "roughness": ROUGHNESS})
+    axes = {"criterion": list(CRITERIA), "roughness": ROUGHNESS}
+    return xr.Dataset(data, axes).set_coords("case")
 
 
-def predict_all(observations):
+def predict_all(experiments):
     dataset = xr.concat(
-        [predict_case(observation) for observation in observations],
-        xr.DataArray([one.place for one in observations], dims="case", name="case"),
+        [
+            predict_case(read_observation(name, case, entry))
+            for name, entry in experiments.items()
+            for case in entry["cases"]
+        ],
+        "case",
     )
     value = dataset.predicted
     model, reach = (
@@ -387,15 +385,11 @@ def predict_all(observations):
     dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
     for name in ("known", "observed_known"):
         dataset[name].attrs |= datasets.flags(GRADES)
-    return with_budget(
-        dataset,
-        "predicted",
-        discretisation=not_applicable("closed form"),
-        solver=not_applicable("closed form"),
-        sampling=ErrorComponent(inputs, "of what is plausible of each input"),
-        bandwidth=not_applicable("the spectrum is swept with the inputs"),
-        model=ErrorComponent(model, "larger side of its limits"),
-    )
+    parts = dict.fromkeys(("discretisation", "solver"), not_applicable("closed form"))
+    parts["bandwidth"] = not_applicable("the spectrum is swept with the inputs")
+    parts["sampling"] = ErrorComponent(inputs, "of what is plausible of each input")
+    parts["model"] = ErrorComponent(model, "larger side of its limits")
+    return with_budget(dataset, "predicted", **parts)
 
 
 if __name__ == "__main__":
