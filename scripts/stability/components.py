@@ -140,9 +140,8 @@ def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant):
     state = adhesive.solve(heights, SIDE, law, pressure=pressure, tol=TOLERANCE)
     yield from check_equilibrium(state, heights)
     x = np.array([0.1, 0.5, 2.0, 10.0])
-    traction = adhesion_length_over_range * closed_forms.law_of_traction(variant, x)
-    off = np.abs(law.traction(x * range_over_h_rms) - traction)
-    yield bound("law of traction", off / adhesion_length_over_range)
+    traction = law.traction(x * range_over_h_rms) / adhesion_length_over_range
+    yield bound("law of traction", np.abs(traction - closed_forms.law_of_traction(variant, x)))
     stress = max(float(np.std(elastic_pressure(heights))), law.strength)
     yield check("mean pressure", abs(state.pressure.mean() - pressure) / stress, 2e-8)
     displaced = state.gap + heights
@@ -218,17 +217,11 @@ def probe_psd(hurst, grid):
     s, step = model(hurst, max(0.45 * grid, 1.01)), SIDE / grid
     heights = surface.synthesise(s, n=grid, length=SIDE, seed=3)
     plane = psd.power_spectrum(heights, step)
-    yield compare("Parseval", plane.total(), plane.variance)
-    yield compare("variance", plane.variance, np.var(heights))
-    rings = psd.radial_average(plane)
-    total = np.sum(rings.psd * rings.modes(plane)) * plane.dqx * plane.dqy
-    yield compare("rings", total, plane.variance)
+    yield compare("Parseval", plane.total(), np.var(heights))
     limits = instrument_spectrum.Limits(detect=False)
     topography = Topography(heights, step, step, "probe")
     fit = instrument_spectrum.analyse(topography, "none", limits).fit
     yield check("Hurst exponent", abs(fit.hurst - hurst) / max(fit.hurst_se, 0.02), 5)
-    lifted = psd.power_spectrum(heights + 3 * np.abs(heights).max(), step)
-    yield compare("lifted", lifted.variance, plane.variance, 1e-12)
 
 
 @component(
