@@ -44,17 +44,9 @@ def kappa_threshold(adhesive_fig2, adhesion_fig2):
         dmt=limit[LENGTH] / (2 * limit.inverse_kappa_ad),
         lowest=at.inverse_kappa.min().fillna(0.5),
         fitted=(fitted, np.linalg.norm([*fit_errors.values()])),
-        half=describe_half(at) if crosses else None,
         areas=list_areas(adhesive_fig2.sel(range_over_h_rms=range_)),
         smallest=(smallest.range_over_h_rms, largest_simulated(smallest)),
     )
-
-
-def describe_half(data):
-    """1/kappa of both definitions of the area, where about half of it is left."""
-    half = data.isel({LENGTH: int(abs(data.inverse_kappa - 0.25).argmin(LENGTH))})
-    whole, net = (value_and_error(half, f"inverse_kappa{end}") for end in ("", "_net"))
-    return {"length": half[LENGTH], "whole": whole, "net": net}
 
 
 def list_areas(loads):

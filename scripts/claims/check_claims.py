@@ -5,14 +5,14 @@ from pathlib import Path
 import pandas as pd
 import xarray as xr
 
-from claims import adhesion_claims, contact_claims, criterion_claims, errata, remaining_claims
+from claims import adhesion_claims, contact_claims, criterion_claims, errata
 from claims.ledger import collect
 from common import remaining_table
 from common.job import start
 from common.templates import make_environment, write_page
 from stickiness import datasets, error_budget
 
-CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims, remaining_claims)
+CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims)
 PROSE = ("statement", "quantity", "remark", "comment")
 COLUMNS = {
     "claim": ("1", "number of the claim"),

@@ -1,13 +1,20 @@
-"""Claims on the criterion and its predictions for real surfaces, and on spectral moments."""
+"""Claims on the criterion and on what sticks: formulas, real surfaces, experiments, moments.
+
+Claims from 19 on compare with the adhesion that remains.
+"""
 
 import numpy as np
+from scipy.optimize import brentq
 
-from claims.ledger import Finding, claim, describe_cell, grade
+from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Finding, claim, describe_cell, grade
+from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.area_load import JTB_CONSTANT
+from stickiness.remaining import Roughness, predict
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
@@ -18,6 +25,12 @@ EXAMPLES = np.array([1e-6, 1e-9, 1e-12])  # range q0
 PRINTED_LIMITS = np.array([1000.0, 67000.0, 1e6])  # h_rms/range of these
 PRINTED_MODULUS = 0.2  # MPa, of a block that sticks to asphalt
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
+NEGLIGIBLE = 0.1  # relative change of the remaining share that does not count
+COARSE, FINE = 4, 32  # magnifications of the same long waves
+ZONE = 0.1  # q0 range^2/l_a, of both
+BROAD, BROADEST = 1e3, 1e6  # magnifications that theory compares: the paper has up to 1e3 and more
+PAPER = "violano"  # the paper's criterion
+RUBBER = "fuller_tabor/one_MPa"
 
 
 @claim(12)
@@ -206,3 +219,136 @@ def fixed_amplitudes(data):
     made = datasets.parameters(data)
     n, length = data.sizes["x"], cell_size(made)
     return synthesis.synthesise(model_spectrum(made), n, length, 1, "fixed"), length
+
+
+@claim(19)
+def sticky_roughness(map):
+    shortest = datasets.parameters(map)["shortest_over_range"]
+    value, low, high = (
+        np.array([find_roughness(q0, shortest, sign) for q0 in EXAMPLES]) for sign in (0, -1, 1)
+    )
+    inside = (low <= PRINTED_LIMITS) & (high >= PRINTED_LIMITS)
+    return Finding(
+        value[1],
+        grade(False, bool(inside.all())),
+        claimed=PRINTED_LIMITS[1],
+        errors={"model": float(max(high[1] - value[1], value[1] - low[1]))},
+        wanted=DEFAULT_SHARE,
+        shortest=shortest,
+        limits={"value": value, "low": low, "high": high},
+        times=PRINTED_LIMITS / value,
+        jtb=criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0),
+    )
+
+
+def find_roughness(range_times_q0, shortest, sign):
+    """h_rms/range at which the wanted share, or its low or high limit by `sign`, just remains."""
+    q1 = 2 * np.pi / shortest
+    unit = SelfAffine(hurst=0.8, q0=range_times_q0, q1=q1, h_rms=1.0).elastic_energy()
+
+    def excess(log_h):
+        h = np.exp(log_h)
+        rough = Roughness(h_rms=h, q0=range_times_q0, elastic_energy=unit * h**2)
+        return float(np.log(rough.threshold(1.0, sign=sign) / CRYSTAL))
+
+    return float(np.exp(brentq(excess, np.log(2.0), np.log(1e9))))
+
+
+@claim(20)
+def sticky_asphalt(asphalt):
+    rough, smooth = (asphalt.sel(end=end) for end in ("rough", "smooth"))
+    value, low, high = (find_modulus(rough, sign) for sign in (0, -1, 1))
+    limits = low, find_modulus(smooth, 1)
+    inside = limits[0] <= PRINTED_MODULUS <= limits[1]
+    length = WORK_OF_ADHESION / (PRINTED_MODULUS * 1e6)
+    return Finding(
+        value,
+        OPEN if inside else NOT,
+        claimed=PRINTED_MODULUS,
+        errors={"model": max(value - low, high - value)},
+        wanted=DEFAULT_SHARE,
+        c0=[rough.C0, smooth.C0],
+        smooth=find_modulus(smooth, 0),
+        limits=limits,
+        inside=inside,
+        jtb=criteria.dmt_validity(float(rough.h_rms), float(rough.q0), length, RANGE).margin,
+    )
+
+
+def find_modulus(surface, sign):
+    """Modulus [MPa] below which the wanted share of the paper's example remains on a surface."""
+    names = ("h_rms", "q0", "elastic_energy")
+    rough = Roughness(**{name: float(surface[name]) for name in names})
+    return float(WORK_OF_ADHESION / rough.threshold(RANGE, sign=sign) / 1e6)
+
+
+@claim(21)
+def truncation(remaining):
+    ratios = {hurst: compare(remaining, hurst) for hurst in (0.8, 0.5)}
+    smooth, rough = (float(np.mean(ratios[hurst])) for hurst in (0.8, 0.5))
+    late = [extend(hurst) - 1 for hurst in (0.8, 0.5)]
+    number = len(ratios[0.8])
+    scatter = np.std(ratios[0.8], ddof=1) / np.sqrt(number)
+    return Finding(
+        smooth,
+        grade(max(abs(1 - smooth), abs(1 - rough)) < NEGLIGIBLE, abs(late[0]) < NEGLIGIBLE),
+        claimed=1.0,
+        errors={"sampling": float(students_t(number) * scatter)},
+        coarse=COARSE,
+        fine=FINE,
+        rough=rough,
+        surfaces=sum(map(len, ratios.values())),
+        broad=(BROAD, BROADEST),
+        late=late,
+    )
+
+
+def extend(hurst):
+    """Predicted share with all waves up to `BROADEST` over that up to `BROAD`, range to nothing."""
+    broad = SelfAffine(hurst=hurst, q0=1.0, q1=BROADEST, h_rms=1.0)
+    narrow = broad.truncated(BROAD)
+    given = {"adhesion_length": narrow.elastic_energy(), "range": 1e-6}
+    return predict(broad, **given).separation / predict(narrow, **given).separation
+
+
+def compare(table, hurst):
+    """Energy gained with finer waves over that without, at one work of adhesion, by surface."""
+    rows = table[(table.hurst == hurst) & (table.window == 2) & np.isclose(table.zone, ZONE)]
+    ratios = []
+    for _, surface in rows[rows.magnification.isin([COARSE, FINE])].groupby("seed"):
+        coarse, fine = (surface[surface.magnification == zeta] for zeta in (COARSE, FINE))
+        work = float(coarse.full_contact_energy.iloc[0])
+        gained = [np.interp(work, one.adhesion_length, one.bound) for one in (coarse, fine)]
+        ratios.append(float(gained[1] / gained[0]))
+    return ratios
+
+
+@claim(22)
+def stickiness_of_experiments(experiments):
+    entries = datasets.parameters(experiments)["experiments"]
+    rubber = experiments.sel(case=RUBBER)
+    read = (experiments.tests == 1) & (experiments.observed_known == GRADES.index("read"))
+    codes = experiments.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
+    missed, some, compatible = (
+        [name_case(str(case), entries) for case in codes.case.values[codes.values == code]]
+        for code in (MISSED, SOME, COMPATIBLE)
+    )
+    # The worst outcome among the observations that were read from a publication.
+    worst = NOT if missed else QUALIFIED if some else REPRODUCED if compatible else OPEN
+    return Finding(
+        float(rubber.criterion_roughness.sel(criterion=PAPER)) * 1e6,
+        worst,
+        errors={"model": np.nan},
+        rubber=rubber,
+        missed=missed,
+        some=some,
+        compatible=compatible,
+        wanted=DEFAULT_SHARE,
+    )
+
+
+def name_case(case, experiments):
+    """Author and label of a case."""
+    experiment, name = case.split("/")
+    entry = experiments[experiment]
+    return f"{entry.get('short', entry['label'])} ({entry['cases'][name]['label']})"
