@@ -72,8 +72,6 @@ def small_gap_exponent(fig3a):
     broad = exponent.isel(magnification=-1)
     at, beyond = (np.interp(np.log(SMALL_GAPS), np.log(one.gap), one) for one in (shown, broad))
     off, off_beyond = (float(np.abs(values + 1 / 3).max()) for values in (at, beyond))
-    spans = {float(one.magnification): close_to_third(one) for one in exponent}
-    widest = max(spans, key=lambda z: spans[z][1] / spans[z][0])
     return Finding(
         at[2],
         grade(max(off, off_beyond) < 0.05, off < 0.1),
@@ -82,19 +80,7 @@ def small_gap_exponent(fig3a):
         gaps=SMALL_GAPS,
         exponents=[(shown.magnification, at), (broad.magnification, beyond)],
         hurst=float(exponent.hurst),
-        widest=(widest, spans[widest]),
     )
-
-
-def close_to_third(exponent, within=0.05):
-    """Ends of the longest unbroken range of gaps whose exponent is about -1/3; 1, 1 if none."""
-    close = np.abs(exponent.values + 1 / 3) < within
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], close.astype(int), [0]])))
-    if not edges.size:
-        return 1.0, 1.0
-    starts, ends = edges[::2], edges[1::2] - 1
-    longest = int(np.argmax(ends - starts))
-    return float(exponent.gap[starts[longest]]), float(exponent.gap[ends[longest]])
 
 
 @claim(4)

@@ -38,8 +38,6 @@ FACTOR = 4.0  # between the adhesion that a criterion requires and the actual on
 LARGEST_EFFECT = 1e9  # of an input, instead of an infinite one
 
 _QUANTITY = "the quantity observed, in its SI unit"
-_OUTCOMES = ", ".join(f"{code} {word}" for code, word in enumerate(OUTCOMES))
-_GRADES = ", ".join(f"{code} {word}" for code, word in enumerate(GRADES))
 _CURVE = "pull-off over that from a smooth surface"
 _LOWEST, _HIGHEST = (f"{end} limit with each input at its ends" for end in ("lowest", "highest"))
 _BEYOND = "looks at no roughness, or beyond the heights followed"
@@ -56,17 +54,17 @@ VARIABLES = {
     "pull_off_curve": ("1", _CURVE),
     "pull_off_curve_lowest": ("1", f"{_CURVE}, {_LOWEST}"),
     "pull_off_curve_highest": ("1", f"{_CURVE}, {_HIGHEST}"),
-    "outcome": ("1", f"outcome: {_OUTCOMES}"),
+    "outcome": ("1", "outcome"),
     "value_inside": ("1", "1 where the value itself agrees, every input in the middle"),
     "by_relation": ("1", "1 where a relation was observed, evaluated with the inputs"),
     "tests": ("1", "1 where a published number or answer is compared with the prediction"),
-    "known": ("1", f"how the least known input is known: {_GRADES}"),
-    "observed_known": ("1", f"how the observation is known: {_GRADES}"),
+    "known": ("1", "how the least known input is known"),
+    "observed_known": ("1", "how the observation is known"),
     "waves_in_contact": ("1", "longest waves across what holds at pull-off", "flat on flat"),
     "h_rms": ("m", "rms height, given or limiting"),
     "most_effective_input": ("1", "input within whose limits the prediction changes most"),
     "effect_of_input": ("1", "factor that it changes, at most 1e9", "nothing is predicted"),
-    "criterion_outcome": ("1", f"outcome by a criterion: -1 nothing decided, {_OUTCOMES}"),
+    "criterion_outcome": ("1", "outcome by a criterion"),
     "criterion_roughness": ("m", "rms height up to which a criterion says sticky", _BEYOND),
 }
 

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
+from common.formatting import number
 from common.job import start
 from common.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 from stickiness import datasets
@@ -37,20 +38,13 @@ def draw_map(ax, outcome):
     down, across = (outcome[name] for name in outcome.dims[:2])
     worst = outcome.max(outcome.dims[2:])
     ax.imshow(worst, cmap=ListedColormap(COLOURS), vmin=0, vmax=3, origin="lower", aspect="auto")
-    ax.set_xticks(range(across.size), map(shorten, across.values), rotation=90, fontsize=6)
-    ax.set_yticks(range(down.size), map(shorten, down.values), fontsize=6)
+    columns, rows = ([number(value, 6) for value in axis.values] for axis in (across, down))
+    ax.set_xticks(range(across.size), columns, rotation=90, fontsize=6)
+    ax.set_yticks(range(down.size), rows, fontsize=6)
     ax.tick_params(which="both", length=0)
     ax.minorticks_off()
     ax.set_xlabel(across.attrs["long_name"], fontsize=7)
     ax.set_ylabel(down.attrs["long_name"], fontsize=7)
-
-
-def shorten(value):
-    """Write a number in few characters."""
-    exponent = round(np.log10(value)) if value else 0
-    if abs(exponent) > 2 and np.isclose(value, 10.0**exponent):
-        return rf"$10^{{{exponent}}}$"
-    return f"{value:g}"
 
 
 if __name__ == "__main__":

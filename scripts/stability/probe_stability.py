@@ -1,11 +1,9 @@
 """Probe one component of the library at the extremes of its parameters."""
 
 import logging
-import signal
 import traceback
 import warnings
 from collections import Counter
-from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
 
@@ -21,7 +19,6 @@ from stickiness.repulsive.solver import ConvergenceError
 
 OUTCOMES = ("right", "refused", "not converged", "failed")
 RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
-TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 LONGEST = 160  # characters of a message that are kept
 LABELS = {
     "magnification": "magnification q1/q0",
@@ -74,7 +71,7 @@ RESULTS = {
 def probe_point(probe, **point):
     """Outcome of one point, its largest error over the tolerance, and a message or a check."""
     try:
-        with warnings.catch_warnings(), limit_time():
+        with warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             names, excess = zip(*probe(**point), strict=True)
@@ -94,22 +91,6 @@ def probe_point(probe, **point):
 
 def shorten(text):
     return " ".join(str(text).split())[:LONGEST]
-
-
-@contextmanager
-def limit_time():
-    """Raise TimeoutError after `TIME_LIMIT` of computing."""
-
-    def expired(*_):
-        raise TimeoutError(f"took more than {TIME_LIMIT:g} s")
-
-    before = signal.signal(signal.SIGPROF, expired)
-    signal.setitimer(signal.ITIMER_PROF, TIME_LIMIT)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)
 
 
 if __name__ == "__main__":

@@ -11,14 +11,6 @@ from common import conventions
 from common.conventions import LOAD
 
 
-def test_close_to_third_finds_the_longest_range():
-    gap = np.arange(1.0, 9.0)
-    values = -1 / 3 + np.array([0.04, 0.2, 0.04, -0.04, 0.0, 0.3, 0.01, 0.3])
-    exponent = xr.DataArray(values, dims="gap", coords={"gap": gap})
-    assert contact.close_to_third(exponent) == (3.0, 5.0)
-    assert contact.close_to_third(exponent + 1) == (1.0, 1.0)
-
-
 def test_kappa_is_that_of_the_load_and_not_of_the_fit(files):
     files["kappa_128"] = kappa(128, fall=0.05, level=2.08)
     claim = contact.area_slope(files)
