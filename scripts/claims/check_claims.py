@@ -18,10 +18,7 @@ COLUMNS = {
     "claim": ("1", "number of the claim"),
     "statement": ("1", "what the paper claims"),
     "quantity": ("1", "what the value is, with its unit"),
-    "value": (
-        *("1", "measured value, in the unit that `quantity` names"),
-        "nothing was known well enough",
-    ),
+    "value": ("1", "measured value, in the unit of `quantity`", "nothing was known well enough"),
     "comment": ("1", "what the errors are, or why they are not known or do not apply"),
     "claimed": ("1", "the paper's value", "the paper gives none"),
     "verdict": ("1", "verdict"),

@@ -225,9 +225,7 @@ def probe_psd(hurst, grid):
 
 
 @component(
-    "criteria",
-    range_over_h_rms=(1e-12, *RANGES),
-    adhesion_length_over_range=(*ADHESION, 1e4, 1e7),
+    "criteria", range_over_h_rms=(1e-12, *RANGES), adhesion_length_over_range=(*ADHESION, 1e4, 1e7)
 )
 def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     """Formulas of the criteria, and what remains of adhesion: its order, bounds and energy."""
@@ -235,8 +233,6 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     la = adhesion_length_over_range * eps
     limit = criteria.h_rms_limit(1.0, la, eps, a_v)
     yield compare("threshold", criteria.violano(limit, 1.0, la, eps, a_v).margin, 1)
-    ratio = criteria.traction_ratio(1.0, 1.0, la, eps, a_v)
-    yield compare("modulus", criteria.modulus_threshold(1.0, 1.0, la, eps, a_v), ratio)
     margin = 75 / 4 / adhesion_length_over_range
     yield compare("DMT range", criteria.dmt_validity(1.0, 1.0, la, eps).margin, margin)
     energy = integrate_band(0.8, 64, 1) / integrate_band(0.8, 64, 0) / 4

@@ -264,7 +264,11 @@ def test_the_page_has_every_case_and_source(made, dataset):
     for case in described["cases"]:
         (row,) = (line for line in page.splitlines() if f"| {case['case']} |" in line)
         assert all(case[key] in row for key in ("observed", "predicted", "outcome", "depends"))
-    for text in (described["counts"], "- soft ball: the color of the ball", "- hard plate: no sou"):
+    for text in (
+        f"overlap with {described['counts'][2]} of ",
+        "- soft ball: the color of the ball",
+        "- hard plate: no sou",
+    ):
         assert text in page
     assert "nan" not in page.lower()
 
