@@ -10,8 +10,7 @@ import pytest
 from helpers.jobs import make_job
 
 from stability import plot_stability, probe_stability
-from stability.closed_forms import THICK, layer_response
-from stability.components import COMPONENTS, check
+from stability.components import COMPONENTS, THICK, check, layer_response
 from stability.probe_stability import FAILED, REFUSED, RIGHT, UNCONVERGED, probe_point
 from stickiness import datasets, spectrum
 from stickiness.adhesive import Exponential
