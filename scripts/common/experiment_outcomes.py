@@ -21,17 +21,13 @@ QUANTITIES = {
     "work_of_separation": ("work of separation", "J/m²"),
     "sticks": ("sticks", None),
 }
-INPUTS = {
+INPUTS = {  # where words are not those of the key
     "radius": "radius of the sphere",
     "plane_strain_modulus": "modulus",
     "youngs_modulus": "modulus",
     "poisson_ratio": "Poisson's ratio",
-    "work_of_adhesion": "work of adhesion",
     "range": "range of the attraction",
     "hurst": "Hurst exponent",
-    "longest_wavelength": "longest wave",
-    "rolloff_wavelength": "roll-off",
-    "shortest_wavelength": "shortest wave",
     "h_rms": "rms height",
 }
 LEAST_EFFECT = 1.1  # factor by which an input must change a prediction to be named
@@ -43,11 +39,16 @@ def describe(dataset, experiments=None):
     """All that a page shows of the experiments; by default, those that the dataset was made of."""
     experiments = experiments or datasets.parameters(dataset)["experiments"]
     tested = dataset.isel(case=dataset.tests.values == 1)  # published, and no mere relations
+    missed = {name.split("/")[0] for name in dataset.case.values[dataset.outcome.values == MISSED]}
     return {
         "cases": [describe_case(dataset.sel(case=c), experiments) for c in dataset.case.values],
         "counts": np.bincount(tested.outcome.values, minlength=len(OUTCOMES)).tolist(),
         "values_inside": int(tested.value_inside.sum()),
-        "missed": explain_misses(dataset, experiments),
+        "missed": {
+            entry.get("short", entry["label"]): entry.get("missed", "no reason was found")
+            for name, entry in experiments.items()
+            if name in missed
+        },
         "sources": list(experiments.values()),
     }
 
@@ -102,14 +103,4 @@ def describe_effect(name, effect):
     if effect < LEAST_EFFECT:
         return "no unknown input"
     factor = "from none to some" if effect > MOST_EFFECT else f"factor {number(effect, 2)}"
-    return f"{INPUTS[name]} ({factor})"
-
-
-def explain_misses(dataset, experiments):
-    """Reason looked for, by the label of every experiment with a case that was missed."""
-    missed = {name.split("/")[0] for name in dataset.case.values[dataset.outcome.values == MISSED]}
-    return {
-        entry.get("short", entry["label"]): entry.get("missed", "no reason was found")
-        for name, entry in experiments.items()
-        if name in missed
-    }
+    return f"{INPUTS.get(name, name.replace('_', ' '))} ({factor})"

@@ -143,13 +143,9 @@ class Observation:
 @cache
 def describe_shape(hurst, longest, shortest, rolloff=None):
     """`MOMENTS` of a self-affine spectrum of unit rms height, wavelengths in m, and its a_V."""
-    spectrum = SelfAffine(
-        hurst=hurst,
-        q0=2 * np.pi / longest,
-        q1=2 * np.pi / shortest,
-        h_rms=1.0,
-        q_rolloff=None if rolloff is None else 2 * np.pi / rolloff,
-    )
+    waves = {"q0": longest, "q1": shortest, "q_rolloff": rolloff}
+    band = {name: 2 * np.pi / wave for name, wave in waves.items() if wave is not None}
+    spectrum = SelfAffine(hurst=hurst, h_rms=1.0, **band)
     known = describe_surface(spectrum)
     return tuple(known[name] for name in MOMENTS), surface_a_v(spectrum, known)
 

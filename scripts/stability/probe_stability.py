@@ -55,6 +55,7 @@ def map_validity(probe, values):
     data = {name: ([*values], column) for name, column in zip(RESULTS, columns, strict=True)}
     dataset = xr.Dataset(data, coords={name: list(each) for name, each in values.items()})
     dataset["outcome"] = dataset.outcome.astype("i1")
+    dataset["text"] = dataset.text.str.replace(r"\s+", " ").str.slice(0, LONGEST)
     labels = {name: ("1", LABELS[name]) for name in values}
     dataset = datasets.annotate(dataset, **RESULTS, **labels)
     dataset.outcome.attrs |= datasets.flags(OUTCOMES)
@@ -76,21 +77,17 @@ def probe_point(probe, **point):
             warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             names, excess = zip(*probe(**point), strict=True)
     except ConvergenceError as error:  # of adhesive contact, too
-        return UNCONVERGED, np.nan, shorten(error)
+        return UNCONVERGED, np.nan, str(error)
     except Exception as error:  # whatever it is belongs on the map
         *_, last = traceback.extract_tb(error.__traceback__)
         in_library = Path(last.filename).is_relative_to(Path(stickiness.__file__).parent)
         outcome = REFUSED if isinstance(error, ValueError) and in_library else FAILED
-        return outcome, np.nan, shorten(f"{type(error).__name__}: {error}")
+        return outcome, np.nan, f"{type(error).__name__}: {error}"
     # A NaN must not hide behind a comparison that is false.
     excess = np.where(np.isfinite(excess), excess, np.inf)
     worst = int(np.argmax(excess))
     outcome = RIGHT if excess[worst] <= 1 else FAILED
     return outcome, excess[worst] if np.isfinite(excess[worst]) else np.nan, names[worst]
-
-
-def shorten(text):
-    return " ".join(str(text).split())[:LONGEST]
 
 
 if __name__ == "__main__":
