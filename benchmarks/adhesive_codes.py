@@ -26,50 +26,25 @@ import numpy as np
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a code found and how long it took.
+    """What a code found and how long it took."""
 
-    Attributes
-    ----------
-    gap : numpy.ndarray
-        Gap, exactly zero in contact.
-    seconds : float
-        Processor time of all solutions.
-    iterations : int or None
-        As the code counts them, or evaluations of the energy.
-    solves : int
-        Solutions it took to meet the load.
-    last : float or None
-        Processor time of the last of several solutions: what the code would take if it were told
-        the mean gap that belongs to the load.
-    """
-
-    gap: np.ndarray
-    seconds: float
-    iterations: int | None
-    solves: int = 1
+    gap: np.ndarray  # exactly zero in contact
+    seconds: float  # processor time of all solutions
+    iterations: int | None  # as the code counts them, or evaluations of the energy
+    solves: int = 1  # solutions it took to meet the load
+    # Processor time of the last of several solutions: what the code would take if it were told the
+    # mean gap that belongs to the load.
     last: float | None = None
 
 
 @dataclass(frozen=True)
 class Assessment:
-    """Measures of a solution that do not depend on the code it comes from.
+    """Measures of a solution that do not depend on the code it comes from."""
 
-    Attributes
-    ----------
-    residual : float
-        Largest violation of the conditions of equilibrium over the strength of the law.
-    energy : float
-        Total potential energy per area over E* and the rms height; tells branches apart.
-    contact : float
-        Share of points without a gap.
-    attractive : float
-        Share of points with a gap between zero and the range of the law.
-    """
-
-    residual: float
-    energy: float
-    contact: float
-    attractive: float
+    residual: float  # largest violation of the conditions of equilibrium over the law's strength
+    energy: float  # total potential energy per area over E* and rms height; tells branches apart
+    contact: float  # share of points without a gap
+    attractive: float  # share of points with a gap between zero and the range of the law
 
 
 def assess(gap, heights, length, law, pressure):

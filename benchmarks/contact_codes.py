@@ -9,6 +9,7 @@ without other jobs would take.
 import time
 import warnings
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -95,20 +96,11 @@ def contact_mechanics(heights, length, pressure, tol):
     return Run(np.abs(force) * heights.size / length**2, seconds, result.nit, 2 * result.nit + 1)
 
 
-def aspher(heights, length, pressure, tol):
+def aspher(heights, length, pressure, tol, precision="double"):
     """Run ASPHER on nested grids with its spectral periodic half-space.
 
     It makes its operators inside the call that is timed; they are a small part.
     """
-    return _aspher(heights, length, pressure, tol, "double")
-
-
-def aspher_mixed(heights, length, pressure, tol):
-    """Run ASPHER in single precision until that no longer pays, then in double."""
-    return _aspher(heights, length, pressure, tol, "float_then_double")
-
-
-def _aspher(heights, length, pressure, tol, precision):
     from aspher import solve_nested
 
     begin = time.process_time()
@@ -128,7 +120,8 @@ def _aspher(heights, length, pressure, tol, precision):
 CODES = {
     "stickiness": stickiness,
     "aspher": aspher,
-    "aspher_mixed": aspher_mixed,
+    # In single precision until that no longer pays, then in double.
+    "aspher_mixed": partial(aspher, precision="float_then_double"),
     "tamaas": tamaas,
     "contactmechanics": contact_mechanics,
 }

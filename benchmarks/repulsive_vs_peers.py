@@ -29,15 +29,6 @@ from stickiness import spectrum, surface  # noqa: E402
 OURS = "stickiness"
 Q0 = 2 * np.pi
 TIGHTER = 4  # runs at tighter and tighter tolerances until the error is met
-FORMATS = {
-    "seconds": "{:.3f}",
-    "pairs": "{:.1f}",
-    "error": "{:.1e}",
-    "area": "{:.5f}",
-    "area_off": "{:.1e}",
-    "gap_off": "{:.1e}",
-    "ratio": "{:.1f}",
-}
 
 
 def options():
@@ -121,8 +112,8 @@ def main():
             table[f"{name}_off"] = abs(table[name] / table[name][0] - 1)
         table["ratio"] = table.seconds / table.seconds[0]
         tables.append(table)
-        shown = {name: form.format for name, form in FORMATS.items()}
-        print(table.drop(columns="gap").to_string(index=False, formatters=shown), flush=True)
+        shown = table.drop(columns="gap")
+        print(shown.to_string(index=False, float_format="{:.4g}".format), flush=True)
     found = pd.concat(tables)
     if chosen.output:
         found.to_csv(chosen.output, index=False, float_format="%.6g")

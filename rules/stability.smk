@@ -1,8 +1,7 @@
 # Where each part of the library is right, refuses, or fails, at the extremes of two parameters.
 # Independent of fidelity and cases.
 
-COMPONENTS = ["spectrum", "surface", "wave", "contact", "adhesion", "paths", "theory", "PSD"]
-COMPONENTS += ["criteria", "verdict", "layer", "layer-contact"]
+COMPONENTS = ["surface", "contact", "adhesion", "paths", "theory", "PSD", "criteria", "layer"]
 
 
 rule probe_stability:

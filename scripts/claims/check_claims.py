@@ -2,25 +2,23 @@
 
 from pathlib import Path
 
+import pandas as pd
 import xarray as xr
 
-from claims import adhesion_claims, contact_claims, criterion_claims, errata, remaining_claims
+from claims import adhesion_claims, contact_claims, criterion_claims, errata
 from claims.ledger import collect
 from common import remaining_table
 from common.job import start
 from common.templates import make_environment, write_page
 from stickiness import datasets, error_budget
 
-CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims, remaining_claims)
+CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims)
 PROSE = ("statement", "quantity", "remark", "comment")
 COLUMNS = {
+    "claim": ("1", "number of the claim"),
     "statement": ("1", "what the paper claims"),
     "quantity": ("1", "what the value is, with its unit"),
-    "value": (
-        "1",
-        "measured value, in the unit that `quantity` names",
-        "nothing was known well enough",
-    ),
+    "value": ("1", "measured value, in the unit of `quantity`", "nothing was known well enough"),
     "comment": ("1", "what the errors are, or why they are not known or do not apply"),
     "claimed": ("1", "the paper's value", "the paper gives none"),
     "verdict": ("1", "verdict"),
@@ -30,31 +28,18 @@ COLUMNS = {
 
 
 def main(job):
-    paths = find_paths(job.input, CLAIMS)
+    inputs, recomputed = job.input, errata.recompute()
+    paths = {name: inputs[name] for claim in CLAIMS for name in claim.files}
     files = {name: read(path) for name, path in paths.items()}
-    recomputed = errata.recompute()
-    rows = [examine(claim, files, paths, job.input.prose) for claim in CLAIMS]
-    datasets.write(
-        to_dataset(rows),
-        job.output.dataset,
-        title="claims of the paper, recomputed",
-        parameters={"errata": recomputed},
-    )
-    write_page(job.input.page, job.output.table, claims=rows, recomputed=recomputed)
-
-
-def find_paths(inputs, claims):
-    """Paths, or lists of paths, by the names that the claims use."""
-    wanted = {name: claim.number for claim in claims for name in claim.files}
-    for name in wanted.keys() - inputs.keys():
-        raise ValueError(
-            f"claim {wanted[name]} reads {name!r}, which the rule check_claims does not give; it "
-            f"gives {', '.join(sorted(inputs.keys()))}: add the file to ledger_inputs in rules/"
-        )
-    return {name: inputs[name] for name in wanted}
+    rows = [examine(claim, files, paths, inputs.prose) for claim in CLAIMS]
+    title = "claims of the paper, recomputed"
+    parameters = {"errata": recomputed}
+    datasets.write(to_dataset(rows), job.output.dataset, title=title, parameters=parameters)
+    write_page(inputs.page, job.output.table, claims=rows, recomputed=recomputed)
 
 
 def read(path):
+    """Dataset or table of a path, or a list of them."""
     if not isinstance(path, str):
         return [read(one) for one in path]
     return remaining_table.read(path) if path.endswith(".csv") else datasets.read(path)
@@ -70,11 +55,8 @@ def examine(claim, files, paths, prose):
     sources = [one for group in groups for one in ([group] if isinstance(group, str) else group)]
     return {
         "number": claim.number,
-        "value": finding.value,
-        "claimed": finding.claimed,
-        "errors": finding.errors,
+        **{name: getattr(finding, name) for name in ("value", "claimed", "errors", "verdict")},
         "uncertainty": finding.uncertainty,
-        "verdict": finding.verdict,
         "sources": list(dict.fromkeys(sources)),
         **{name: " ".join(str(getattr(texts, name)).split()) for name in PROSE},
     }
@@ -82,15 +64,15 @@ def examine(claim, files, paths, prose):
 
 def to_dataset(rows):
     """Claims by number, with the error budget of their values."""
-    columns = {name: ("claim", [row[name] for row in rows]) for name in COLUMNS}
-    columns["sources"] = "claim", [" ".join(row["sources"]) for row in rows]
-    dataset = xr.Dataset(columns, coords={"claim": [row["number"] for row in rows]})
-    dataset = datasets.annotate(dataset, claim=("1", "number of the claim"), **COLUMNS)
-    parts = {}
-    for source in error_budget.SOURCES:
-        error = xr.DataArray([row["errors"].get(source, 0.0) for row in rows], dims="claim")
-        parts[source] = error_budget.ErrorComponent(error, "see the comment of each claim")
-    return error_budget.with_budget(dataset, "value", **parts)
+    frame = pd.DataFrame(rows).rename(columns={"number": "claim"}).set_index("claim")
+    frame["sources"] = frame.sources.str.join(" ")
+    dataset = xr.Dataset(frame[[name for name in COLUMNS if name != "claim"]])
+    none = dict.fromkeys(error_budget.SOURCES, 0.0)
+    errors = pd.DataFrame([none | given for given in frame.errors], frame.index)
+    errors = xr.DataArray(errors.rename_axis(columns="source"))
+    texts = dict.fromkeys(error_budget.SOURCES, "see the comment of each claim")
+    dataset = datasets.annotate(dataset, **COLUMNS)
+    return error_budget.with_budget(dataset, "value", **error_budget.split(errors, texts))
 
 
 if __name__ == "__main__":

@@ -1,13 +1,20 @@
-"""Claims on the criterion and its predictions for real surfaces, and on spectral moments."""
+"""Claims on the criterion and on what sticks: formulas, real surfaces, experiments, moments.
+
+Claims from 19 on compare with the adhesion that remains.
+"""
 
 import numpy as np
+from scipy.optimize import brentq
 
-from claims.ledger import Finding, claim, describe_cell, grade
+from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Finding, claim, describe_cell, grade
+from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.area_load import JTB_CONSTANT
+from stickiness.remaining import Roughness, predict
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
@@ -18,34 +25,36 @@ EXAMPLES = np.array([1e-6, 1e-9, 1e-12])  # range q0
 PRINTED_LIMITS = np.array([1000.0, 67000.0, 1e6])  # h_rms/range of these
 PRINTED_MODULUS = 0.2  # MPa, of a block that sticks to asphalt
 UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
+NEGLIGIBLE = 0.1  # relative change of the remaining share that does not count
+COARSE, FINE = 4, 32  # magnifications of the same long waves
+ZONE = 0.1  # q0 range^2/l_a, of both
+BROAD, BROADEST = 1e3, 1e6  # magnifications that theory compares: the paper has up to 1e3 and more
+PAPER = "violano"  # the paper's criterion
+RUBBER = "fuller_tabor/one_MPa"
 
 
-@claim(12, "map")
-def slope_angle(files):
-    m = files["map"].sortby("slope_parameter")
-    a_v = datasets.parameters(m)["slope_a_v"]
-    crossing = []
-    for parameter in m.slope_parameter.values:
-        angle = m.slope_angle.sel(slope_parameter=parameter)
-        crossing.append(float(np.interp(-90, -angle.values, m.h_rms_over_range.values)))
+@claim(12)
+def slope_angle(map):
+    m, made = map.sortby("slope_parameter"), datasets.parameters(map)
+    a_v, roughness = made["slope_a_v"], m.h_rms_over_range.values
+    angles = m.slope_angle.transpose("slope_parameter", ...).values
+    crossing = np.array([np.interp(-90, -angle, roughness) for angle in angles])
     expected = criteria.h_rms_limit(m.slope_parameter.values, 1.0, 1.0, a_v)
-    worst = float(np.max(np.abs(np.array(crossing) / expected - 1)))
-    found = m.h_rms_limit_edges.notnull()
+    worst = float(np.max(np.abs(crossing / expected - 1)))
     ratio = m.h_rms_limit / m.h_rms_limit_edges
+    weak = m.h_rms_limit_edges > m.weak_limit
     return Finding(
-        value=crossing[-1],
-        claimed=float(expected[-1]),
-        verdict=grade(False, worst < 0.01),
+        crossing[-1],
+        grade(False, worst < 0.01),
+        claimed=expected[-1],
         errors={"discretisation": worst * crossing[-1]},
-        facts={
-            "parameter": m.slope_parameter[-1],
-            "worst": worst,
-            "a_v": a_v,
-            "largest_dmt": largest_dmt(a_v),
-            "shortest": datasets.parameters(m)["shortest_over_range"],
-            "weak": (m.h_rms_limit_edges > m.weak_limit).where(found).mean(),
-            "dmt_ratio": (ratio.min(), ratio.max()),
-        },
+        parameter=m.slope_parameter[-1],
+        worst=worst,
+        a_v=a_v,
+        largest_dmt=largest_dmt(a_v),
+        shortest=made["shortest_over_range"],
+        weak=weak.where(m.h_rms_limit_edges.notnull()).mean(),
+        dmt_ratio=(ratio.min(), ratio.max()),
     )
 
 
@@ -55,111 +64,98 @@ def largest_dmt(a_v):
     return (1.5 * a_v / JTB_CONSTANT) ** 1.5
 
 
-@claim(13, "map")
-def roughness_limits(files):
-    a_v, low, high = measured_a_v(files["map"])
+@claim(13)
+def roughness_limits(map):
     printed, derived, low, high = (
-        criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, value)
-        for value in (criteria.PRINTED_A_V, a_v, low, high)
+        criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, a_v) for a_v in list_a_v(map)
     )
     close = np.abs(printed / PRINTED_LIMITS - 1) < 0.1
     return Finding(
-        value=float(printed[1]),
+        printed[1],
+        grade(bool(close.all()), bool(close[:2].all())),
         claimed=PRINTED_LIMITS[1],
-        verdict=grade(bool(close.all()), bool(close[:2].all())),
-        facts={
-            "printed": printed,
-            "a_v": a_v,
-            "derived": derived,
-            "errors": [low[1] / derived[1] - 1, high[1] / derived[1] - 1],
-        },
+        printed=printed,
+        a_v=map.a_v,
+        derived=derived,
+        changes=[limit[1] / derived[1] - 1 for limit in (low, high)],
     )
 
 
-def measured_a_v(m):
-    """a_V of the derived criterion with its low and high end."""
-    return tuple(float(m[name]) for name in ("a_v", "a_v_low", "a_v_high"))
+def list_a_v(map):
+    """a_V of the printed criterion, and of the derived one with its low and high end."""
+    return criteria.PRINTED_A_V, *(float(map[name]) for name in ("a_v", "a_v_low", "a_v_high"))
 
 
-@claim(14, "asphalt", "map", "measured_surfaces")
-def real_surfaces(files):
+@claim(14)
+def real_surfaces(asphalt, map, measured_surfaces):
     # Rms height of the example, by the power law down to no cutoff.
-    rough = files["asphalt"].sel(end="rough")
+    rough = asphalt.sel(end="rough")
     q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
     h_rms = float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst)
-    a_v = measured_a_v(files["map"])
-    printed, derived, low, high = (
-        criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, value) / 1e6
-        for value in (criteria.PRINTED_A_V, *a_v)
+    printed, *derived = (
+        criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, a_v) / 1e6
+        for a_v in list_a_v(map)
     )
     # Only measured spectra can test the line, not parameters that somebody assumed.
-    measured = files["measured_surfaces"]
-    heights = [float(data.C0_reference_upper.max()) / UPPER_LINE for data in measured]
-    under = [float(data.C0_reference_upper.max()) <= UPPER_LINE for data in measured]
+    heights = [float(data.C0_reference_upper.max()) / UPPER_LINE for data in measured_surfaces]
+    under = bool(heights) and max(heights) <= 1
+    labels = [datasets.parameters(data)["label"] for data in measured_surfaces]
     close = abs(printed / PRINTED_MODULUS - 1) < 0.1
     return Finding(
-        value=printed,
+        printed,
+        grade(close and under, close),
         claimed=PRINTED_MODULUS,
-        verdict=grade(close and bool(under) and all(under), close),
-        facts={
-            "a_v": a_v[0],
-            "derived": (derived, low, high),
-            "measured": [
-                (datasets.parameters(data)["label"], height)
-                for data, height in zip(measured, heights, strict=True)
-            ],
-        },
+        a_v=map.a_v,
+        derived=derived,
+        measured=list(zip(labels, heights, strict=True)),
     )
 
 
-@claim(15, "verdicts", "polished_steel")
-def polished_steel(files):
-    steel, verdicts = files["polished_steel"].sel(end="rough"), files["verdicts"]
+@claim(15)
+def polished_steel(verdicts, polished_steel):
+    steel = polished_steel.sel(end="rough")
     h, q0 = float(steel.h_rms), float(steel.q0)
     margin = verdicts.jtb_margin.sel(surface="polished_steel", end="rough").sortby("material")
     satisfied = bool((margin > 1).all())
     margins = list(zip(margin.material.values, margin.values, strict=True))
     return Finding(
-        value=float(margin.min()),
-        verdict=grade(satisfied and abs(q0 * h / 0.1 - 1) < 0.1, satisfied),
-        facts={
-            "slope": q0 * h,
-            "crystal": criteria.dmt_validity(h, q0, CRYSTAL * RANGE, RANGE).margin,
-            "ratio": CRYSTAL,
-            "range": RANGE,
-            "within": [pair for pair in margins if pair[1] > 1],
-            "outside": [pair for pair in margins if pair[1] <= 1],
-        },
+        margin.min(),
+        grade(satisfied and abs(q0 * h / 0.1 - 1) < 0.1, satisfied),
+        slope=q0 * h,
+        crystal=criteria.dmt_validity(h, q0, CRYSTAL * RANGE, RANGE).margin,
+        ratio=CRYSTAL,
+        range=RANGE,
+        within=[pair for pair in margins if pair[1] > 1],
+        outside=[pair for pair in margins if pair[1] <= 1],
     )
 
 
 @claim(16)
-def crystal_strength(files):
+def crystal_strength():
     law = adhesive.LennardJones(adhesion_length=1.0, range=1.0)
-    gaps = np.linspace(0, 2, 200001)
-    strength = float(law.traction(gaps).max())
-    ratio = law.maugis_stress / strength
+    gaps, expected = np.linspace(0, 2, 200001), 9 * np.sqrt(3) / 16
+    ratio = law.maugis_stress / float(law.traction(gaps).max())
     return Finding(
-        value=float(ratio),
-        claimed=9 * np.sqrt(3) / 16,
-        verdict=grade(abs(ratio / (9 * np.sqrt(3) / 16) - 1) < 1e-6, False),
+        ratio,
+        grade(abs(ratio / expected - 1) < 1e-6, False),
+        claimed=expected,
         errors={"discretisation": float(gaps[1])},
-        # sigma_th is about E*/20, so that l_a/range = sigma0/E* = ratio/20.
-        facts={"length": ratio / 20},
+        length=ratio / 20,  # l_a/range = sigma0/E*, since sigma_th is about E*/20
     )
 
 
 @claim(17)
-def pastewka_robbins(files):
+def pastewka_robbins():
     hursts = np.array([0.5, 0.6, 0.7, 0.8])
     errors = [fractal_exponent(h, pastewka_robbins_a_v) - (5 * h - 3) / 3 for h in hursts]
     tough = [fractal_exponent(h, threshold_by_moments) - (1 - 2 * h) for h in hursts]
     worst = float(np.abs(errors).max())
     return Finding(
-        value=worst,
+        worst,
+        grade(worst < 1e-3, worst < 0.05),
         claimed=0.0,
-        verdict=grade(worst < 1e-3, worst < 0.05),
-        facts={"constant": criteria.PR_CONSTANT, "tough": np.abs(tough).max()},
+        constant=criteria.PR_CONSTANT,
+        tough=np.abs(tough).max(),
     )
 
 
@@ -182,9 +178,9 @@ def threshold_by_moments(s, range_=1e-30):
     )
 
 
-@claim(18, "seeds")
-def spectral_moments(files):
-    surfaces = [data.sel(seed=seed) for data in files["seeds"] for seed in data.seed]
+@claim(18)
+def spectral_moments(seeds):
+    surfaces = [data.sel(seed=seed) for data in seeds for seed in data.seed]
     ratios = np.array(
         [moment_ratios(data.height.values, float(data.window_length)) for data in surfaces]
     )
@@ -194,20 +190,18 @@ def spectral_moments(files):
     off = np.abs(ratios.mean(axis=0) - expected)  # x and y apart: a lay does not cancel
     # x and y are nearly independent for 3 m22/m4; for the others this overstates the error.
     error = single[:, 0] / np.sqrt(2)
-    mean, expected = ratios.mean(axis=(0, 2)), expected.mean(axis=1)
+    mean, lattice = ratios.mean(axis=(0, 2)), expected.mean(axis=1)
     return Finding(
-        value=float(mean[0]),
-        claimed=float(expected[0]),
-        verdict=grade(bool(np.all(off < 3 * single)), bool(np.all(off < 0.05))),
+        mean[0],
+        grade(bool(np.all(off < 3 * single)), bool(np.all(off < 0.05))),
+        claimed=lattice[0],
         errors={"sampling": students_t(len(surfaces)) * float(error[0])},
-        facts={
-            "surfaces": len(surfaces),
-            "hurst": datasets.parameters(surfaces[0])["hurst"],
-            "cell": describe_cell(surfaces[0]),
-            "mean": mean,
-            "error": error,
-            "lattice": expected,
-        },
+        surfaces=len(surfaces),
+        hurst=datasets.parameters(surfaces[0])["hurst"],
+        cell=describe_cell(surfaces[0]),
+        mean=mean,
+        error=error,
+        lattice=lattice,
     )
 
 
@@ -221,9 +215,140 @@ def moment_ratios(heights, length):
 
 
 def fixed_amplitudes(data):
-    """Surface whose modes have exactly the variances expected of those of `data`."""
-    surface = datasets.parameters(data)
-    length = cell_size(surface)
-    return synthesis.synthesise(
-        model_spectrum(surface), data.sizes["x"], length, 1, "fixed"
-    ), length
+    """Surface whose modes have exactly the variances expected of those of `data`, and its side."""
+    made = datasets.parameters(data)
+    n, length = data.sizes["x"], cell_size(made)
+    return synthesis.synthesise(model_spectrum(made), n, length, 1, "fixed"), length
+
+
+@claim(19)
+def sticky_roughness(map):
+    shortest = datasets.parameters(map)["shortest_over_range"]
+    value, low, high = (
+        np.array([find_roughness(q0, shortest, sign) for q0 in EXAMPLES]) for sign in (0, -1, 1)
+    )
+    inside = (low <= PRINTED_LIMITS) & (high >= PRINTED_LIMITS)
+    return Finding(
+        value[1],
+        grade(False, bool(inside.all())),
+        claimed=PRINTED_LIMITS[1],
+        errors={"model": float(max(high[1] - value[1], value[1] - low[1]))},
+        wanted=DEFAULT_SHARE,
+        shortest=shortest,
+        limits={"value": value, "low": low, "high": high},
+        times=PRINTED_LIMITS / value,
+        jtb=criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0),
+    )
+
+
+def find_roughness(range_times_q0, shortest, sign):
+    """h_rms/range at which the wanted share, or its low or high limit by `sign`, just remains."""
+    q1 = 2 * np.pi / shortest
+    unit = SelfAffine(hurst=0.8, q0=range_times_q0, q1=q1, h_rms=1.0).elastic_energy()
+
+    def excess(log_h):
+        h = np.exp(log_h)
+        rough = Roughness(h_rms=h, q0=range_times_q0, elastic_energy=unit * h**2)
+        return float(np.log(rough.threshold(1.0, sign=sign) / CRYSTAL))
+
+    return float(np.exp(brentq(excess, np.log(2.0), np.log(1e9))))
+
+
+@claim(20)
+def sticky_asphalt(asphalt):
+    rough, smooth = (asphalt.sel(end=end) for end in ("rough", "smooth"))
+    value, low, high = (find_modulus(rough, sign) for sign in (0, -1, 1))
+    limits = low, find_modulus(smooth, 1)
+    inside = limits[0] <= PRINTED_MODULUS <= limits[1]
+    length = WORK_OF_ADHESION / (PRINTED_MODULUS * 1e6)
+    return Finding(
+        value,
+        OPEN if inside else NOT,
+        claimed=PRINTED_MODULUS,
+        errors={"model": max(value - low, high - value)},
+        wanted=DEFAULT_SHARE,
+        c0=[rough.C0, smooth.C0],
+        smooth=find_modulus(smooth, 0),
+        limits=limits,
+        inside=inside,
+        jtb=criteria.dmt_validity(float(rough.h_rms), float(rough.q0), length, RANGE).margin,
+    )
+
+
+def find_modulus(surface, sign):
+    """Modulus [MPa] below which the wanted share of the paper's example remains on a surface."""
+    names = ("h_rms", "q0", "elastic_energy")
+    rough = Roughness(**{name: float(surface[name]) for name in names})
+    return float(WORK_OF_ADHESION / rough.threshold(RANGE, sign=sign) / 1e6)
+
+
+@claim(21)
+def truncation(remaining):
+    ratios = {hurst: compare(remaining, hurst) for hurst in (0.8, 0.5)}
+    smooth, rough = (float(np.mean(ratios[hurst])) for hurst in (0.8, 0.5))
+    late = [extend(hurst) - 1 for hurst in (0.8, 0.5)]
+    number = len(ratios[0.8])
+    scatter = np.std(ratios[0.8], ddof=1) / np.sqrt(number)
+    return Finding(
+        smooth,
+        grade(max(abs(1 - smooth), abs(1 - rough)) < NEGLIGIBLE, abs(late[0]) < NEGLIGIBLE),
+        claimed=1.0,
+        errors={"sampling": float(students_t(number) * scatter)},
+        coarse=COARSE,
+        fine=FINE,
+        rough=rough,
+        surfaces=sum(map(len, ratios.values())),
+        broad=(BROAD, BROADEST),
+        late=late,
+    )
+
+
+def extend(hurst):
+    """Predicted share with all waves up to `BROADEST` over that up to `BROAD`, range to nothing."""
+    broad = SelfAffine(hurst=hurst, q0=1.0, q1=BROADEST, h_rms=1.0)
+    narrow = broad.truncated(BROAD)
+    given = {"adhesion_length": narrow.elastic_energy(), "range": 1e-6}
+    return predict(broad, **given).separation / predict(narrow, **given).separation
+
+
+def compare(table, hurst):
+    """Energy gained with finer waves over that without, at one work of adhesion, by surface."""
+    rows = table[(table.hurst == hurst) & (table.window == 2) & np.isclose(table.zone, ZONE)]
+    ratios = []
+    for _, surface in rows[rows.magnification.isin([COARSE, FINE])].groupby("seed"):
+        coarse, fine = (surface[surface.magnification == zeta] for zeta in (COARSE, FINE))
+        work = float(coarse.full_contact_energy.iloc[0])
+        gained = [np.interp(work, one.adhesion_length, one.bound) for one in (coarse, fine)]
+        ratios.append(float(gained[1] / gained[0]))
+    return ratios
+
+
+@claim(22)
+def stickiness_of_experiments(experiments):
+    entries = datasets.parameters(experiments)["experiments"]
+    rubber = experiments.sel(case=RUBBER)
+    read = (experiments.tests == 1) & (experiments.observed_known == GRADES.index("read"))
+    codes = experiments.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
+    missed, some, compatible = (
+        [name_case(str(case), entries) for case in codes.case.values[codes.values == code]]
+        for code in (MISSED, SOME, COMPATIBLE)
+    )
+    # The worst outcome among the observations that were read from a publication.
+    worst = NOT if missed else QUALIFIED if some else REPRODUCED if compatible else OPEN
+    return Finding(
+        float(rubber.criterion_roughness.sel(criterion=PAPER)) * 1e6,
+        worst,
+        errors={"model": np.nan},
+        rubber=rubber,
+        missed=missed,
+        some=some,
+        compatible=compatible,
+        wanted=DEFAULT_SHARE,
+    )
+
+
+def name_case(case, experiments):
+    """Author and label of a case."""
+    experiment, name = case.split("/")
+    entry = experiments[experiment]
+    return f"{entry.get('short', entry['label'])} ({entry['cases'][name]['label']})"

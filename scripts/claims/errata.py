@@ -15,62 +15,40 @@ ASPHALT = {"q0": 1e3, "hurst": 0.8, "C0": 1e-3}  # the paper's, SI
 
 def recompute():
     """Numbers that the statements quote or compare, by the number of the erratum."""
-    return {
-        # Dimension in lengths of (l_a)^k h_rms^(3/2) R^(-1/2).
-        "1": {
-            f"length_exponent_{name}": k + 3 / 2 - 1 / 2
-            for name, k in (("printed", 1), ("correct", -1))
-        },
-        "2": _compare_coefficients(),
-        "3": _compare_closed_forms(),
-        # Powers of pressure in (B^2/2) p sqrt(2/(pi V^k)), V a variance of pressure; a length of
-        # edge per area has none.
-        "4": {
-            f"pressure_exponent_{name}": 2 + 1 - 2 * k / 2
-            for name, k in (("printed", 3 / 2), ("correct", 3))
-        },
-        "5": {
-            "h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, 0.05, 1.0, formulas.PRINTED_A_V)
-        },
-        "6": _compare_pastewka_robbins(),
-    }
-
-
-def _compare_coefficients():
-    numbers = {
-        "coefficient_printed": 1.5 * formulas.PRINTED_A_V,
-        "coefficient_derived": 1.5 * MEASURED_A_V,
-    }
+    a_v = {"printed": formulas.PRINTED_A_V, "derived": MEASURED_A_V}
+    second = {f"coefficient_{name}": 1.5 * value for name, value in a_v.items()}
     q0, hurst = ASPHALT["q0"], ASPHALT["hurst"]
     h_rms = np.sqrt(np.pi * ASPHALT["C0"] / hurst) * q0**-hurst
-    for name, a_v in (("printed", formulas.PRINTED_A_V), ("derived", MEASURED_A_V)):
+    for name, value in a_v.items():
         for exponent in (6, 9, 12):
-            limit = formulas.h_rms_limit(10.0**-exponent, 0.05, 1.0, a_v)
-            numbers[f"h_over_range_limit_{name}_1e-{exponent}"] = limit
-        threshold = formulas.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, a_v)
-        numbers[f"asphalt_modulus_Pa_{name}"] = threshold
-    return numbers
-
-
-def _compare_closed_forms():
+            limit = formulas.h_rms_limit(10.0**-exponent, 0.05, 1.0, value)
+            second[f"h_over_range_limit_{name}_1e-{exponent}"] = limit
+        threshold = formulas.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, value)
+        second[f"asphalt_modulus_Pa_{name}"] = threshold
     # Edge in units u = x^(3/2): the strip up to gap u is x = u^(2/3) wide, so that its density is
     # f u^(-1/3) with f the integral of u^(1/3) (dx/du) du over a unit of gap.
     edge = quad(lambda u: u ** (1 / 3) * (2 / 3) * u ** (-1 / 3), 0, 1)[0]
     printed = (4 / 9) ** (1 / 3)
-    return {
-        "edge_factor_printed": printed,
-        "edge_factor_correct": edge,
-        "beta_exponent_printed": -8 / 3,
-        "beta_exponent_correct": 2 - 2 / 3,  # perimeter ~ B^2, strip ~ C^(-2/3), B and C ~ beta
-        "printed_over_correct_at_beta_1": 1.5 * printed / edge,
-    }
-
-
-def _compare_pastewka_robbins():
-    numbers = {}
-    ratios = {"ratio_exact": formulas.CRYSTAL_RANGE_RATIO, "ratio_1.1": 1.1, "ratio_1": 1.0}
-    for name, ratio in ratios.items():
-        numbers[f"prefactor_{name}"] = formulas.pastewka_robbins_a_v(1.0, 1.0, 1.0, 1.0, ratio)
+    sixth = {}
+    for name, ratio in {"exact": formulas.CRYSTAL_RANGE_RATIO, "1.1": 1.1, "1": 1.0}.items():
+        sixth[f"prefactor_ratio_{name}"] = formulas.pastewka_robbins_a_v(1, 1, 1, 1, ratio)
         # At zeta = 1 the power zeta^((5H - 3)/3) is 1 and the broad-band form is its prefactor.
-        numbers[f"power_law_{name}"] = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
-    return numbers
+        found = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
+        sixth[f"power_law_ratio_{name}"] = found
+    return {
+        # Dimension in lengths of (l_a)^k h_rms^(3/2) R^(-1/2).
+        "1": {f"length_exponent_{n}": k + 1.0 for n, k in (("printed", 1), ("correct", -1))},
+        "2": second,
+        "3": {
+            "edge_factor_printed": printed,
+            "edge_factor_correct": edge,
+            "beta_exponent_printed": -8 / 3,
+            "beta_exponent_correct": 2 - 2 / 3,  # perimeter ~ B^2, strip ~ C^(-2/3), B, C ~ beta
+            "printed_over_correct_at_beta_1": 1.5 * printed / edge,
+        },
+        # Powers of pressure in (B^2/2) p sqrt(2/(pi V^k)), V a variance of pressure; a length of
+        # edge per area has none.
+        "4": {f"pressure_exponent_{n}": 3 - k for n, k in (("printed", 1.5), ("correct", 3.0))},
+        "5": {"h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, 0.05, 1.0, a_v["printed"])},
+        "6": sixth,
+    }

@@ -1,12 +1,13 @@
-"""The ledger of claims: which files test a claim, and what they say about it.
+"""The shape of a claim: a value, its errors, and a verdict on it by a criterion.
 
-A claim is a function from files by name (datasets, lists of them or tables) to a `Finding`,
-decorated with `claim`. It takes every number from a file or a closed form. Its statement and remark
-are in ``report/claims.j2``.
+A claim is a function from the files that its parameters name (datasets, lists of them or tables) to
+a `Finding`. It takes every number from a file or a closed form. Its statement and remark are in
+``report/claims.j2``.
 """
 
+import inspect
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,20 +21,17 @@ OPEN = "not decided"
 VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
 
 
-@dataclass(frozen=True, kw_only=True)
 class Finding:
-    """What the files say about a claim."""
+    """What the files say about a claim.
 
-    value: float
-    verdict: str  # one of `VERDICTS`
-    claimed: float = np.nan  # the paper's value, NaN if it gives none
-    # By source, each covering 90 %; NaN if not known. A source that does not apply is left out.
-    errors: dict = field(default_factory=dict)
-    facts: dict = field(default_factory=dict)  # further numbers and names for the remark
+    `claimed` is the paper's value, NaN if it gives none. `errors`, by source, cover 90 % each; NaN
+    if not known, left out if a source does not apply. `facts` are further numbers and names for the
+    remark.
+    """
 
-    def __post_init__(self):
-        if unknown := {*self.errors} - {*SOURCES} or {self.verdict} - {*VERDICTS}:
-            raise ValueError(f"{unknown} is neither an error source nor a verdict")
+    def __init__(self, value, verdict, claimed=np.nan, errors=None, **facts):
+        self.value, self.verdict, self.claimed = float(value), verdict, float(claimed)
+        self.errors, self.facts = errors or {}, facts
 
     @property
     def uncertainty(self):
@@ -43,31 +41,29 @@ class Finding:
 
 @dataclass(frozen=True)
 class Claim:
-    """A claim of the paper: its number, the files that test it, and the test."""
+    """A claim of the paper by its number, and the function that tests it."""
 
     number: int
-    files: tuple[str, ...]  # as the rule names them; the file of the value comes first
     examine: Callable
+
+    @property
+    def files(self):
+        """Names of the files that it reads; the file of the value comes first."""
+        return tuple(inspect.signature(self.examine).parameters)
 
     def __call__(self, files):
         """Examine the claim with its files out of all."""
-        return self.examine({name: files[name] for name in self.files})
+        return self.examine(*(files[name] for name in self.files))
 
 
-def claim(number, *files):
-    return lambda examine: Claim(number, files, examine)
+def claim(number):
+    return lambda examine: Claim(number, examine)
 
 
 def collect(*topics):
-    """Claims of some modules, sorted by number; ValueError unless they run from 1 on."""
+    """Claims of some modules by number."""
     claims = [found for topic in topics for found in vars(topic).values() if type(found) is Claim]
-    claims.sort(key=lambda found: found.number)
-    for position, found in enumerate(claims, 1):
-        if found.number < position:
-            raise ValueError(f"two claims have the number {found.number}: give each its own")
-        if found.number > position:
-            raise ValueError(f"no claim has the number {position}: numbers run from 1 without gaps")
-    return tuple(claims)
+    return sorted(claims, key=lambda found: found.number)
 
 
 def grade(fully, partly):

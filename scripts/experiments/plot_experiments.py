@@ -10,8 +10,10 @@ from common.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 
-NEEDED = ("quantity", "h_rms", "criterion_outcome", "criterion_roughness", "pull_off_curve")
+NEEDED = ("quantity", "predicted", "criterion_outcome", "criterion_roughness", "pull_off_curve")
 FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
+OBSERVED = ("observed_low", "observed_high")
+PREDICTED = ("predicted_lowest", "predicted", "predicted_highest")
 WORKS = ("work_of_approach", "work_of_separation")
 LEAST_SHOWN = 0.005  # relative pull-off
 NOTHING = 1e-4  # mJ/m^2, where what is predicted or observed to be none is drawn
@@ -45,52 +47,42 @@ def draw_pull_off(ax, dataset, experiments):
             at = float(case.criterion_roughness.sel(criterion=criterion)) * 1e6
             ax.plot(at, 2 * LEAST_SHOWN, marker, color=colour, mfc="white")
     handles, _ = ax.get_legend_handles_labels()
-    keys = [
-        make_key("observed", linewidth=5),
-        make_dot("limit by the paper", marker="v", mfc="white"),
-        make_dot("onset, finest wave", marker="^", mfc="white"),
-    ]
-    ax.legend(handles=[*handles, *keys], loc="upper right", fontsize=7, bbox_to_anchor=(1, 0.95))
+    handles += [make_key("observed", linewidth=5)]
+    handles += [make_dot("limit by the paper", marker="v", mfc="white")]
+    handles += [make_dot("onset, finest wave", marker="^", mfc="white")]
+    ax.legend(handles=handles, loc="upper right", fontsize=7, bbox_to_anchor=(1, 0.95))
     ax.set(xscale="log", yscale="log", xlim=(0.07, 300), ylim=(LEAST_SHOWN, 3))
     ax.set(xlabel="rms height [µm]", ylabel="pull-off over that from a smooth surface")
 
 
 def draw_observed(ax, case, colour):
     """What was observed: a range of roughness at its level, or of pull-off at its roughness."""
-    observed = case["quantity"].item()
-    limits = find_observed(case, observed)
-    if observed == "limiting_roughness":
-        at, curve = float(case.limiting_roughness), case.pull_off_curve.values
-        x, y = limits * 1e6, [np.interp(at, case.roughness.values, curve)] * 2
+    limits = [case[name].item() for name in OBSERVED]
+    if case["quantity"].item() == "limiting_roughness":
+        at, curve = float(case.predicted), case.pull_off_curve.values
+        x, y = np.multiply(limits, 1e6), [np.interp(at, case.roughness.values, curve)] * 2
     else:
         x, y = [float(case.h_rms) * 1e6] * 2, np.maximum(limits, LEAST_SHOWN)
     ax.plot(x, y, color=colour, linewidth=5, solid_capstyle="butt")
-
-
-def find_observed(case, name):
-    return np.array([float(case[f"observed_{name}_{end}"]) for end in ("low", "high")])
 
 
 def draw_works(ax, dataset, experiments):
     """Predicted against observed works of adhesion, with all limits."""
     ax.plot([NOTHING, 300], [NOTHING, 300], color=GREY, linewidth=0.8)
     shown = {}
-    for case in dataset.case.values:
-        point = dataset.sel(case=case)
-        name = point["quantity"].item()
-        if name not in WORKS:
-            continue
-        experiment = case.split("/")[0]
+    for case in dataset.case.values[dataset["quantity"].isin(WORKS)]:
+        point, experiment = dataset.sel(case=case), case.split("/")[0]
         look = shown.setdefault(experiment, plotting.pick_look(len(shown)))
         # In mJ/m^2, none at the edge of the panel.
-        observed = np.maximum(find_observed(point, name) * 1e3, NOTHING)
-        predicted = np.array([point[f"{name}{end}"] for end in ("_lowest", "", "_highest")])
-        low, value, high = np.maximum(predicted * 1e3, NOTHING)
+        observed, (low, value, high) = (
+            np.maximum([point[name].item() * 1e3 for name in names], NOTHING)
+            for names in (OBSERVED, PREDICTED)
+        )
         middle = np.sqrt(observed[0] * observed[1])
         bars = {"color": look["color"], "linewidth": 0.9}
         ax.plot(observed, [value] * 2, **bars)
         ax.plot([middle] * 2, [low, high], **bars)
-        filled = {} if name == "work_of_approach" else {"mfc": "white"}
+        filled = {} if point["quantity"].item() == "work_of_approach" else {"mfc": "white"}
         ax.plot(middle, value, **look, **filled)
     labels = {e: experiments[e].get("short", experiments[e]["label"]) for e in shown}
     keys = [make_dot(labels[e], **look) for e, look in shown.items()]

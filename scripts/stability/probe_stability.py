@@ -1,49 +1,94 @@
 """Probe one component of the library at the extremes of its parameters."""
 
 import logging
+import traceback
+import warnings
 from collections import Counter
+from itertools import product
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
+import stickiness
 from common.job import start
-from stability.components import COMPONENTS, LABELS, OUTCOMES, probe_point
+from stability.components import COMPONENTS
 from stickiness import datasets
+from stickiness.plausibility import PlausibilityWarning
+from stickiness.repulsive.solver import ConvergenceError
 
+OUTCOMES = ("right", "refused", "not converged", "failed")
+RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
 LONGEST = 160  # characters of a message that are kept
+LABELS = {
+    "magnification": "magnification q1/q0",
+    "hurst": "Hurst exponent",
+    "pressure": "mean pressure over E* q0 h_rms",
+    "range_over_h_rms": "range over h_rms",
+    "adhesion_length_over_range": "adhesion length over range",
+    "thickness": "thickness of a layer times q0",
+    "poisson": "Poisson's ratio of a layer",
+    "grid": "grid points a side",
+    "variant": "kind of theory, law or layer",
+}
 
 
 def main(job):
     name = job.wildcards.component
-    dataset = map_validity(COMPONENTS[name])
-    counts = Counter(OUTCOMES[k] for k in dataset.outcome.values)
-    logging.info("%s: %d points, %s", name, dataset.sizes["point"], dict(counts))
+    dataset = map_validity(*COMPONENTS[name])
+    counts = Counter(OUTCOMES[k] for k in dataset.outcome.values.flat)
+    logging.info("%s: %d points, %s", name, dataset.outcome.size, dict(counts))
     title = f"validity of {name} over its parameters"
     parameters = {"component": name, "outcomes": list(OUTCOMES), **counts}
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
-def map_validity(component):
-    """Probe every point of a component."""
-    points, results = component.points(), []
-    for point in points:
-        results.append(probe_point(component, point))
-        if results[-1].outcome:
-            logging.info("%s: %s: %s", point, OUTCOMES[results[-1].outcome], results[-1].text)
-    data = {name: ("point", [float(p[name]) for p in points]) for name in component.values}
-    data["variant"] = ("point", [p.get("variant", "") for p in points])
-    data["outcome"] = ("point", np.array([r.outcome for r in results], dtype="i1"))
-    data["excess"] = ("point", [r.excess if np.isfinite(r.excess) else np.nan for r in results])
-    data["text"] = ("point", [" ".join(r.text.split())[:LONGEST] for r in results])
-    return datasets.annotate(
-        xr.Dataset(data),
-        **{name: ("1", LABELS[name]) for name in component.values},
-        variant=("1", "kind of theory, law or layer"),
-        outcome=("1", ", ".join(f"{k} {name}" for k, name in enumerate(OUTCOMES))),
-        excess=("1", "largest error over what passes for right", "no finite result"),
-        text=("1", "the message, or the check whose error is largest"),
-    )
+def map_validity(probe, values):
+    """Probe every combination of the values of the parameters."""
+    results = []
+    for point in (dict(zip(values, each, strict=True)) for each in product(*values.values())):
+        results.append(probe_point(probe, **point))
+        if results[-1][0] != RIGHT:
+            logging.info("%s: %s: %s", point, OUTCOMES[results[-1][0]], results[-1][2])
+    shape = [len(each) for each in values.values()]
+    columns = (np.reshape(column, shape) for column in zip(*results, strict=True))
+    data = {name: ([*values], column) for name, column in zip(RESULTS, columns, strict=True)}
+    dataset = xr.Dataset(data, coords={name: list(each) for name, each in values.items()})
+    dataset["outcome"] = dataset.outcome.astype("i1")
+    dataset["text"] = dataset.text.str.replace(r"\s+", " ").str.slice(0, LONGEST)
+    labels = {name: ("1", LABELS[name]) for name in values}
+    dataset = datasets.annotate(dataset, **RESULTS, **labels)
+    dataset.outcome.attrs |= datasets.flags(OUTCOMES)
+    return dataset
+
+
+RESULTS = {
+    "outcome": ("1", "worst outcome of all comparisons"),
+    "excess": ("1", "largest error over what passes for right", "no finite result"),
+    "text": ("1", "the message, or the check whose error is largest"),
+}
+
+
+def probe_point(probe, **point):
+    """Outcome of one point, its largest error over the tolerance, and a message or a check."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
+            names, excess = zip(*probe(**point), strict=True)
+    except ConvergenceError as error:  # of adhesive contact, too
+        return UNCONVERGED, np.nan, str(error)
+    except Exception as error:  # whatever it is belongs on the map
+        *_, last = traceback.extract_tb(error.__traceback__)
+        in_library = Path(last.filename).is_relative_to(Path(stickiness.__file__).parent)
+        outcome = REFUSED if isinstance(error, ValueError) and in_library else FAILED
+        return outcome, np.nan, f"{type(error).__name__}: {error}"
+    # A NaN must not hide behind a comparison that is false.
+    excess = np.where(np.isfinite(excess), excess, np.inf)
+    worst = int(np.argmax(excess))
+    outcome = RIGHT if excess[worst] <= 1 else FAILED
+    return outcome, excess[worst] if np.isfinite(excess[worst]) else np.nan, names[worst]
 
 
 if __name__ == "__main__":
-    main(start(globals(), "probe_stability", component="spectrum"))
+    main(start(globals(), "probe_stability", component="surface"))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from helpers import claim_files
 
-from claims import remaining_claims as claims
+from claims import criterion_claims as claims
+from claims.criterion_claims import sticky_asphalt, sticky_roughness, truncation
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
-from claims.remaining_claims import sticky_asphalt, sticky_roughness, truncation
 from common.experiment_outcomes import COMPATIBLE, MISSED, SILENT, SOME
 
 

@@ -455,7 +455,10 @@ def test_lines_of_the_trade_are_errors_against_costs(ax):
 
 
 def test_map_of_validity_shows_the_worst_of_the_variants(ax):
-    variables = {"hurst": [0.2, 0.2, 0.8, 0.8], "grid": [4.0] * 4, "outcome": [0, 3, 0, 1]}
-    plot_stability.draw_map(ax, dataset({"point": range(4)}, variables))
+    axes = {"hurst": [0.2, 0.8], "grid": [4.0], "variant": ["one", "other"]}
+    outcome = xr.DataArray([[[0, 3]], [[0, 1]]], coords=axes)
+    for name in ("hurst", "grid"):
+        outcome[name].attrs["long_name"] = name
+    plot_stability.draw_map(ax, outcome)
     np.testing.assert_array_equal(ax.images[0].get_array(), [[3], [1]])
     assert [label.get_text() for label in ax.get_yticklabels()] == ["0.2", "0.8"]

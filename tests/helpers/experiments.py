@@ -5,7 +5,6 @@ import json
 import numpy as np
 import xarray as xr
 
-from common.config.entries import OBSERVED_UNITS
 from experiments.predict_experiments import read_observation
 from stickiness.criteria.registry import CRITERIA
 
@@ -66,32 +65,19 @@ def make_dataset(rows, experiments=EXPERIMENTS):
 
 FLAGS = {"outcome": 2, "value_inside": 0, "by_relation": 0, "tests": 1, "observed_known": 1}
 FLAGS |= {"known": 3, "effect_of_input": 1.0, "waves_in_contact": np.nan}
-FLAGS |= {"work_of_adhesion": 0.05, "h_rms": 1e-6}
+FLAGS |= {"h_rms": 1e-6}
 
 
 def make_row(
     quantity, observed, predicted, criteria=None, limits=None, most_effective_input="", **flags
 ):
-    values = FLAGS | flags
-    values |= {
-        f"observed_{name}_{end}": np.nan for name in OBSERVED_UNITS for end in ("low", "high")
-    }
-    values |= {f"observed_{quantity}_low": observed[0], f"observed_{quantity}_high": observed[1]}
-    for name in ("remaining", *OBSERVED_UNITS):
-        shown = predicted if quantity in (name, {"remaining": "sticks"}.get(name)) else [0.5] * 3
-        values |= {
-            f"{name}{end}": x for end, x in zip(("", "_lowest", "_highest"), shown, strict=True)
-        }
+    names = ("predicted", "predicted_lowest", "predicted_highest", "observed_low", "observed_high")
+    values = FLAGS | flags | dict(zip(names, (*predicted, *observed), strict=True))
     values |= {"quantity": quantity, "most_effective_input": most_effective_input}
     outcomes, roughness = (
         {**dict.fromkeys(CRITERIA, nothing), **(given or {})}
         for nothing, given in ((-1, criteria), (np.nan, limits))
     )
-    return xr.Dataset(
-        values
-        | {
-            "criterion_outcome": ("criterion", np.array([*outcomes.values()], "i1")),
-            "criterion_roughness": ("criterion", [*roughness.values()]),
-        },
-        coords={"criterion": [*CRITERIA]},
-    )
+    values["criterion_outcome"] = "criterion", np.array([*outcomes.values()], "i1")
+    values["criterion_roughness"] = "criterion", [*roughness.values()]
+    return xr.Dataset(values, coords={"criterion": [*CRITERIA]})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
@@ -177,8 +178,8 @@ class Experiment(Conditions):
     def _problems(self, context):
         for name, case in self.cases.items():
             conditions = conditions_of(self.given(), case.given())
-            for problem in _condition_problems(conditions, case.observed.quantity):
-                yield f"cases.{name}{problem}"
+            problems = _condition_problems(conditions, case.observed.quantity)
+            yield from (f"cases.{name}{problem}" for problem in problems)
 
 
 class Experiments(Section):
@@ -200,8 +201,7 @@ def _condition_problems(conditions, quantity):
         yield ": give plane_strain_modulus, or youngs_modulus and poisson_ratio"
     # The longest of the shorter waves must be below the shortest of the longer ones.
     waves = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
-    given = [key for key in waves if key in conditions]
-    for shorter, longer in zip(given, given[1:], strict=False):
+    for shorter, longer in pairwise(key for key in waves if key in conditions):
         most, least = conditions[shorter].values("m")[-1], conditions[longer].values("m")[0]
         if not most < least:
             yield f".{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"

@@ -80,9 +80,10 @@ def test_limits_widen_steadily_with_the_direction():
     assert widening[3:] == pytest.approx([2, 2, 99**0.5], abs=0.04)
 
 
-def test_limits_hold_the_value():
+@pytest.mark.parametrize("q1", [1.001, 1e4, 1e10])
+def test_limits_hold_the_value(q1):
     for length in (1e-3, 0.3, 1.0, 10.0):
-        found = predict(rough(), adhesion_length=length, range=0.01)
+        found = predict(rough(q1=q1), adhesion_length=length, range=0.01)
         for name in ("approach", "separation", "pull_off"):
             low, high = getattr(found, f"{name}_limits")
             assert low <= getattr(found, name) <= high

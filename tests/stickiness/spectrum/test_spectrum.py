@@ -30,7 +30,9 @@ def by_quadrature(s, a, b, power, breaks=()):
 
 
 @pytest.mark.parametrize("hurst", [1e-10, 0.3, 0.8, 1.0])
-@pytest.mark.parametrize(("q1", "q_rolloff"), [(3.0, None), (128.0, None), (2e4, 40.0)])
+@pytest.mark.parametrize(
+    ("q1", "q_rolloff"), [(2.002, None), (3.0, None), (128.0, None), (2e4, 40.0), (2e10, None)]
+)
 @pytest.mark.parametrize("power", [0, 1, 2, 4])
 def test_moments_of_self_affine_spectra_agree_with_quadrature(hurst, q1, q_rolloff, power):
     s = SelfAffine(hurst=hurst, q0=2.0, q1=q1, C0=0.3, q_rolloff=q_rolloff)
