@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import numbers, positive
 from stickiness.repulsive import subpixel as subpixel_edges
 from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
-from stickiness.traction_laws import TractionLaw
+from stickiness.traction_laws import TractionLaw, check_law
 
 _FIT = ("AvFit", "fit_a_v", "local_exponent")
 
@@ -91,8 +91,7 @@ def adhesive_pressure(gap: ArrayLike, law: TractionLaw, contact: ArrayLike | Non
         On malformed or negative gaps.
     """
     gap, contact = gap_and_contact(gap, contact)
-    if not hasattr(law, "traction"):
-        raise ValueError(f"law must be a traction law such as adhesive.Maugis(...), got {law!r}")
+    check_law(law)
     return float(np.sum(law.traction(gap[~contact]))) / gap.size
 
 

@@ -1,7 +1,7 @@
 """Preconditioner of the descents: an approximate inverse of the stiffness of the free points.
 
 Most of the inverse is in long waves, so that it is applied on a grid half as fine: its transforms
-are four times smaller. Beside the wall, coarse points take part by their share of free ones.
+are four times smaller.
 """
 
 import numpy as np
@@ -46,6 +46,13 @@ class Smoother:
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
         self.pairs = 0.0  # in units of the grid of the fields
 
+    def share_of(self, free):
+        """Shares of free points around the coarse ones; None on an odd grid.
+
+        Beside the wall long waves give way less: coarse points take part by this share.
+        """
+        return _gather(free.astype(np.float32)) / np.float32(16) if self.halved else None
+
     def apply(self, field, share=None):
         """Convolve a field in single precision; long waves between the `share` of coarse points."""
         values = _gather(field) if self.halved else field
@@ -61,23 +68,6 @@ class Smoother:
             coarse, out = out, np.empty_like(field)
             _spread(coarse, self._constant, field, out, row)
         return out
-
-
-class Preconditioner:
-    """Approximate inverse of the stiffness of the free points.
-
-    Beside the wall long waves give way less: coarse points take part by their share of free ones.
-    """
-
-    def __init__(self, surface, free):
-        self.smoother, self.share = surface.smoother, None
-        if self.smoother.halved:
-            self.share = _gather(free.astype(np.float32, copy=False))
-            self.share /= 16
-
-    def __call__(self, force):
-        """Step for a force that is zero on all but free points."""
-        return self.smoother.apply(force, self.share)
 
 
 def _gather(field):

@@ -6,10 +6,6 @@ The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``phi' 
 ``K = |q| / 2`` or, for a layer, what `solids` says. A state of equilibrium at the mean pressure p
 has ``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0``
 and ``r = 0`` elsewhere.
-
-A descent goes from `State` to `State`: a gap and all that follows from it point by point. These
-operations are bound by memory. The law goes over the grid in blocks of rows that stay in cache, and
-all write over the arrays of a state that is no longer needed.
 """
 
 from dataclasses import dataclass
@@ -21,7 +17,7 @@ from stickiness.compiled import compiled
 from stickiness.repulsive import half_space
 from stickiness.solids import HALF_SPACE, Solid
 
-_BLOCK_POINTS = 2**14  # in a block: 128 kB in double precision
+_BLOCK_POINTS = 2**14  # in a block of rows, which stays in cache
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,22 +65,28 @@ class Problem:
 
     @property
     def wall(self):
-        """Whether gaps end at a hard wall."""
+        """Whether gaps end at a hard wall; if not, every point is free."""
         return self.law.hard_wall
+
+    def lowest(self, gap):
+        """Lowest gaps of a step: the wall, or half the way to the singularity of the law."""
+        return 0.0 if self.wall else 0.5 * (gap - self.law.range)
+
+    def state(self, gap, elastic=None):
+        """State of a gap; `elastic` is its elastic pressure, if known."""
+        state = State.empty(gap.shape)
+        state.gap[...] = gap
+        state.elastic[...] = self.surface.elastic(gap) if elastic is None else elastic
+        return evaluate(self, state)
 
 
 @dataclass(frozen=True, eq=False)
 class FrozenTraction:
     """Traction that does not depend on the gap: with the hard wall the problem is convex."""
 
-    field: np.ndarray  #: or one number
+    field: np.ndarray | float
     range: float  #: of the law it is frozen from
     hard_wall = True
-    hardens = False
-
-    def at(self, span):
-        """Law of some rows."""
-        return FrozenTraction(self.field[span], self.range) if np.ndim(self.field) else self
 
     def evaluate(self, gap):
         """Traction, its derivative and its potential."""
@@ -112,6 +114,7 @@ class State:
     iterations: int = 0
     last_run: int = 0  #: iterations since a direction of negative curvature was met
     start_pairs: float = 0.0  #: convolutions of the start, on coarser grids by share of the points
+    separated: bool = False  #: whether no attraction left can balance the tension
 
     @classmethod
     def empty(cls, shape):
@@ -126,17 +129,21 @@ def spans(shape):
     return [slice(start, start + rows) for start in range(0, shape[0], rows)]
 
 
+def sum_blocks(function, *fields):
+    """Sum what a function of fields gives over blocks of rows: single precision is enough in each.
+
+    Say of `np.vdot` or `np.sum`.
+    """
+    return sum(float(function(*(f[span] for f in fields))) for span in spans(fields[0].shape))
+
+
 def evaluate(problem, state):
     """Fill in what follows from the gap (not negative at a wall) and elastic pressure of a state.
 
     The mean pressure, if not prescribed, is the one that balances the open points in the mean.
     """
-    law, potential = problem.law, 0.0
-    for span in spans(state.gap.shape):
-        values = law.at(span).evaluate(state.gap[span])
-        state.traction[span], state.slope[span], energy = values
-        potential += float(np.sum(energy))
-    state.potential = potential / state.gap.size
+    state.traction[...], state.slope[...], energy = problem.law.evaluate(state.gap)
+    state.potential = sum_blocks(np.sum, energy) / state.gap.size
     fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
     state.pressure = problem.pressure
     if state.pressure is None:
@@ -176,12 +183,11 @@ def largest(field):
     return float(np.maximum(field.max(), -field.min()))
 
 
-def balanced(field, points=None):
+def balanced(field, points):
     """Subtract, in place, a constant on some points so that the field has no mean."""
-    if points is None or points.all():
-        field -= field.dtype.type(field.mean(dtype=float))
-    elif points.any():
-        field -= field.dtype.type(field.sum(dtype=float) / np.count_nonzero(points)) * points
+    count = np.count_nonzero(points)
+    if count:
+        field -= field.dtype.type(field.sum(dtype=float) / count) * points
     return field
 
 

@@ -14,9 +14,10 @@ from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_o
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
 from stickiness.repulsive.solver import ConvergenceError, Effort
 from stickiness.solids import HALF_SPACE, check_solid
+from stickiness.traction_laws import check_law
 
 APPROACH, SEPARATION = "approach", "separation"
-DEEPEST = 0.9  #: of the range: penetration of a start, or in the mean, without a wall
+_DEEPEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
 # Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
 # sphere of Tabor parameter 5 holds 20 % too much.
 _UNRESOLVED_PIXEL = 4.0
@@ -180,69 +181,59 @@ def solve(
     lengths = check_length(length, heights.shape)
     tol = number("tol", tol)
     max_iterations = integer("max_iterations", max_iterations, least=1)
-    if isinstance(law, type) or not hasattr(law, "evaluate"):
-        raise ValueError(f"law must be a TractionLaw such as Maugis(...), got {law!r}")
-    _check_control(pressure, mean_gap, law)
+    check_law(law)
+    control = _check_control(pressure, mean_gap, law)
     scaled = Scaled.of(heights, lengths, law, check_solid(solid))
-    scaled.check_start(start, mean_gap)
+    _check_start(start, heights.shape, mean_gap)
     warn_of_heights(scaled.rms_height, lengths[0])
     if pressure is not None and pressure > 1:
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
-    control, effort = Control(pressure, mean_gap), Effort(tol, max_iterations, logger)
-    gap, branch, spent = _find_start(scaled, start, control, effort)
+    effort = Effort(tol, max_iterations, logger)
+    gap, branch, spent = None, APPROACH, (0, 0)
+    if isinstance(start, str) and start == SEPARATION:
+        gap, branch = np.zeros(heights.shape), SEPARATION
+    elif start is not None and not isinstance(start, str):
+        gap, branch = scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH)
+    elif pressure is not None and pressure < 0:
+        state, pairs = _relax(scaled, scaled.problem(pressure=0.0), None, effort)
+        gap, spent = state.gap, (state.iterations, pairs)
     return relax_from(scaled, gap, branch, control, effort, spent)
 
 
 def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
     """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
-    None stands for loading from afar. `spent`: iterations and convolutions that went into the
-    start.
+    None stands for loading from afar. `control` has the pressure or the mean gap by its name.
+    `spent`: iterations and convolutions that went into the start.
     """
-    before = scaled.surface.pairs
-    problem = scaled.problem(control)
-    pressure, tol = control.pressure, effort.tol
-    state, separated = relax(
-        problem, gap, tol, effort.max_iterations, closing=branch == APPROACH, logger=effort.logger
-    )
+    problem = scaled.problem(**control)
+    state, pairs = _relax(scaled, problem, gap, effort, closing=branch == APPROACH)
     state.iterations += spent[0]
-    pairs = scaled.surface.pairs - before + state.start_pairs + spent[1]
-    result = scaled.adhesion(state, branch, problem, pairs)
-    if pressure is not None:  # as given, not as scaled there and back
-        result = replace(result, mean_pressure=float(pressure))
-    if separated:
+    result = scaled.adhesion(state, branch, control, pairs + spent[1])
+    if state.separated:
         raise PullOffError(
-            f"pressure = {pressure!r} pulls the surfaces apart: they hold less on this branch "
-            f"(the strength of the law is {scaled.original_law.strength:.6g}); "
+            f"pressure = {control['pressure']!r} pulls the surfaces apart: they hold less on this "
+            f"branch (the strength of the law is {scaled.original_law.strength:.6g}); "
             "control mean_gap instead",
             result,
         )
-    if not state.residual <= tol:
+    if not state.residual <= effort.tol:
         raise ConvergenceError(
             f"residual {state.residual:.2e} after {state.iterations} iterations exceeds tol = "
-            f"{tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"{effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
             result,
         )
     return result
 
 
-def _find_start(scaled, start, control, effort):
-    """Start of the descent as in `relax_from`, its branch, and what went into it."""
-    nothing, mean_gap = (0, 0.0), control.mean_gap
-    if isinstance(start, str) and start == SEPARATION:
-        return np.zeros(scaled.surface.heights.shape), SEPARATION, nothing
-    if start is not None and not isinstance(start, str):
-        return scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH), nothing
-    if mean_gap is not None or control.pressure >= 0:
-        return None, APPROACH, nothing
+def _relax(scaled, problem, gap, effort, closing=True):
+    """State by `relax`, and the convolutions that it took."""
     before = scaled.surface.pairs
-    unloaded = scaled.problem(Control(pressure=0.0))
-    state, _ = relax(unloaded, None, effort.tol, effort.max_iterations)
-    pairs = scaled.surface.pairs - before + state.start_pairs
-    return state.gap, APPROACH, (state.iterations, pairs)
+    state = relax(problem, gap, effort.tol, effort.max_iterations, closing, effort.logger)
+    return state, scaled.surface.pairs - before + state.start_pairs
 
 
 def _warn_of_edges(pixel, law):
@@ -261,6 +252,7 @@ def _warn_of_edges(pixel, law):
 
 
 def _check_control(pressure, mean_gap, law):
+    """The prescribed quantity by its name."""
     if (pressure is None) == (mean_gap is None):
         raise ValueError(
             f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
@@ -269,18 +261,30 @@ def _check_control(pressure, mean_gap, law):
     array = numbers(name, value)
     if array.ndim or not np.isfinite(array):
         raise ValueError(f"{name} must be a finite number, got {value!r}")
-    if mean_gap is not None:
-        lowest = 0.0 if law.hard_wall else -DEEPEST * law.range
-        if mean_gap < lowest:
-            raise ValueError(f"mean_gap must be at least {lowest!r}, got {mean_gap!r}")
+    if mean_gap is not None and mean_gap < _lowest_gap(law):
+        raise ValueError(f"mean_gap must be at least {_lowest_gap(law)!r}, got {mean_gap!r}")
+    return {name: value}
 
 
-@dataclass(frozen=True)
-class Control:
-    """What is prescribed, in the caller's units: one of the two, the other is None."""
+def _check_start(start, shape, mean_gap):
+    if isinstance(start, str):
+        if start not in (APPROACH, SEPARATION):
+            raise ValueError(f"start must be 'approach', 'separation' or a state, got {start!r}")
+        if start == SEPARATION and mean_gap is not None:
+            raise ValueError(
+                "start='separation' needs a prescribed pressure, got mean_gap = "
+                f"{mean_gap!r}: follow the mean gap back with path, or start from a state"
+            )
+    elif start is not None:
+        gap = np.asarray(getattr(start, "gap", start), dtype=float)
+        if gap.shape != shape:
+            raise ValueError(f"start has the shape {gap.shape}, the heights {shape}")
+        if not np.all(np.isfinite(gap)):
+            raise ValueError("start must have finite gaps, got NaN or infinite values")
 
-    pressure: float | None = None
-    mean_gap: float | None = None
+
+def _lowest_gap(law):
+    return 0.0 if law.hard_wall else -_DEEPEST * law.range
 
 
 @dataclass(frozen=True, eq=False)
@@ -316,9 +320,8 @@ class Scaled:
         """Unit of pressure over E*."""
         return self.height / self.lengths[0]
 
-    def problem(self, control):
-        """Problem at one value of the control."""
-        pressure, mean_gap = control.pressure, control.mean_gap
+    def problem(self, pressure=None, mean_gap=None):
+        """Problem at one value of the control, which is in the caller's units."""
         return Problem(
             self.surface,
             self.law,
@@ -327,32 +330,12 @@ class Scaled:
             mean_gap=None if mean_gap is None else mean_gap / self.height,
         )
 
-    def check_start(self, start, mean_gap):
-        """Raise ValueError unless `start` can be one."""
-        shape = self.surface.heights.shape
-        if isinstance(start, str):
-            if start not in (APPROACH, SEPARATION):
-                raise ValueError(
-                    f"start must be 'approach', 'separation' or a state, got {start!r}"
-                )
-            if start == SEPARATION and mean_gap is not None:
-                raise ValueError(
-                    "start='separation' needs a prescribed pressure, got mean_gap = "
-                    f"{mean_gap!r}: follow the mean gap back with path, or start from a state"
-                )
-        elif start is not None:
-            gap = np.asarray(getattr(start, "gap", start), dtype=float)
-            if gap.shape != shape:
-                raise ValueError(f"start has the shape {gap.shape}, the heights {shape}")
-            if not np.all(np.isfinite(gap)):
-                raise ValueError("start must have finite gaps, got NaN or infinite values")
-
     def first_gap(self, start, mean_gap=None):
         """Scaled gap of a state, adjusted to a prescribed mean.
 
         It is changed in proportion, so that contact stays contact, or rigidly where there is none.
         """
-        lowest = 0.0 if self.law.hard_wall else -DEEPEST * self.law.range
+        lowest = _lowest_gap(self.law)
         gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
         gap = np.maximum(gap, lowest)
         if mean_gap is None:
@@ -362,23 +345,19 @@ class Scaled:
             return gap * (mean / old)
         return lowered(gap + max(mean - old, 0.0), mean, lowest)
 
-    def adhesion(self, state, branch, problem, pairs):
-        """`Adhesion` in the caller's units."""
+    def adhesion(self, state, branch, control, pairs):
+        """`Adhesion` in the caller's units; `control` is in these, too."""
         law, gap = self.law, state.gap
         net = np.empty(gap.shape)
         fields = gap, state.elastic, state.traction, self.surface.heights, net
-        repulsion, attraction, elastic, *areas = (
-            value / gap.size
-            for value in _sum_up(
-                *(field.ravel() for field in fields), state.pressure, law.hard_wall, law.range
-            )
-        )
+        sums = _sum_up(*(f.ravel() for f in fields), state.pressure, law.hard_wall, law.range)
+        repulsion, attraction, elastic, *areas = (value / gap.size for value in sums)
         net *= self.stress
         energy = self.height * self.stress
         return Adhesion(
             pressure=net,
             gap=gap * self.height,
-            mean_pressure=state.pressure * self.stress,
+            mean_pressure=float(control.get("pressure", state.pressure * self.stress)),
             repulsive_pressure=repulsion * self.stress,
             adhesive_pressure=attraction * self.stress,
             repulsive_area_fraction=areas[0],
@@ -391,7 +370,7 @@ class Scaled:
             iterations=state.iterations,
             fft_pairs=float(pairs),
             branch=branch,
-            control="pressure" if problem.pressure is not None else "mean_gap",
+            control=next(iter(control)),
             law=self.original_law,
             length=self.lengths,
             rms_height=self.rms_height,

@@ -23,7 +23,7 @@ from stickiness.arguments import grid, number
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.traction_laws import TractionLaw
+from stickiness.traction_laws import TractionLaw, check_law
 
 REACH = 4.0  #: ranges between the highest point and the surface where the approach begins
 STEPS_ERROR = 0.03  #: relative, of works and pull-off, by the steps of the path
@@ -106,8 +106,7 @@ def measure(
     """
     heights = grid("heights", heights)
     squeeze = number("squeeze", squeeze)
-    if isinstance(law, type) or not hasattr(law, "evaluate"):
-        raise ValueError(f"law must be a TractionLaw such as Exponential(...), got {law!r}")
+    check_law(law)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
     coarse = edge_zone.resolution(pixel, law.range, law.adhesion_length)
     if np.ptp(heights) > 0 and coarse > COARSEST:

@@ -8,7 +8,7 @@ from stickiness.adhesive.descent import descend
 from stickiness.adhesive.preconditioner import LONGEST, Smoother
 from stickiness.adhesive.problem import Problem, State, Surface, evaluate
 from stickiness.adhesive.softening_descent import quick_descent
-from stickiness.adhesive.solver import Control, Scaled
+from stickiness.adhesive.solver import Scaled
 from stickiness.solids import HALF_SPACE
 
 
@@ -53,7 +53,7 @@ def test_quick_descent_agrees_with_the_general_one_at_a_mean_gap():
     law = adhesive.Exponential(adhesion_length=0.01, range=0.1)
     contact = repulsive.solve(heights, length, 0.065, tol=1e-8)
     scaled = Scaled.of(heights, (length, length), law)
-    problem = scaled.problem(Control(mean_gap=contact.mean_gap))
+    problem = scaled.problem(mean_gap=contact.mean_gap)
     gap = scaled.first_gap(contact, contact.mean_gap)
     slow = descend(problem, gap, 1e-8, 300)
     before = scaled.surface.pairs
