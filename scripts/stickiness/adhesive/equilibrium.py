@@ -28,7 +28,7 @@ _COARSE_GRID_TOLERANCE = 1e-2  # of one on a coarser grid
 _MIN_POINTS_TO_COARSEN = 128  # along the shorter side of a grid
 
 
-def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
+def relax(problem, gap, tol, max_iterations, closing=True):
     """Relax a gap to a stable equilibrium; returns the last `State`, converged or not.
 
     A `gap` of None stands for loading from afar; a given one has the mean gap if that is
@@ -36,7 +36,7 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
     contact if `closing`, else away from it.
     """
     run = _relax_smooth if problem.law.smooth else _relax_frozen
-    observe = _observer(problem, logger)
+    observe = _observer(problem)
     spent, state, work = 0, None, []
     if gap is None:
         fine = min(problem.surface.heights.shape) >= _MIN_POINTS_TO_COARSEN
@@ -61,13 +61,11 @@ def relax(problem, gap, tol, max_iterations, closing=True, logger=None):
     return state
 
 
-def _observer(problem, logger):
-    """Function that logs a state, and tells and notes whether tension has parted the surfaces."""
+def _observer(problem):
+    """Function that tells of a state, and notes, whether tension has parted the surfaces."""
     law, pull = problem.law, -(problem.pressure or 0.0)
 
     def observe(state):
-        if logger is not None:
-            logger.debug("residual %.2e, mean gap %.6g", state.residual, state.gap.mean())
         nearest = float(state.gap.min()) if pull > 0 else 0.0
         if nearest > law.strength_gap:
             state.separated = float(law.traction(nearest)) < pull

@@ -37,27 +37,18 @@ _NEAR_ZERO = 0.01  # share of the path's span below which a place is not located
 
 @dataclass(frozen=True, eq=False)
 class PathPoint:
-    """One state of a path and how it was reached.
+    """One state of a path and how it was reached; energies per nominal area [E* length]."""
 
-    Attributes
-    ----------
-    state : Adhesion
-        State; its `branch` is the direction of the path.
-    event : str or None
-        "jump-in" or "jump-out" if a jump led here, "pull-off" if the path ends here because any
-        greater tension tears the surfaces apart.
-    bracket : tuple of float or None
-        Values of the control between which the event lies, the last one before it first.
-    work, dissipated : float
-        Work of the control in this step per nominal area [E* length]; that work less the gain in
-        energy, which is lost at a jump and the error of integration elsewhere. It is infinite at
-        a pull-off, where a dead load falls forever.
-    """
-
-    state: Adhesion
+    state: Adhesion  #: its `branch` is the direction of the path
+    #: "jump-in" or "jump-out" if a jump led here, "pull-off" if the path ends here because any
+    #: greater tension tears the surfaces apart.
     event: str | None = None
-    bracket: tuple | None = None
-    work: float = 0.0
+    bracket: tuple | None = (
+        None  #: values of the control beside the event, the last before it first
+    )
+    work: float = 0.0  #: of the control in this step
+    #: Work less the gain in energy, which is lost at a jump and the error of integration elsewhere;
+    #: infinite at a pull-off, where a dead load falls forever.
     dissipated: float = 0.0
 
 
@@ -75,14 +66,13 @@ def path(
     steps=20,
     max_states=5000,
     max_iterations=3000,
-    logger=None,
     solid=HALF_SPACE,
 ) -> Iterator[PathPoint]:
     """Follow the contact through rising and falling pressure or mean gap.
 
     Parameters
     ----------
-    heights, length, law, tol, max_iterations, logger, solid
+    heights, length, law, tol, max_iterations, solid
         As for `solve`.
     values : sequence of float
         At least two values of the control to go through in turn, each different from the one
@@ -131,7 +121,7 @@ def path(
     sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
     for name, value in sizes.items():
         number(name, value)
-    options = {"tol": tol, "max_iterations": max_iterations, "logger": logger, "solid": solid}
+    options = {"tol": tol, "max_iterations": max_iterations, "solid": solid}
     last = solve(heights, length, law, **{control: values[0]}, start=start, **options)
     yield PathPoint(last)
     follower = _Follower(
@@ -144,7 +134,6 @@ def path(
         located=located,
         span=float(np.ptp(values)),
         left=max_states - 1,
-        logger=logger,
         scale=_LEAST_SCALE * law.adhesion_length,
     )
     for target in values[1:]:
@@ -168,7 +157,6 @@ class _Follower:
     located: float
     span: float  #: between the largest and the smallest value of the control
     left: int  #: states that may still be computed
-    logger: object
     scale: float  #: largest change of elastic plus interaction energy so far [E* length]
 
     def leg(self, state, target, steps):
@@ -224,15 +212,9 @@ class _Follower:
         control = {self.control: value}
         gap = self.scaled.first_gap(state, control.get("mean_gap"))
         try:
-            successor = relax_from(self.scaled, gap, branch, control, self.effort)
+            return relax_from(self.scaled, gap, branch, control, self.effort)
         except PullOffError:
             return None
-        if self.logger is not None:
-            text = "pressure %.6g, mean gap %.6g, area %.4f, %d iterations"
-            area = successor.repulsive_area_fraction
-            told = successor.mean_pressure, successor.mean_gap, area, successor.iterations
-            self.logger.info(text, *told)
-        return successor
 
     def _dissipation(self, before, state, successor):
         """Work of the control, and what of it is dissipated; infinite if the surfaces part."""

@@ -14,7 +14,7 @@ from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_o
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
 from stickiness.repulsive.solver import ConvergenceError, Effort
 from stickiness.solids import HALF_SPACE, check_solid
-from stickiness.traction_laws import check_law
+from stickiness.traction_laws import TractionLaw, check_law
 
 APPROACH, SEPARATION = "approach", "separation"
 _DEEPEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
@@ -27,65 +27,36 @@ _UNRESOLVED_PIXEL = 4.0
 class Adhesion:
     """State of equilibrium of an adhesive contact; pressures in units of E*.
 
-    Attributes
-    ----------
-    pressure : numpy.ndarray
-        Net pressure at the interface, repulsion minus attraction, ``(n0, n1)``.
-    gap : numpy.ndarray
-        Gap in the unit of the heights: zero at the hard wall. A law without a wall has its
-        equilibrium separation at gap 0, and negative gaps where it repels.
-    mean_pressure, mean_gap : float
-        Means of pressure and gap that keep the state: one is prescribed, the other follows. The
-        gap is that between the surfaces; the mean compression of a layer is no part of it.
-    repulsive_pressure, adhesive_pressure : float
-        Positive and negative part of `pressure`, each averaged over the nominal area and
-        positive: their difference is `mean_pressure` (to the residual).
-    repulsive_area_fraction : float
-        Share of points at the wall, or with a negative gap if the law has no wall: contact,
-        under whatever pressure.
-    net_repulsive_area_fraction : float
-        Share of those where the net pressure is compressive: next to the edge of contact the
-        attraction outweighs the wall's push.
-    adhesive_area_fraction : float
-        Share of other points with a gap up to the range.
-    elastic_energy, interaction_energy : float
-        Per nominal area, in units of E* times length; the latter is the mean of the potential.
-    residual : float
-        Largest violation of equilibrium at any point, over the larger of the rms pressure that
-        flattens the surface (half its rms gradient times E*) and the law's strength. The
-        violation is the unbalanced pressure, at the wall only if it pulls.
-    iterations : int
-        Iterations of conjugate gradients.
-    fft_pairs : float
-        Convolutions (a forward and a backward transform each), those of the start included.
-    branch, control : str
-        "approach" if the state was reached from wider gaps, "separation" if from closer ones;
-        "pressure" or "mean_gap".
-    law, length : TractionLaw, tuple of float
-        Attraction, sides of the periodic cell.
-    rms_height : float
-        Root mean square of the heights about their mean.
+    Areas are shares of the nominal area, energies per nominal area in units of E* times length.
+    Contact is at the wall or, if the law has none, where the gap is negative.
     """
 
-    pressure: np.ndarray
+    pressure: np.ndarray  #: net at the interface, repulsion minus attraction, ``(n0, n1)``
+    #: In the unit of the heights, zero at the hard wall. A law without a wall has its equilibrium
+    #: separation at gap 0, and negative gaps where it repels.
     gap: np.ndarray
-    mean_pressure: float
-    repulsive_pressure: float
-    adhesive_pressure: float
-    repulsive_area_fraction: float
+    mean_pressure: float  #: prescribed, or what keeps the mean gap
+    repulsive_pressure: float  #: mean of the positive part of `pressure`
+    adhesive_pressure: float  #: mean of its negative part, positive
+    repulsive_area_fraction: float  #: contact, under whatever pressure
+    #: Contact under net compression: next to the edge the attraction outweighs the wall's push.
     net_repulsive_area_fraction: float
-    adhesive_area_fraction: float
+    adhesive_area_fraction: float  #: points out of contact with a gap up to the range
+    #: Prescribed, or what keeps the mean pressure: of the gap between the surfaces, without the
+    #: mean compression of a layer.
     mean_gap: float
     elastic_energy: float
-    interaction_energy: float
+    interaction_energy: float  #: mean of the law's potential
+    #: Largest unbalanced pressure at any point, at the wall only if it pulls, over the larger of
+    #: the rms pressure that flattens the surface (half its rms gradient times E*) and the strength.
     residual: float
-    iterations: int
-    fft_pairs: float
-    branch: str
-    control: str
-    law: object
-    length: tuple
-    rms_height: float
+    iterations: int  #: of conjugate gradients
+    fft_pairs: float  #: convolutions (two transforms each), those of the start included
+    branch: str  #: "approach" if reached from wider gaps, "separation" if from closer ones
+    control: str  #: "pressure" or "mean_gap"
+    law: TractionLaw
+    length: tuple  #: sides of the periodic cell
+    rms_height: float  #: of the heights about their mean
 
     @property
     def energy(self):
@@ -111,7 +82,6 @@ def solve(
     start=None,
     tol=1e-8,
     max_iterations=3000,
-    logger=None,
     solid=HALF_SPACE,
 ):
     """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
@@ -143,8 +113,6 @@ def solve(
         Largest accepted `Adhesion.residual`.
     max_iterations : int
         Largest number of iterations.
-    logger : logging.Logger, optional
-        Receives the progress at level DEBUG.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of
         `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
@@ -191,7 +159,7 @@ def solve(
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
-    effort = Effort(tol, max_iterations, logger)
+    effort = Effort(tol, max_iterations)
     gap, branch, spent = None, APPROACH, (0, 0)
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
@@ -232,7 +200,7 @@ def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
 def _relax(scaled, problem, gap, effort, closing=True):
     """State by `relax`, and the convolutions that it took."""
     before = scaled.surface.pairs
-    state = relax(problem, gap, effort.tol, effort.max_iterations, closing, effort.logger)
+    state = relax(problem, gap, effort.tol, effort.max_iterations, closing)
     return state, scaled.surface.pairs - before + state.start_pairs
 
 
@@ -292,8 +260,8 @@ class Scaled:
     """Surface and law in the units of the solver, and the conversion back."""
 
     surface: Surface
-    law: object
-    original_law: object
+    law: TractionLaw
+    original_law: TractionLaw
     lengths: tuple
     height: float  #: unit of heights and gaps
     rms_height: float

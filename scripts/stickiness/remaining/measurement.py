@@ -58,7 +58,6 @@ class Remaining:
     gap: NDArray  #: mean gaps of the curve [length]
     pressure: NDArray  #: mean pressures of the curve [E*]
     separating: NDArray  #: whether a point of the curve is on the way back
-    fft_pairs: float  #: convolutions that it took
     points: tuple[PathPoint, ...]  #: states of the curve with their fields
     approach_limits: tuple[float, float] = (np.nan, np.nan)
     separation_limits: tuple[float, float] = (np.nan, np.nan)
@@ -108,21 +107,21 @@ def measure(
     squeeze = number("squeeze", squeeze)
     check_law(law)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    coarse = edge_zone.resolution(pixel, law.range, law.adhesion_length)
-    if np.ptp(heights) > 0 and coarse > COARSEST:
+    resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    if np.ptp(heights) > 0 and resolution > COARSEST:
         raise ValueError(
-            f"a pixel of {pixel:.3g} is {coarse:.2g} times the width of the cohesive zone, "
+            f"a pixel of {pixel:.3g} is {resolution:.2g} times the width of the cohesive zone, "
             "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
-            f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
+            f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
     settings = {"tol": tol, "solid": check_solid(solid)}
+    found = _follow(heights, length, law, squeeze, settings)
     if not half_grid:
-        return _follow(heights, length, law, squeeze, settings)
+        return found
     with warnings.catch_warnings():
         # The half grid is coarse on purpose: what that changes is the error.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        coarse = replace(_follow(heights[::2, ::2], length, law, squeeze, settings), points=())
-    found, limits = _follow(heights, length, law, squeeze, settings), {}
+        coarse, limits = _follow(heights[::2, ::2], length, law, squeeze, settings), {}
     for name in ("approach", "separation", "bound", "pull_off"):
         value = getattr(found, name)
         # The change from half the grid, more than what this one still lacks, and the steps.
@@ -134,31 +133,23 @@ def measure(
 def _follow(heights, length, law, squeeze, options):
     """Approach, squeeze and part once; limits are NaN."""
     first = float(heights.max() - heights.mean()) + REACH * law.range
-    settings = options | {
-        "control": "mean_gap",
-        "balance": BALANCE,
-        "smallest_jump": BALANCE,
-        "steps": STEPS,
-        "max_states": MOST_STATES,
-    }
+    sizes = {"balance": BALANCE, "smallest_jump": BALANCE, "steps": STEPS}
+    settings = options | sizes | {"control": "mean_gap", "max_states": MOST_STATES}
     closest = 0.0 if law.hard_wall else -0.2 * law.range
-    approach = []
+    approach, separation = [], []
     for point in path(heights, length, law, (first, closest), **settings):
         approach.append(point)
         if point.state.mean_pressure >= squeeze:
             break
-    last = approach[-1].state
-    separation = []
-    values = (last.mean_gap, first, FARTHEST * first)
-    start = replace(last, branch=SEPARATION)
+    start = replace(approach[-1].state, branch=SEPARATION)
+    values = (start.mean_gap, first, FARTHEST * first)
     for point in path(heights, length, law, values, start=start, **settings):
         separation.append(point)
-        touching = point.state.repulsive_area_fraction > 0
-        if point.state.mean_gap >= first and not touching:
+        if point.state.mean_gap >= first and not point.state.repulsive_area_fraction > 0:
             break
     else:
         raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
-    points = approach + separation
+    points = (*approach, *separation)
     gap = np.array([point.state.mean_gap for point in points])
     pressure = np.array([point.state.mean_pressure for point in points])
     jumped = np.array([point.event is not None for point in points])
@@ -183,16 +174,14 @@ def _follow(heights, length, law, squeeze, options):
         gap=gap,
         pressure=pressure,
         separating=np.arange(len(points)) >= len(approach),
-        fft_pairs=sum(point.state.fft_pairs for point in points),
-        points=tuple(points),
+        points=points,
     )
 
 
 def _work(gap, pressure, jumped):
     """Integral of the tension over the gap one way [E* length], positive."""
-    ends = [0, *np.flatnonzero(jumped), len(gap)]
     total = 0.0
-    for start, end in pairwise(ends):
+    for start, end in pairwise([0, *np.flatnonzero(jumped), len(gap)]):
         if end - start > 1:
             total += _tension_over_gap(gap[start:end], pressure[start:end])
         if start > 0:  # across the jump before

@@ -33,10 +33,9 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 
     The energy gained per area, w times the share S, grows with w by the area of contact of the
     deepest state at zero load, d(x S)/dx = A. Contact begins at an onset x0, and S must tend to
-    1 - 1/x, what full contact leaves. The simplest area that does both, `tough_area`, gives
-    ``S = 1 - 1/x + (1 - x0)/x exp(-(x - x0)/(1 - x0))``. The onset was fitted to simulations of
-    H = 0.5 to 0.9 and magnifications 4 to 64: what is predicted over what was simulated rises with
-    the magnification, from about 0.9 at 4 to 1.15 at 64.
+    1 - 1/x, what full contact leaves. `tough_area` is the simplest area that does both. The onset
+    was fitted to simulations of H = 0.5 to 0.9 and magnifications 4 (predicted over simulated about
+    0.9) to 64 (1.15).
     """
     (x,) = positive(energy_ratio=energy_ratio)
     rest = 1 - np.asarray(onset)
@@ -47,9 +46,8 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
     """Area of contact over the nominal one at zero load, where contact is tough.
 
-    ``A = 1 - exp(-(x - x0)/(1 - x0))``, an upper estimate: 1.0 to 1.7 times what simulations have
-    at an energy ratio of 1, 1.2 to 2.4 times at 0.5, where attraction over gaps stands in for
-    contact.
+    An upper estimate: 1.0 to 1.7 times what simulations have at an energy ratio of 1, 1.2 to 2.4
+    times at 0.5, where attraction over gaps stands in for contact.
     """
     (x,) = positive(energy_ratio=energy_ratio)
     return plain(-np.expm1(-np.maximum(x - onset, 0) / (1 - np.asarray(onset))))
@@ -69,11 +67,9 @@ def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArr
     """Share that remains where attraction acts over the gaps of Gaussian heights.
 
     The largest of ``<exp(-gap/range)> - U(gap)/w`` over the mean gap, as in the bearing area model
-    of Ciavarella (Meccanica 53, 241, 2018, doi:10.1007/s11012-017-0701-6). U, the elastic energy of
-    contact without adhesion, is a law through simulations; no constant is fitted to adhesion.
-    Overlap of undeformed heights counts as contact, so that a short range leaves a share as well:
-    0.4 % at x = 0.3, 1.1 % at 0.4 and 2 % at 0.5. There U is too low at the gaps that matter, 1.3
-    to 2 rms heights, and the share comes out too large.
+    of Ciavarella (doi:10.1007/s11012-017-0701-6). U, the elastic energy of contact without
+    adhesion, is a law through simulations. Overlap of undeformed heights counts as contact, so that
+    a short range leaves a share as well: 0.4 % at x = 0.3 and 2 % at 0.5, which is too much.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
