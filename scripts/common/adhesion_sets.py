@@ -35,8 +35,7 @@ ATTRIBUTES = {  # quantities of an adhesive state by their names in files
     "attraction": "adhesive_pressure",
     "repulsive_area": "repulsive_area_fraction",
     "net_repulsive_area": "net_repulsive_area_fraction",
-    "attractive_area": "adhesive_area_fraction",
-    **{name: name for name in ("elastic_energy", "interaction_energy", "residual", "iterations")},
+    "residual": "residual",
 }
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 

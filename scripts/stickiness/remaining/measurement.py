@@ -51,7 +51,6 @@ class Remaining:
     bound: float  #: largest gain of energy on the path: attraction less elastic energy
     pull_off: float  #: largest mean tension on separation at given mean gaps [E*]
     area_at_zero_load: float  #: share of points in contact on approach; NaN without attraction
-    gap_at_zero_load: float  #: mean gap [length] on approach; NaN without attraction
     #: Width of the cohesive zone, range^2/adhesion_length; below two, points snap one by one.
     pixels_in_zone: float
     jumps: int  #: on the path
@@ -161,14 +160,12 @@ def _follow(heights, length, law, squeeze, options):
     ]
     energy = min(point.state.energy for point in points)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    gap_at_zero_load, area_at_zero_load = _zero_load([point.state for point in approach])
     return Remaining(
         approach=works[0],
         separation=works[1],
         bound=max(-energy, 0.0) / law.adhesion_length,
         pull_off=max(-float(pressure[ways[1]].min()), 0.0),
-        area_at_zero_load=area_at_zero_load,
-        gap_at_zero_load=gap_at_zero_load,
+        area_at_zero_load=_area_at_zero_load([point.state for point in approach]),
         pixels_in_zone=1 / edge_zone.resolution(pixel, law.range, law.adhesion_length),
         jumps=int(jumped.sum()),
         gap=gap,
@@ -190,19 +187,15 @@ def _work(gap, pressure, jumped):
     return float(total)
 
 
-def _zero_load(states):
-    """Mean gap and area where tension turns into pressure."""
+def _area_at_zero_load(states):
+    """Area where tension turns into pressure."""
     for one, other in reversed(list(pairwise(states))):
         if one.mean_pressure < 0 <= other.mean_pressure:
             share = -one.mean_pressure / (other.mean_pressure - one.mean_pressure)
-            return tuple(
-                float(getattr(one, name) + share * (getattr(other, name) - getattr(one, name)))
-                for name in ("mean_gap", "repulsive_area_fraction")
-            )
+            area = one.repulsive_area_fraction
+            return float(area + share * (other.repulsive_area_fraction - area))
     # Full contact holds tension at a gap of zero, and is the state at zero load too.
-    last = states[-1]
-    closed = last.mean_pressure < 0
-    return (last.mean_gap, last.repulsive_area_fraction) if closed else (np.nan, np.nan)
+    return states[-1].repulsive_area_fraction if states[-1].mean_pressure < 0 else np.nan
 
 
 def _tension_over_gap(gap, pressure):
