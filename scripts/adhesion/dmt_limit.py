@@ -73,10 +73,16 @@ def integrate_law(adhesion, areas):
         law = scaled_law(adhesion, adhesion["law"], float(lengths[0]), range_)
         nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
         area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
-        area = area.transpose(..., "range")
-        pull = dmt.attraction_of_areas(area.values, nodes, law)
-        parts.append(area.isel(range=0, drop=True).copy(data=pull))
+        parts.append(integrate_areas(area.assign_coords(range=nodes), law))
     return xr.concat(parts, ranges) * (lengths / lengths[0])
+
+
+def integrate_areas(areas, law):
+    """Mean attraction by attractive areas along `range`."""
+    ranges = areas["range"].values
+    return xr.apply_ufunc(
+        lambda area: dmt.attraction_of_areas(area, ranges, law), areas, input_core_dims=[["range"]]
+    )
 
 
 def fit_slope(external, area, linear):

@@ -51,7 +51,7 @@ class Smoother:
 
         Beside the wall long waves give way less: coarse points take part by this share.
         """
-        return _gather(free.astype(np.float32)) / np.float32(16) if self.halved else None
+        return _gather(free) / np.float32(16) if self.halved else None
 
     def apply(self, field, share=None):
         """Convolve a field in single precision; long waves between the `share` of coarse points."""
@@ -73,7 +73,7 @@ class Smoother:
 def _gather(field):
     """Sums over the points around each coarse one, ``B^T field``."""
     coarse = np.empty(tuple(n // 2 for n in field.shape), np.float32)
-    _add_around(field, coarse, np.empty(field.shape[1], np.float32))
+    _add_around(field.astype(np.float32, copy=False), coarse, np.empty(field.shape[1], np.float32))
     return coarse
 
 

@@ -111,10 +111,10 @@ class _Steps:
         self.force, self.last_force = self.last_force, self.force
         self.force[...] = state.force.ravel()
         self.free_points = np.count_nonzero(self.free)
-        self._share_long_waves()
+        self.share = self.surface.smoother.share_of(self.free.reshape(self.shape))
         if self.at_gap:
-            mean = self._mean(self.force.sum(dtype=float))
-            _lower(self.force, np.float32(mean), self.free)
+            mean = np.float32(self._mean(self.force.sum(dtype=float)))
+            np.subtract(self.force, mean, out=self.force, where=self.free)
         if not self.linear:
             self.potential = self._evaluate(self.change, 0.0, self.traction, self.slope)
             self.slack = _ROUNDING * abs(self.potential)
@@ -190,7 +190,8 @@ class _Steps:
             self.step, self.direction, length, self.change, self.lowest, self.above
         )
         if self.at_gap and count:
-            _lower(self.step, np.float32(total / count), self.above)
+            mean = np.float32(total / count)
+            np.subtract(self.step, mean, out=self.step, where=self.above)
         self._stiffen(self.step, self.cut_image)
         return self.step, self.cut_image, np.float32(1)
 
@@ -216,7 +217,7 @@ class _Steps:
             self.slope, self.new_slope = self.new_slope, self.slope
             self.potential = self.new_potential
         if step is self.step:  # no rounding where it ends at the wall
-            _end_at_wall(step, self.change, self.lowest, self.free, self.above)
+            np.copyto(self.change, self.lowest, where=self.free & ~self.above & (step < 0))
         # Free points that the wall would have to pull, put off those behind it; new forces.
         self.force, self.last_force = self.last_force, self.force
         height = self.step  # scratch: not in use any more
@@ -228,15 +229,11 @@ class _Steps:
         self.residual = largest(self.force)
         self.behind = max(-float(height.min()), 0.0) * self.pixel
         if changed:
-            self._share_long_waves()
+            self.share = self.surface.smoother.share_of(self.free.reshape(self.shape))
         return (
             not self.linear
             or self.unit * largest(self.change) <= _MAX_LINEAR_CHANGE * self.law.range
         )
-
-    def _share_long_waves(self):
-        """Let long waves give way where points are free."""
-        self.share = self.surface.smoother.share_of(self.free.reshape(self.shape))
 
     def _mean(self, total):
         """Mean over free points, which a prescribed mean gap leaves no work to do."""
@@ -305,13 +302,6 @@ def _turn_direction(direction, weight, step, mean, free, above):
         direction[i] = part
         total += part
     return total, count
-
-
-@compiled
-def _lower(field, mean, points):
-    for i in range(field.size):
-        if points[i]:
-            field[i] -= mean
 
 
 @compiled
@@ -395,14 +385,6 @@ def _apply_step_linearly(step, factor, image, change, reaction, free, slope):
         reaction[i] += part * slope[i] + image[i] * factor
         total += reaction[i] if free[i] else _NONE
     return total
-
-
-@compiled
-def _end_at_wall(step, change, lowest, free, above):
-    """Put free points whose step ends at the wall exactly there."""
-    for i in range(step.size):
-        if free[i] and not above[i] and step[i] < 0:
-            change[i] = lowest[i]
 
 
 @compiled
