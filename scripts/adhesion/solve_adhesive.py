@@ -38,6 +38,12 @@ STATE = {
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
 }
+ATTRIBUTES = {  # of a state, where the name is another
+    "external_pressure": "mean_pressure",
+    "attraction": "adhesive_pressure",
+    "repulsive_area": "repulsive_area_fraction",
+    "net_repulsive_area": "net_repulsive_area_fraction",
+}
 ALONE = {
     "area_alone": "contact area without adhesion over nominal area, by pixels",
     "mean_gap": "mean gap over h_rms, with and without adhesion",
@@ -89,14 +95,11 @@ def main(job):
 def combinations(adhesion, pixel, full):
     """By pressure, the indices (l_a/range, range) to be solved in full that the grid resolves."""
     _, lengths, ranges = axes(adhesion)
-    resolved = np.zeros(full.shape[1:], bool)
-    for j, k in np.ndindex(resolved.shape):
-        law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
-        bent = edge_zone.resolution(pixel, law.range, law.adhesion_length)
-        resolved[j, k] = bent <= edge_zone.COARSEST
-        if full[:, j, k].any() and not resolved[j, k]:
-            logging.info("l_a/range %g, range %g: not resolved", lengths[j], ranges[k])
-    return full & resolved
+    adhesion_length = lengths / roughness(adhesion) * ranges
+    resolved = edge_zone.resolution(pixel, ranges, adhesion_length) <= edge_zone.COARSEST
+    missing = full.any(axis=0) & ~resolved.transpose(*AXES[1:]).values
+    logging.info("%d points of l_a/range and range are not resolved", missing.sum())
+    return full & ~missing
 
 
 def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
@@ -117,11 +120,11 @@ def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
                 weak = attraction <= NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None
-                found, gap = solve_at_gap(heights, length, law, contact, tolerance, known)
-                for name, value in found.items():
-                    values[name][i, j, k] = value
+                found = solve_at_gap(heights, length, law, contact, tolerance, known)
+                for name in STATE:
+                    values[name][i, j, k] = getattr(found, ATTRIBUTES.get(name, name))
                 if weak:
-                    weaker[k] = law.adhesion_length, gap
+                    weaker[k] = law.adhesion_length, found.gap
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
         | {name: ("pressure", value) for name, value in alone.items()},

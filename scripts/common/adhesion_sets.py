@@ -29,14 +29,6 @@ STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still lo
 NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
 
-ATTRIBUTES = {  # quantities of an adhesive state by their names in files
-    "external_pressure": "mean_pressure",
-    "repulsive_pressure": "repulsive_pressure",
-    "attraction": "adhesive_pressure",
-    "repulsive_area": "repulsive_area_fraction",
-    "net_repulsive_area": "net_repulsive_area_fraction",
-    "residual": "residual",
-}
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
@@ -53,7 +45,7 @@ def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
 
 
 def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
-    """State, and its gap, at the mean gap of a contact without adhesion.
+    """State at the mean gap of a contact without adhesion.
 
     `weaker` is None or the adhesion length and the gap of a state with the same range and mean gap.
     While the attraction is below `NEARLY_LINEAR` of the load, the gap changes in proportion to it,
@@ -74,7 +66,7 @@ def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
         f"range {law.range:g}: area {state.repulsive_area_fraction:.4f}, "
         f"residual {state.residual:.1e}, {state.iterations} iterations"
     )
-    return {name: getattr(state, attribute) for name, attribute in ATTRIBUTES.items()}, state.gap
+    return state
 
 
 def solver_error(states):

@@ -2,8 +2,8 @@
 
 Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
 and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
-the hard wall of the repulsive solution begins. A law is a small class: traction, derivative and
-potential as functions of the gap, strength, and how it is to be solved (`hard_wall`, `smooth`).
+the hard wall of the repulsive solution begins. A law is a small class: its `evaluate`, its
+strength, and how it is to be solved (`hard_wall`, `smooth`).
 """
 
 from __future__ import annotations
@@ -67,20 +67,20 @@ class TractionLaw(ABC):
         return 0.0
 
     @abstractmethod
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        """Traction, derivative and potential at `gap`, in the units of the methods below."""
+
     def traction(self, gap: ArrayLike) -> NDArray:
         """Traction [E*] at `gap` [length], positive where the surfaces attract."""
+        return self.evaluate(gap)[0]
 
-    @abstractmethod
     def derivative(self, gap: ArrayLike) -> NDArray:
         """Derivative of the traction with respect to the gap [E*/length]."""
+        return self.evaluate(gap)[1]
 
-    @abstractmethod
     def potential(self, gap: ArrayLike) -> NDArray:
         """Energy per area over E* [length], zero at infinite gap; its slope is the traction."""
-
-    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
-        """Traction, derivative and potential at once, which may be cheaper."""
-        return self.traction(gap), self.derivative(gap), self.potential(gap)
+        return self.evaluate(gap)[2]
 
 
 @dataclass(frozen=True)
@@ -98,15 +98,11 @@ class Maugis(TractionLaw):
     def strength(self) -> float:
         return self.maugis_stress
 
-    def traction(self, gap: ArrayLike) -> NDArray:
-        return np.where(np.asarray(gap, dtype=float) <= self.range, self.maugis_stress, 0.0)
-
-    def derivative(self, gap: ArrayLike) -> NDArray:
-        return np.zeros_like(np.asarray(gap, dtype=float))
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        inside = np.maximum(self.range - np.asarray(gap, dtype=float), 0.0)
-        return -self.maugis_stress * inside
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        gap = np.asarray(gap, dtype=float)
+        traction = np.where(gap <= self.range, self.maugis_stress, 0.0)
+        potential = -self.maugis_stress * np.maximum(self.range - gap, 0.0)
+        return traction, np.zeros_like(gap), potential
 
 
 @dataclass(frozen=True)
@@ -117,18 +113,9 @@ class Exponential(TractionLaw):
     def strength(self) -> float:
         return self.maugis_stress
 
-    def traction(self, gap: ArrayLike) -> NDArray:
-        # In single precision if the gaps are.
-        return self.maugis_stress * np.exp(np.asarray(gap) / -self.range)
-
-    def derivative(self, gap: ArrayLike) -> NDArray:
-        return -self.traction(gap) / self.range
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        return -self.range * self.traction(gap)
-
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
-        traction = self.traction(gap)
+        # In single precision if the gaps are.
+        traction = self.maugis_stress * np.exp(np.asarray(gap) / -self.range)
         return traction, traction / -self.range, traction * -self.range
 
 
@@ -151,26 +138,16 @@ class LennardJones(TractionLaw):
     def strength_gap(self) -> float:
         return (_LJ_PEAK - 1) * self.range
 
-    def _inverse_separation(self, gap: ArrayLike) -> NDArray:
-        """Return range/g, dimensionless."""
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         separation = np.asarray(gap, dtype=float) + self.range
         if not np.all(separation > 0):
             raise ValueError(
                 f"gap must exceed -range = {-self.range!r}, got {separation.min() - self.range!r}"
             )
-        return self.range / separation
-
-    def traction(self, gap: ArrayLike) -> NDArray:
-        s = self._inverse_separation(gap)
-        return 8 / 3 * self.maugis_stress * (s**3 - s**9)
-
-    def derivative(self, gap: ArrayLike) -> NDArray:
-        s = self._inverse_separation(gap)
-        return 8 * self.maugis_stress / self.range * (3 * s**10 - s**4)
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        s = self._inverse_separation(gap)
-        return -self.adhesion_length * (4 * s**2 - s**8) / 3
+        s, stress = self.range / separation, self.maugis_stress
+        traction = 8 / 3 * stress * (s**3 - s**9)
+        derivative = 8 * stress / self.range * (3 * s**10 - s**4)
+        return traction, derivative, -self.adhesion_length * (4 * s**2 - s**8) / 3
 
 
 #: Laws that a configuration may name.
