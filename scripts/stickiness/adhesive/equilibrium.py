@@ -37,13 +37,13 @@ def relax(problem, gap, tol, max_iterations, closing=True):
     """
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     observe = _observer(problem)
-    spent, state, work = 0, None, []
+    spent, state = 0, None
     if gap is None:
         fine = min(problem.surface.heights.shape) >= _MIN_POINTS_TO_COARSEN
         if fine and problem.wall and problem.law.smooth and problem.pressure is not None:
-            state = _from_coarser_grids(problem, tol, max_iterations, observe, work)
+            state = _from_coarser_grids(problem, tol, max_iterations, observe)
         if state is None:
-            gap = _without_adhesion(problem, max_iterations, work)
+            gap = _without_adhesion(problem, max_iterations)
     for _ in range(_MAX_ESCAPES):
         if state is None or gap is not None:
             state = run(problem, gap, tol, max_iterations - spent, observe)
@@ -57,7 +57,6 @@ def relax(problem, gap, tol, max_iterations, closing=True):
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
-    state.start_pairs = sum(work) / state.gap.size
     return state
 
 
@@ -174,23 +173,20 @@ def _left(problem, state, mode, closing):
     return gap if problem.mean_gap is None else lowered(gap, problem.mean_gap, lowest)
 
 
-def _from_coarser_grids(problem, tol, max_iterations, observe, work):
+def _from_coarser_grids(problem, tol, max_iterations, observe=None):
     """State of a smooth law with a wall at a prescribed pressure, by way of coarser grids.
 
     The adhesive state on a grid half as fine is a better start than the contact without adhesion,
     unless it lies beyond a jump that the fine grid does not make. So the result is None if any
-    descent meets negative curvature, without which there is no jump. `work` gets the convolutions
-    of the starts, times their points.
+    descent meets negative curvature, without which there is no jump.
     """
     shape = problem.surface.heights.shape
     if min(shape) < _MIN_POINTS_TO_COARSEN:
-        gap = _without_adhesion(problem, max_iterations, work)
+        gap = _without_adhesion(problem, max_iterations)
     else:
         heights = sample(problem.surface.heights, tuple(coarsen(n) for n in shape))
         coarse = replace(problem, surface=replace(problem.surface, heights=heights))
-        before = coarse.surface.pairs
-        state = _from_coarser_grids(coarse, _COARSE_GRID_TOLERANCE, max_iterations, None, work)
-        work.append((coarse.surface.pairs - before) * heights.size)
+        state = _from_coarser_grids(coarse, _COARSE_GRID_TOLERANCE, max_iterations)
         if state is None:
             return None
         gap = _predicted(problem, interpolate(state.gap, shape))
@@ -207,19 +203,16 @@ def _predicted(problem, gap):
     return np.where(pressing, 0, np.maximum(gap, 0))
 
 
-def _without_adhesion(problem, max_iterations, work):
-    """Gap without adhesion at the control of a problem: wider than that of any adhesive state.
+def _without_adhesion(problem, max_iterations):
+    """Gap without adhesion at the control of a problem: wider than the gap of any adhesive state.
 
-    A descent from it ends on the branch of approach. `work` gets the convolutions, times points.
+    A descent from it ends on the branch of approach.
     """
     surface, mean_gap = problem.surface, problem.mean_gap
     if problem.pressure is not None:
         effort = solver.Effort(_START_TOLERANCE)
-        contact = solver.press(
-            surface.heights, surface.sides, problem.pressure, effort, solid=surface.solid
-        )
-        work.append(contact.fft_pairs * surface.heights.size)
-        return contact.gap
+        at = surface.heights, surface.sides, problem.pressure, effort
+        return solver.press(*at, solid=surface.solid).gap
     gap = mean_gap - surface.heights
     if gap.min() >= 0:
         return gap

@@ -16,7 +16,7 @@ _SHORT = 1.6
 
 
 class Smoother:
-    """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision; counts its `pairs`.
+    """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision.
 
     The shift is the stiffness of the longest wave, of a layer that of its softest (long waves of a
     thin incompressible one are the stiffest): it stands for the grip of what touches on the mean
@@ -44,7 +44,6 @@ class Smoother:
         self._convolution = convolution.choose(shape, np.float32)
         self._every = np.arange(shape[0])
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
-        self.pairs = 0.0  # in units of the grid of the fields
 
     def share_of(self, free):
         """Shares of free points around the coarse ones; None on an odd grid.
@@ -60,7 +59,6 @@ class Smoother:
             values *= share
         out = np.empty_like(values)
         self._convolution.apply(self._symbol, values, out, self._every, self._every)
-        self.pairs += out.size / field.size
         if share is not None:
             out *= share
         if self.halved:

@@ -43,11 +43,6 @@ class Surface:
         """Approximate inverse of the stiffness."""
         return _kept_smoother(self.heights.shape, self.sides, self.solid)
 
-    @property
-    def pairs(self):
-        """Convolutions so far by all operators of this grid."""
-        return self.exact.pairs + self.quick.pairs + self.smoother.pairs
-
     def elastic(self, gap):
         """Pressure of zero mean that deforms the solid to a gap."""
         return self.exact.stiffness(gap + self.heights)
@@ -113,7 +108,6 @@ class State:
     residual: float = np.inf  #: largest magnitude of the force
     iterations: int = 0
     last_run: int = 0  #: iterations since a direction of negative curvature was met
-    start_pairs: float = 0.0  #: convolutions of the start, on coarser grids by share of the points
     separated: bool = False  #: whether no attraction left can balance the tension
 
     @classmethod

@@ -51,7 +51,6 @@ class Adhesion:
     #: the rms pressure that flattens the surface (half its rms gradient times E*) and the strength.
     residual: float
     iterations: int  #: of conjugate gradients
-    fft_pairs: float  #: convolutions (two transforms each), those of the start included
     branch: str  #: "approach" if reached from wider gaps, "separation" if from closer ones
     control: str  #: "pressure" or "mean_gap"
     law: TractionLaw
@@ -160,27 +159,27 @@ def solve(
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
     effort = Effort(tol, max_iterations)
-    gap, branch, spent = None, APPROACH, (0, 0)
+    gap, branch, spent = None, APPROACH, 0
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
     elif start is not None and not isinstance(start, str):
         gap, branch = scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH)
     elif pressure is not None and pressure < 0:
-        state, pairs = _relax(scaled, scaled.problem(pressure=0.0), None, effort)
-        gap, spent = state.gap, (state.iterations, pairs)
+        unloaded = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
+        gap, spent = unloaded.gap, unloaded.iterations
     return relax_from(scaled, gap, branch, control, effort, spent)
 
 
-def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
+def relax_from(scaled, gap, branch, control, effort, spent=0):
     """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
     None stands for loading from afar. `control` has the pressure or the mean gap by its name.
-    `spent`: iterations and convolutions that went into the start.
+    `spent`: iterations that went into the start.
     """
-    problem = scaled.problem(**control)
-    state, pairs = _relax(scaled, problem, gap, effort, closing=branch == APPROACH)
-    state.iterations += spent[0]
-    result = scaled.adhesion(state, branch, control, pairs + spent[1])
+    problem, closing = scaled.problem(**control), branch == APPROACH
+    state = relax(problem, gap, effort.tol, effort.max_iterations, closing)
+    state.iterations += spent
+    result = scaled.adhesion(state, branch, control)
     if state.separated:
         raise PullOffError(
             f"pressure = {control['pressure']!r} pulls the surfaces apart: they hold less on this "
@@ -195,13 +194,6 @@ def relax_from(scaled, gap, branch, control, effort, spent=(0, 0)):
             result,
         )
     return result
-
-
-def _relax(scaled, problem, gap, effort, closing=True):
-    """State by `relax`, and the convolutions that it took."""
-    before = scaled.surface.pairs
-    state = relax(problem, gap, effort.tol, effort.max_iterations, closing)
-    return state, scaled.surface.pairs - before + state.start_pairs
 
 
 def _warn_of_edges(pixel, law):
@@ -313,7 +305,7 @@ class Scaled:
             return gap * (mean / old)
         return lowered(gap + max(mean - old, 0.0), mean, lowest)
 
-    def adhesion(self, state, branch, control, pairs):
+    def adhesion(self, state, branch, control):
         """`Adhesion` in the caller's units; `control` is in these, too."""
         law, gap = self.law, state.gap
         net = np.empty(gap.shape)
@@ -336,7 +328,6 @@ class Scaled:
             interaction_energy=state.potential * energy,
             residual=state.residual,
             iterations=state.iterations,
-            fft_pairs=float(pairs),
             branch=branch,
             control=next(iter(control)),
             law=self.original_law,
