@@ -80,11 +80,7 @@ def follow(heights, length, loop, adhesion_length_over_range, control):
         warnings.simplefilter("ignore", PlausibilityWarning)
         for point in adhesive.path(heights, length, law, turns[control], control, **settings):
             state = point.state
-            logging.info(
-                f"l_a/range {adhesion_length_over_range:g}, {state.branch}: "
-                f"p = {state.mean_pressure:.4g}, gap {state.mean_gap:.4g}, "
-                f"area {state.repulsive_area_fraction:.4f} {point.event or ''}"
-            )
+            logging.info("%s: p %.4g, gap %.4g", state.branch, state.mean_pressure, state.mean_gap)
             if point.event != "pull-off":  # the last state that held is in the list already
                 row = {name: getattr(state, name) for name in STATES}
                 row["separating"] = float(state.branch == "separation")
