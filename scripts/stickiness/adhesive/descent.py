@@ -71,7 +71,7 @@ def _refresh(problem, state):
             state.gap *= problem.mean_gap / mean  # contact stays contact
         else:
             state.gap += problem.mean_gap - mean
-    state.elastic[...] = problem.surface.elastic(state.gap)
+    state.elastic[...] = problem.elastic(state.gap)
     evaluate(problem, state)
 
 
@@ -79,12 +79,12 @@ class _Conjugate:
     """Directions of descent and their images under the stiffness, in single precision."""
 
     def __init__(self, problem):
-        self.problem, self.surface = problem, problem.surface
+        self.problem = problem
         # A single point is held by the stiffness of a pixel, long waves by the longest wave's.
-        self.longest = self.surface.smoother.shift
-        self.stiff_limit = _STIFF_POINT * np.sqrt(self.longest * self.surface.quick.mean_stiffness)
+        self.longest = problem.smoother.shift
+        self.stiff_limit = _STIFF_POINT * np.sqrt(self.longest * problem.quick.mean_stiffness)
         self._direction, self._force, self._image = (
-            np.empty(self.surface.heights.shape, np.float32) for _ in range(3)
+            np.empty(problem.heights.shape, np.float32) for _ in range(3)
         )
         self._free = None
         self.forget()
@@ -125,10 +125,10 @@ class _Conjugate:
             self._balance(direction, state.gap > 0)
         # No product, no conjugacy: all forces are zero or too small to square.
         self._product = product if product > 0 else None
-        return direction, self.surface.quick.stiffness(direction, out=self._image)
+        return direction, self.problem.quick.stiffness(direction, out=self._image)
 
     def _precondition(self, force, free, soft):
-        smoother = self.surface.smoother
+        smoother = self.problem.smoother
         if not self.problem.wall:
             stiff = self._stiffness > self.stiff_limit
             step = smoother.apply(np.where(stiff, np.float32(0), force))
@@ -212,7 +212,7 @@ def _cut_short(problem, state, lower, lowest):
     if problem.mean_gap is not None:
         lower.gap[...] = lowered(lower.gap, problem.mean_gap, lowest)
     step = (lower.gap - state.gap).astype(np.float32)
-    image = problem.surface.quick.stiffness(step)
+    image = problem.quick.stiffness(step)
     np.add(state.elastic, image, out=lower.elastic)
     change = 0.0
     for span in spans(step.shape):

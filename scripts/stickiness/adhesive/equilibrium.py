@@ -39,7 +39,7 @@ def relax(problem, gap, tol, max_iterations, closing=True):
     observe = _observer(problem)
     spent, state = 0, None
     if gap is None:
-        fine = min(problem.surface.heights.shape) >= _MIN_POINTS_TO_COARSEN
+        fine = min(problem.heights.shape) >= _MIN_POINTS_TO_COARSEN
         if fine and problem.wall and problem.law.smooth and problem.pressure is not None:
             state = _from_coarser_grids(problem, tol, max_iterations, observe)
         if state is None:
@@ -102,7 +102,7 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
         changed = (state.gap <= law.range) != inside
         if not final and changed.any():
             # Only where the gap is farther from the range than it may be from equilibrium.
-            away = float(np.abs(frozen.surface.smoother.apply(state.force)).max())
+            away = float(np.abs(frozen.smoother.apply(state.force)).max())
             changed &= np.abs(state.gap - law.range) > 2 * frozen.unit * away
         if changed.any():
             inside ^= changed
@@ -118,8 +118,7 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
 
 def _surely_stable(problem, state):
     """Whether the law softens less than elasticity holds the longest wave, at a given mean gap."""
-    surface = problem.surface
-    softest = min(surface.smoother.shift, np.pi / max(surface.sides))
+    softest = min(problem.smoother.shift, np.pi / max(problem.sides))
     return problem.mean_gap is not None and float(-state.slope.min()) < softest
 
 
@@ -147,12 +146,12 @@ def _unstable_mode(problem, state):
     direction, product = None, 0.0
     first = float(np.abs(residual).max())
     for _ in range(_MAX_PROBES):
-        image = constrained(problem.surface.smoother.apply(residual))
+        image = constrained(problem.smoother.apply(residual))
         last, product = product, float(np.vdot(image, residual))
         if not product > 0:
             return None
         direction = -image if direction is None else direction * np.float32(product / last) - image
-        stress = problem.surface.quick.stiffness(direction) + state.slope * direction
+        stress = problem.quick.stiffness(direction) + state.slope * direction
         curvature = float(np.vdot(direction, stress))
         if curvature < 0:
             return direction
@@ -180,12 +179,12 @@ def _from_coarser_grids(problem, tol, max_iterations, observe=None):
     unless it lies beyond a jump that the fine grid does not make. So the result is None if any
     descent meets negative curvature, without which there is no jump.
     """
-    shape = problem.surface.heights.shape
+    shape = problem.heights.shape
     if min(shape) < _MIN_POINTS_TO_COARSEN:
         gap = _without_adhesion(problem, max_iterations)
     else:
-        heights = sample(problem.surface.heights, tuple(coarsen(n) for n in shape))
-        coarse = replace(problem, surface=replace(problem.surface, heights=heights))
+        heights = sample(problem.heights, tuple(coarsen(n) for n in shape))
+        coarse = replace(problem, heights=heights)
         state = _from_coarser_grids(coarse, _COARSE_GRID_TOLERANCE, max_iterations)
         if state is None:
             return None
@@ -196,10 +195,9 @@ def _from_coarser_grids(problem, tol, max_iterations, observe=None):
 
 def _predicted(problem, gap):
     """Gap interpolated from a coarser grid, closed where the heights of this one press."""
-    surface = problem.surface
-    pressure = surface.quick.stiffness((gap + surface.heights).astype(np.float32))
+    pressure = problem.quick.stiffness((gap + problem.heights).astype(np.float32))
     pressure += problem.pressure + problem.law.traction(np.maximum(gap, 0))
-    pressing = pressure > PREDICTION * surface.quick.mean_stiffness * gap
+    pressing = pressure > PREDICTION * problem.quick.mean_stiffness * gap
     return np.where(pressing, 0, np.maximum(gap, 0))
 
 
@@ -208,12 +206,11 @@ def _without_adhesion(problem, max_iterations):
 
     A descent from it ends on the branch of approach.
     """
-    surface, mean_gap = problem.surface, problem.mean_gap
+    mean_gap = problem.mean_gap
     if problem.pressure is not None:
-        effort = solver.Effort(_START_TOLERANCE)
-        at = surface.heights, surface.sides, problem.pressure, effort
-        return solver.press(*at, solid=surface.solid).gap
-    gap = mean_gap - surface.heights
+        at = problem.heights, problem.sides, problem.pressure, solver.Effort(_START_TOLERANCE)
+        return solver.press(*at, solid=problem.solid).gap
+    gap = mean_gap - problem.heights
     if gap.min() >= 0:
         return gap
     if mean_gap <= 0:

@@ -21,12 +21,16 @@ _BLOCK_POINTS = 2**14  # in a block of rows, which stays in cache
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
-    """Heights (about their mean, in h_rms) with the elasticity of the solid on their grid."""
+class Problem:
+    """Surface and elasticity on its grid, law, and control: a pressure or a mean gap."""
 
-    heights: np.ndarray
+    heights: np.ndarray  #: about their mean, in h_rms
     sides: tuple  #: of the cell, in units of the first
-    solid: Solid = HALF_SPACE  #: its thickness in the same unit
+    law: object  #: TractionLaw or FrozenTraction
+    unit: float  #: pressure that residuals are measured in
+    solid: Solid = HALF_SPACE  #: its thickness in the unit of the sides
+    pressure: float | None = None
+    mean_gap: float | None = None
 
     @property
     def exact(self):
@@ -47,17 +51,6 @@ class Surface:
         """Pressure of zero mean that deforms the solid to a gap."""
         return self.exact.stiffness(gap + self.heights)
 
-
-@dataclass(frozen=True, eq=False)
-class Problem:
-    """Surface, law (in the units of the surface) and control: a pressure or a mean gap."""
-
-    surface: Surface
-    law: object  #: TractionLaw or FrozenTraction
-    unit: float  #: pressure that residuals are measured in
-    pressure: float | None = None
-    mean_gap: float | None = None
-
     @property
     def wall(self):
         """Whether gaps end at a hard wall; if not, every point is free."""
@@ -71,7 +64,7 @@ class Problem:
         """State of a gap; `elastic` is its elastic pressure, if known."""
         state = State.empty(gap.shape)
         state.gap[...] = gap
-        state.elastic[...] = self.surface.elastic(gap) if elastic is None else elastic
+        state.elastic[...] = self.elastic(gap) if elastic is None else elastic
         return evaluate(self, state)
 
 

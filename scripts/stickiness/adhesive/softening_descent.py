@@ -60,7 +60,7 @@ def _moved(problem, state, steps, other):
     if problem.mean_gap is not None and total > 0:
         # In proportion: contact stays contact, edges keep their shape.
         other.gap *= problem.mean_gap * other.gap.size / total
-    other.elastic[...] = problem.surface.elastic(other.gap)
+    other.elastic[...] = problem.elastic(other.gap)
     pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
     change = _sum_work_between(*gaps, *pressures)
     evaluate(problem, other)
@@ -78,10 +78,10 @@ class _Steps:
     """
 
     def __init__(self, problem):
-        self.surface, self.law, self.unit = problem.surface, problem.law, problem.unit
-        self.shape, self.at_gap = problem.surface.heights.shape, problem.pressure is None
-        self.pixel = problem.surface.quick.mean_stiffness
-        size = problem.surface.heights.size
+        self.problem, self.law, self.unit = problem, problem.law, problem.unit
+        self.shape, self.at_gap = problem.heights.shape, problem.pressure is None
+        self.pixel = problem.quick.mean_stiffness
+        size = problem.heights.size
         fields = [convolution.aligned_zeros(size, np.float32) for _ in range(13)]
         # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
         self.change, self.lowest, self.traction, self.slope, *fields = fields
@@ -111,7 +111,7 @@ class _Steps:
         self.force, self.last_force = self.last_force, self.force
         self.force[...] = state.force.ravel()
         self.free_points = np.count_nonzero(self.free)
-        self.share = self.surface.smoother.share_of(self.free.reshape(self.shape))
+        self.share = self.problem.smoother.share_of(self.free.reshape(self.shape))
         if self.at_gap:
             mean = np.float32(self._mean(self.force.sum(dtype=float)))
             np.subtract(self.force, mean, out=self.force, where=self.free)
@@ -148,7 +148,7 @@ class _Steps:
 
         These are slope and curvature of the energy along the new direction.
         """
-        step = self.surface.smoother.apply(self.force.reshape(self.shape), self.share).ravel()
+        step = self.problem.smoother.apply(self.force.reshape(self.shape), self.share).ravel()
         total, product, last_product, *forces = _sum_over_free(
             step, self.free, self.force, self.last_force
         )
@@ -229,7 +229,7 @@ class _Steps:
         self.residual = largest(self.force)
         self.behind = max(-float(height.min()), 0.0) * self.pixel
         if changed:
-            self.share = self.surface.smoother.share_of(self.free.reshape(self.shape))
+            self.share = self.problem.smoother.share_of(self.free.reshape(self.shape))
         return (
             not self.linear
             or self.unit * largest(self.change) <= _MAX_LINEAR_CHANGE * self.law.range
@@ -240,7 +240,7 @@ class _Steps:
         return total / max(self.free_points, 1) if self.at_gap else 0.0
 
     def _stiffen(self, field, out):
-        self.surface.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
+        self.problem.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
 
 
 @compiled

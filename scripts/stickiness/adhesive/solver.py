@@ -7,7 +7,7 @@ import numpy as np
 
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.equilibrium import relax
-from stickiness.adhesive.problem import Problem, Surface, lowered
+from stickiness.adhesive.problem import Problem, lowered
 from stickiness.arguments import grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
@@ -183,7 +183,7 @@ def relax_from(scaled, gap, branch, control, effort, spent=0):
     if state.separated:
         raise PullOffError(
             f"pressure = {control['pressure']!r} pulls the surfaces apart: they hold less on this "
-            f"branch (the strength of the law is {scaled.original_law.strength:.6g}); "
+            f"branch (the strength of the law is {scaled.law.strength:.6g}); "
             "control mean_gap instead",
             result,
         )
@@ -251,13 +251,11 @@ def _lowest_gap(law):
 class Scaled:
     """Surface and law in the units of the solver, and the conversion back."""
 
-    surface: Surface
-    law: TractionLaw
-    original_law: TractionLaw
+    scaled: Problem  #: without a control
+    law: TractionLaw  #: as given
     lengths: tuple
     height: float  #: unit of heights and gaps
     rms_height: float
-    residual_unit: float
 
     @classmethod
     def of(cls, heights, lengths, law, solid=HALF_SPACE):
@@ -265,15 +263,13 @@ class Scaled:
         mean, rms = measure_scale(heights)
         height = rms if rms > 0 else law.range
         scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
-        surface = Surface(scaled, (1.0, lengths[1] / lengths[0]), solid.in_unit(lengths[0]))
-        scaled_law = replace(
-            law,
-            adhesion_length=law.adhesion_length * lengths[0] / height**2,
-            range=law.range / height,
-        )
-        flattening = float(np.sqrt(np.mean(surface.exact.stiffness(scaled) ** 2)))
-        unit = max(flattening, scaled_law.strength)
-        return cls(surface, scaled_law, law, lengths, height, rms, unit)
+        length = law.adhesion_length * lengths[0] / height**2
+        scaled_law = replace(law, adhesion_length=length, range=law.range / height)
+        sides, solid = (1.0, lengths[1] / lengths[0]), solid.in_unit(lengths[0])
+        problem = Problem(scaled, sides, scaled_law, scaled_law.strength, solid)
+        flattening = float(np.sqrt(np.mean(problem.exact.stiffness(scaled) ** 2)))
+        problem = replace(problem, unit=max(flattening, scaled_law.strength))
+        return cls(problem, law, lengths, height, rms)
 
     @property
     def stress(self):
@@ -282,10 +278,8 @@ class Scaled:
 
     def problem(self, pressure=None, mean_gap=None):
         """Problem at one value of the control, which is in the caller's units."""
-        return Problem(
-            self.surface,
-            self.law,
-            self.residual_unit,
+        return replace(
+            self.scaled,
             pressure=None if pressure is None else pressure / self.stress,
             mean_gap=None if mean_gap is None else mean_gap / self.height,
         )
@@ -295,21 +289,22 @@ class Scaled:
 
         It is changed in proportion, so that contact stays contact, or rigidly where there is none.
         """
-        lowest = _lowest_gap(self.law)
+        law = self.scaled.law
+        lowest = _lowest_gap(law)
         gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
         gap = np.maximum(gap, lowest)
         if mean_gap is None:
             return gap
         mean, old = mean_gap / self.height, float(gap.mean())
-        if self.law.hard_wall and old > 0 and gap.min() == 0:
+        if law.hard_wall and old > 0 and gap.min() == 0:
             return gap * (mean / old)
         return lowered(gap + max(mean - old, 0.0), mean, lowest)
 
     def adhesion(self, state, branch, control):
         """`Adhesion` in the caller's units; `control` is in these, too."""
-        law, gap = self.law, state.gap
+        law, gap = self.scaled.law, state.gap
         net = np.empty(gap.shape)
-        fields = gap, state.elastic, state.traction, self.surface.heights, net
+        fields = gap, state.elastic, state.traction, self.scaled.heights, net
         sums = _sum_up(*(f.ravel() for f in fields), state.pressure, law.hard_wall, law.range)
         repulsion, attraction, elastic, *areas = (value / gap.size for value in sums)
         net *= self.stress
@@ -330,7 +325,7 @@ class Scaled:
             iterations=state.iterations,
             branch=branch,
             control=next(iter(control)),
-            law=self.original_law,
+            law=self.law,
             length=self.lengths,
             rms_height=self.rms_height,
         )

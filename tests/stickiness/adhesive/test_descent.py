@@ -6,7 +6,7 @@ import pytest
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.adhesive.descent import descend
 from stickiness.adhesive.preconditioner import LONGEST, Smoother
-from stickiness.adhesive.problem import Problem, State, Surface, evaluate
+from stickiness.adhesive.problem import Problem, State, evaluate
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.adhesive.solver import Scaled
 from stickiness.solids import HALF_SPACE
@@ -34,7 +34,7 @@ def test_the_preconditioner_nearly_inverts_the_stiffness(shape):
 def test_what_is_not_a_number_is_no_equilibrium(control, field):
     heights = np.random.default_rng(1).standard_normal((16, 16))
     law = adhesive.Exponential(adhesion_length=1e-3, range=0.1)
-    problem = Problem(Surface(heights, (1.0, 1.0)), law, 1.0, **control)
+    problem = Problem(heights, (1.0, 1.0), law, 1.0, **control)
     state = State.empty((16, 16))
     state.gap[...] = 1.0
     state.elastic[...] = 0.0
