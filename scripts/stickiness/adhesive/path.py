@@ -104,8 +104,6 @@ def path(
 
     Raises
     ------
-    ValueError
-        If an argument is malformed or out of range; the message names it.
     PullOffError
         If there is no equilibrium at the first value.
     ConvergenceError
@@ -129,15 +127,13 @@ def path(
         scaled=Scaled.of(grid("heights", heights), last.length, law, solid),
         control=control,
         effort=Effort(tol, max_iterations),
-        balance=balance,
-        smallest_jump=max(smallest_jump, balance),
-        located=located,
         span=float(np.ptp(values)),
         left=max_states - 1,
         scale=_LEAST_SCALE * law.adhesion_length,
+        **sizes,
     )
     for target in values[1:]:
-        for point in follower.leg(last, target, steps):
+        for point in follower.leg(last, target):
             yield point
             if point.event == "pull-off":
                 return
@@ -152,18 +148,19 @@ class _Follower:
     scaled: Scaled
     control: str
     effort: Effort
-    balance: float
-    smallest_jump: float
-    located: float
     span: float  #: between the largest and the smallest value of the control
     left: int  #: states that may still be computed
     scale: float  #: largest change of elastic plus interaction energy so far [E* length]
+    balance: float
+    smallest_jump: float
+    located: float
+    steps: int
 
-    def leg(self, state, target, steps):
+    def leg(self, state, target):
         """Points from a state (left out) to a value of the control."""
         value = state.mean_pressure if self.control == "pressure" else state.mean_gap
         closing = (target > value) == (self.control == "pressure")
-        longest = abs(target - value) / steps
+        longest = abs(target - value) / self.steps
         finest = longest / _SUBSTEPS[self.first.law.smooth]
         # `end` is the target, or a value before it that could not be reached in balance.
         before, step, end, failures = None, longest, target, 0
@@ -172,7 +169,7 @@ class _Follower:
             successor = self._solve(state, trial, APPROACH if closing else SEPARATION)
             work, dissipated = self._dissipation(before, state, successor)
             width = abs(trial - value)
-            allowed = self.smallest_jump if width <= finest else self.balance
+            allowed = max(self.smallest_jump, self.balance) if width <= finest else self.balance
             if abs(dissipated) <= allowed * self.scale:
                 yield PathPoint(successor, work=work, dissipated=dissipated)
                 growth = 0.8 * (self.balance * self.scale / max(abs(dissipated), 1e-300)) ** 0.25

@@ -131,15 +131,17 @@ def evaluate(problem, state):
     """
     state.traction[...], state.slope[...], energy = problem.law.evaluate(state.gap)
     state.potential = sum_blocks(np.sum, energy) / state.gap.size
-    fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
     state.pressure = problem.pressure
     if state.pressure is None:
+        fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
         total, count, least = _unloaded(*fields, problem.wall)
         # In full contact the least pressure that keeps it.
         state.pressure = -total / count if count else -least
-    force, free = state.force.ravel(), state.free.ravel()
-    _react(*fields, state.pressure, problem.unit, problem.wall, free, force)
-    state.residual = largest(force)
+    reaction = state.elastic + state.pressure + state.traction
+    # A reaction that is not a number makes a point free, and so comes to light.
+    state.free[...] = (state.gap > 0) | ~(reaction >= 0) if problem.wall else True
+    state.force[...] = np.where(state.free, reaction / problem.unit, 0.0)
+    state.residual = largest(state.force)
     return state
 
 
@@ -154,15 +156,6 @@ def _unloaded(gap, elastic, traction, wall):
             count += 1
         least = min(least, reaction)
     return total, count, least
-
-
-@compiled
-def _react(gap, elastic, traction, pressure, unit, wall, free, force):
-    """Find the points that are free, and the forces on them."""
-    for i in range(gap.size):
-        reaction = elastic[i] + traction[i] + pressure
-        free[i] = gap[i] > 0 or not reaction >= 0 or not wall  # keeps what is not a number
-        force[i] = reaction / unit if free[i] else 0.0
 
 
 def largest(field):

@@ -82,14 +82,15 @@ def solve(
     tol=1e-8,
     max_iterations=3000,
     solid=HALF_SPACE,
-):
+) -> Adhesion:
     """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
 
     In general the problem has several solutions. This function returns the stable state that a
     descent in energy reaches from `start`. At a prescribed pressure the states are ordered: loading
     from afar ends in the one with the widest gaps, unloading from full contact in the one with the
     narrowest. Of two states at the same pressure the one of lower `Adhesion.enthalpy` is the deeper
-    minimum; at the same mean gap, the one of lower `Adhesion.energy`.
+    minimum; at the same mean gap, the one of lower `Adhesion.energy`. A `PlausibilityWarning` says
+    if the pixels are far too large for the edges of contact, or units probably differ.
 
     Parameters
     ----------
@@ -117,24 +118,12 @@ def solve(
         `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
         of the backing.
 
-    Returns
-    -------
-    Adhesion
-
     Raises
     ------
-    ValueError
-        If an argument is malformed or out of range; the message names it.
     PullOffError
         If the tension tears the surfaces apart; it carries the last iterate.
     ConvergenceError
         If `max_iterations` do not suffice; it carries the last iterate.
-
-    Warns
-    -----
-    PlausibilityWarning
-        If the pixels are far too large for the edges of contact, or arguments are probably in
-        different units.
 
     Examples
     --------

@@ -97,8 +97,6 @@ def measure(
 
     Raises
     ------
-    ValueError
-        If an argument is not what it should be.
     ConvergenceError
         If a state does not converge.
     """

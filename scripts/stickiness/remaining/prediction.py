@@ -211,11 +211,6 @@ def predict(
         incompressible layers the value is a third to nine tenths of what was simulated (the less,
         the weaker the adhesion); the limits hold that.
 
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
-
     Examples
     --------
     >>> from stickiness.spectrum import SelfAffine
