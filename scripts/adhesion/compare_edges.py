@@ -51,19 +51,17 @@ def main(job):
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
     dataset = conventions.annotate(dataset, **VARIABLES)
-    solver = solver_error(adhesive)
     seeds = states.sizes["seed"]
     for name in QUOTED:
         fine = states[name]
         change = abs((fine - coarse[name]).mean("seed", skipna=False))
+        solver = solver_error(adhesive) * fine.mean("seed")
         error = students_t(seeds) * fine.std("seed", ddof=1) / np.sqrt(seeds)
         dataset = with_budget(
             dataset,
             name,
             discretisation=ErrorComponent(change, "change from half the resolution"),
-            solver=ErrorComponent(
-                solver * fine.mean("seed"), "by tolerance and branch, as measured"
-            ),
+            solver=ErrorComponent(solver, "by tolerance and branch, as measured"),
             sampling=ErrorComponent(error, "Student's t"),
             **SIMULATED,
         )

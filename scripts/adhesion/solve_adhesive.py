@@ -106,12 +106,10 @@ def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
     """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
     pressures, lengths, ranges = axes(adhesion)
     values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
-    alone = {name: np.empty(len(pressures)) for name in ALONE}
+    alone = []
     path = solver.load_path(heights, length, pressures.values, tol=tolerance)
     for i, contact in enumerate(path):
-        alone["area_alone"][i] = contact.area_fraction
-        alone["mean_gap"][i] = contact.mean_gap
-        alone["edge_gap"][i] = subpixel.edge_gap(contact.gap)
+        alone.append((contact.area_fraction, contact.mean_gap, subpixel.edge_gap(contact.gap)))
         weaker = {}  # by range, the last state with weak adhesion
         for j, k in itertools.product(range(lengths.size), range(ranges.size)):
             law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
@@ -127,7 +125,7 @@ def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
                     weaker[k] = law.adhesion_length, found.gap
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
-        | {name: ("pressure", value) for name, value in alone.items()},
+        | {n: ("pressure", v) for n, v in zip(ALONE, np.transpose(alone), strict=True)},
         coords={one.name: one for one in (pressures, lengths, ranges)},
     )
 

@@ -18,10 +18,9 @@ OUTSIDE = "outside the table of measured errors"
 
 # Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms,
 # l_a/range 0.05 to 0.4, magnifications 16 and 32) 22 changed by less than 3e-8 of the load. Two of
-# the stickiest ended on another branch. Where a jump ends depends on the steps of the descent: when
-# they changed, 32 of the 1396 states of the standard reproduction moved by more than 1e-4 of the
-# load, up to 11 % of it and 2.5 % of the area; all but three have attraction above 1.5 times the
-# load. The mean over four seeds or more moves by less than the error here.
+# the stickiest ended on another branch. Where a jump ends depends on the steps of the descent: with
+# other steps 32 of 1396 states moved by more than 1e-4 of the load, up to 11 % of it, nearly all
+# with attraction above 1.5 times the load. The mean over four seeds moves less than the error here.
 SOLVER = 1e-6
 BRANCH, BRANCHING = 0.03, 1.5  # relative error where the attraction is that many times the load
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at

@@ -18,10 +18,9 @@ _SHORT = 1.6
 class Smoother:
     """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision.
 
-    The shift is the stiffness of the longest wave, of a layer that of its softest (long waves of a
-    thin incompressible one are the stiffest): it stands for the grip of what touches on the mean
-    gap, which no elasticity holds. On an even grid this is ``constant + B apply B^T``, where B is
-    the incidence of its points and the four coarse points around each (some may coincide).
+    The shift is the stiffness of the longest wave, or of the softest wave of a layer: it stands for
+    the grip of what touches on the mean gap, which no elasticity holds. On an even grid this is
+    ``constant + B apply B^T``, where B is the incidence of points and the coarse ones around each.
     """
 
     def __init__(self, shape, sides, solid):

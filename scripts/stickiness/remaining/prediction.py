@@ -61,9 +61,6 @@ class Prediction:
     separation_limits: tuple[float, float]
     pull_off_limits: tuple[float, float]
     energy_ratio: float  #: work of adhesion over the elastic energy of full contact
-    #: Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
-    #: out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
-    tabor: float
     #: Factor on the errors that limits stand for, see `find_anisotropy_error_factor`.
     anisotropy_error_factor: float = 1.0
 
@@ -221,9 +218,9 @@ def predict(
     """
     check_spectrum(spectrum)
     length, range = number("adhesion_length", adhesion_length), number("range", range)
-    q0, h = number("q0", spectrum.q_longest if q0 is None else q0), spectrum.h_rms
+    q0 = number("q0", spectrum.q_longest if q0 is None else q0)
     rough = Roughness(
-        h_rms=h,
+        h_rms=spectrum.h_rms,
         q0=q0,
         elastic_energy=spectrum.elastic_energy(solid),
         relative_compliance=check_solid(solid).factor(q0),
@@ -242,6 +239,5 @@ def predict(
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=(least, most),
         energy_ratio=ratio,
-        tabor=float(np.cbrt((length * rough.relative_compliance) ** 2 / (q0**2 * h * range**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,
     )

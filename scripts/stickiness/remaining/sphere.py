@@ -66,10 +66,9 @@ def work_of_separation(
 ) -> NDArray:
     """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`.
 
-    Roughness pins the edge, so that parting takes more work than remains. Dalvi et al. (PNAS 116,
-    25484, 2019, doi:10.1073/pnas.1913126116) measured what a cycle of contact and removal loses:
-    the work of adhesion times the true area of contact. The high limit is what remains plus that
-    loss, but at most `PINNING` elastic energies more than a smooth surface takes.
+    Roughness pins the edge. Dalvi et al. (doi:10.1073/pnas.1913126116) measured what a cycle of
+    contact and removal loses: the work of adhesion times the true area of contact. The high limit
+    is what remains plus that loss, but at most `PINNING` elastic energies more than 1.
     """
     share = np.asarray(rough.share(adhesion_length, range, sign))
     if sign <= 0:
