@@ -8,12 +8,12 @@ barrier that a slow motion would not. Increments are in single precision; every 
 residual, and before it is believed, the pressure is recomputed in double precision.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from stickiness.adhesive.problem import (
-    State,
     balanced,
-    evaluate,
     largest,
     lowered,
     spans,
@@ -33,14 +33,14 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
     stops when it returns true. `elastic` is the elastic pressure of the start, if known. `rough`:
     increments in single precision are good enough for the result.
     """
-    state, spare = problem.state(gap, elastic), State.empty(gap.shape)
+    state = problem.state(gap, elastic)
     fresh, reference = elastic is None or rough, state.residual
     conjugate = _Conjugate(problem)
     last_soft, iteration, soft = 0, 0, True
     while True:
         known = rough and state.residual <= tol
         if not fresh and not known and state.residual <= max(tol, _REFRESH * reference):
-            _refresh(problem, state)
+            state = _refreshed(problem, state)
             fresh, reference = True, state.residual
             conjugate.forget()
         done = state.residual <= tol or iteration >= max_iterations
@@ -48,31 +48,30 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
         if done or (observer is not None and observer(state)):
             break
         direction, image = conjugate.direction(state, soft)
-        lower, soft = _step(problem, state, direction, image, spare)
+        lower, soft = _step(problem, state, direction, image)
         iteration += 1
         last_soft = iteration if soft else last_soft
-        if lower:
-            state, spare, fresh = spare, state, False
+        if lower is not None:
+            state, fresh = lower, False
         elif conjugate.restarted:
             break  # nothing but rounding is left to gain
         else:
             conjugate.forget()
     if not fresh and not rough:
-        _refresh(problem, state)
+        state = _refreshed(problem, state)
     state.iterations, state.last_run = iteration, iteration - last_soft
     return state
 
 
-def _refresh(problem, state):
-    """Free a state from the rounding of single precision."""
-    mean = float(state.gap.mean())
+def _refreshed(problem, state):
+    """State without the rounding of single precision."""
+    gap, mean = state.gap, float(state.gap.mean())
     if problem.mean_gap is not None and mean != problem.mean_gap:
         if problem.wall and mean > 0:
-            state.gap *= problem.mean_gap / mean  # contact stays contact
+            gap = gap * (problem.mean_gap / mean)  # contact stays contact
         else:
-            state.gap += problem.mean_gap - mean
-    state.elastic[...] = problem.elastic(state.gap)
-    evaluate(problem, state)
+            gap = gap + (problem.mean_gap - mean)
+    return replace(problem.state(gap), separated=state.separated)
 
 
 class _Conjugate:
@@ -162,8 +161,8 @@ class _Conjugate:
         return field
 
 
-def _step(problem, state, direction, image, lower):
-    """Step along a direction into `lower`; whether energy fell and curvature was negative."""
+def _step(problem, state, direction, image):
+    """State of less energy along a direction, if any, and whether curvature was negative."""
     # Means over the grid: slope of the energy, curvature by elasticity and by the law where it
     # softens and hardens, work of the traction.
     n, curvature = direction.size, direction.astype(float)
@@ -176,7 +175,7 @@ def _step(problem, state, direction, image, lower):
     hardening = sum_blocks(np.sum, rising) / n
     softening = sum_blocks(lambda both, up: both.sum() - up.sum(), curvature, rising) / n
     if not slope < 0:
-        return False, False
+        return None, False
     curvature = stiffness + softening + hardening
     soft = not curvature > 0
     if soft:
@@ -190,33 +189,31 @@ def _step(problem, state, direction, image, lower):
     slack = 8 * np.finfo(float).eps * abs(state.potential)
     lowest = problem.lowest(state.gap)
     for _ in range(_MAX_SHORTENINGS):
-        np.multiply(direction, length, out=lower.gap, dtype=float)
-        lower.gap += state.gap
-        np.multiply(image, length, out=lower.elastic, dtype=float)
-        lower.elastic += state.elastic
-        change = length * slope + length**2 * stiffness / 2 - length * work
-        if np.any(lower.gap < lowest):
-            change = _cut_short(problem, state, lower, lowest)
-        evaluate(problem, lower)
+        gap = direction.astype(float) * length + state.gap
+        if np.any(gap < lowest):
+            gap, elastic, change = _cut_short(problem, state, gap, lowest)
+        else:
+            elastic = image.astype(float) * length + state.elastic
+            change = length * slope + length**2 * stiffness / 2 - length * work
+        lower = problem.state(gap, elastic)
         change = change + lower.potential - state.potential
         if change <= slack:
-            return True, soft
+            return lower, soft
         predicted = length * slope
         length *= min(max(-0.5 * predicted / (change - predicted), 0.1), 0.5)
-    return False, soft
+    return None, soft
 
 
-def _cut_short(problem, state, lower, lowest):
-    """Cut a step short at its bounds; returns the change of energy without the law's."""
-    np.maximum(lower.gap, lowest, out=lower.gap)
+def _cut_short(problem, state, gap, lowest):
+    """Gap cut short at its bounds, its elastic pressure, change of energy without the law's."""
+    gap = np.maximum(gap, lowest)
     if problem.mean_gap is not None:
-        lower.gap[...] = lowered(lower.gap, problem.mean_gap, lowest)
-    step = (lower.gap - state.gap).astype(np.float32)
+        gap = lowered(gap, problem.mean_gap, lowest)
+    step = (gap - state.gap).astype(np.float32)
     image = problem.quick.stiffness(step)
-    np.add(state.elastic, image, out=lower.elastic)
     change = 0.0
     for span in spans(step.shape):
         change += problem.unit * float(np.vdot(step[span], state.force[span]))
         stress = 0.5 * image[span] - state.traction[span]
         change += float(np.vdot(step[span].astype(float), stress))
-    return change / step.size
+    return gap, state.elastic + image, change / step.size

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from stickiness.adhesive.descent import descend
-from stickiness.adhesive.problem import FrozenTraction, balanced, evaluate, lowered
+from stickiness.adhesive.problem import FrozenTraction, balanced, lowered
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.repulsive import solver
 from stickiness.repulsive.active_set import PREDICTION
@@ -92,7 +92,8 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
     while True:
         frozen = replace(problem, law=FrozenTraction(law.maugis_stress * inside, law.range))
         if aim is None:
-            aim = max(tol, _FROZEN_REDUCTION * evaluate(frozen, state).residual)
+            residual = frozen.state(state.gap, state.elastic).residual
+            aim = max(tol, _FROZEN_REDUCTION * residual)
         final = aim <= tol
         left = max_iterations - spent
         state = descend(frozen, state.gap, aim, left, observe, state.elastic, rough=not final)
@@ -111,9 +112,8 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
             break
         else:
             aim = max(tol, _FROZEN_REDUCTION * aim)
-    evaluate(problem, state)
-    state.iterations, state.last_run = spent, spent
-    return state
+    last = problem.state(state.gap, state.elastic)
+    return replace(last, iterations=spent, last_run=spent, separated=state.separated)
 
 
 def _surely_stable(problem, state):
@@ -215,5 +215,5 @@ def _without_adhesion(problem, max_iterations):
         return gap
     if mean_gap <= 0:
         return np.full(gap.shape, mean_gap)
-    alone = replace(problem, law=FrozenTraction(0.0, problem.law.range))
+    alone = replace(problem, law=FrozenTraction(np.zeros_like(gap), problem.law.range))
     return descend(alone, lowered(gap, mean_gap), _START_TOLERANCE, max_iterations).gap

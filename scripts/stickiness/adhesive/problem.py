@@ -61,24 +61,41 @@ class Problem:
         return 0.0 if self.wall else 0.5 * (gap - self.law.range)
 
     def state(self, gap, elastic=None):
-        """State of a gap; `elastic` is its elastic pressure, if known."""
-        state = State.empty(gap.shape)
-        state.gap[...] = gap
-        state.elastic[...] = self.elastic(gap) if elastic is None else elastic
-        return evaluate(self, state)
+        """State of a gap (not negative at a wall); `elastic` is its elastic pressure, if known.
+
+        The mean pressure, if not prescribed, is the one that balances the open points in the mean.
+        """
+        elastic = self.elastic(gap) if elastic is None else elastic
+        traction, slope, potential = self.law.evaluate(gap)
+        pressure = self.pressure
+        if pressure is None:
+            total, count, least = _unloaded(
+                gap.ravel(), elastic.ravel(), traction.ravel(), self.wall
+            )
+            # In full contact the least pressure that keeps it.
+            pressure = -total / count if count else -least
+        reaction = elastic + pressure + traction
+        # A reaction that is not a number makes a point free, and so comes to light.
+        free = (gap > 0) | ~(reaction >= 0) | (not self.wall)
+        return State(
+            *(gap, elastic, traction, slope, free),
+            force=np.where(free, reaction / self.unit, 0.0).astype(np.float32),
+            potential=sum_blocks(np.sum, potential) / gap.size,
+            pressure=pressure,
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class FrozenTraction:
     """Traction that does not depend on the gap: with the hard wall the problem is convex."""
 
-    field: np.ndarray | float
+    field: np.ndarray
     range: float  #: of the law it is frozen from
     hard_wall = True
 
     def evaluate(self, gap):
         """Traction, its derivative and its potential."""
-        return self.field, 0.0, self.field * gap
+        return self.field, np.zeros_like(gap), self.field * gap
 
 
 _kept_smoother = half_space.keep_per_thread(24)(Smoother)
@@ -96,18 +113,14 @@ class State:
     #: Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit and
     #: in single precision: zero in equilibrium.
     force: np.ndarray
-    potential: float = 0.0  #: mean of the law's
-    pressure: float = 0.0  #: mean, prescribed or in balance with the prescribed mean gap
-    residual: float = np.inf  #: largest magnitude of the force
+    potential: float  #: mean of the law's
+    pressure: float  #: mean, prescribed or in balance with the prescribed mean gap
     iterations: int = 0
     last_run: int = 0  #: iterations since a direction of negative curvature was met
     separated: bool = False  #: whether no attraction left can balance the tension
 
-    @classmethod
-    def empty(cls, shape):
-        """State with arrays of arbitrary content."""
-        doubles = [np.empty(shape) for _ in range(4)]
-        return cls(*doubles, np.empty(shape, bool), np.empty(shape, np.float32))
+    def __post_init__(self):
+        self.residual = largest(self.force)
 
 
 def spans(shape):
@@ -117,32 +130,11 @@ def spans(shape):
 
 
 def sum_blocks(function, *fields):
-    """Sum what a function of fields gives over blocks of rows: single precision is enough in each.
+    """Sum what a function of fields, say `np.vdot`, gives over blocks of rows.
 
-    Say of `np.vdot` or `np.sum`.
+    Within a block, sums in single precision are good enough.
     """
     return sum(float(function(*(f[span] for f in fields))) for span in spans(fields[0].shape))
-
-
-def evaluate(problem, state):
-    """Fill in what follows from the gap (not negative at a wall) and elastic pressure of a state.
-
-    The mean pressure, if not prescribed, is the one that balances the open points in the mean.
-    """
-    state.traction[...], state.slope[...], energy = problem.law.evaluate(state.gap)
-    state.potential = sum_blocks(np.sum, energy) / state.gap.size
-    state.pressure = problem.pressure
-    if state.pressure is None:
-        fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
-        total, count, least = _unloaded(*fields, problem.wall)
-        # In full contact the least pressure that keeps it.
-        state.pressure = -total / count if count else -least
-    reaction = state.elastic + state.pressure + state.traction
-    # A reaction that is not a number makes a point free, and so comes to light.
-    state.free[...] = (state.gap > 0) | ~(reaction >= 0) if problem.wall else True
-    state.force[...] = np.where(state.free, reaction / problem.unit, 0.0)
-    state.residual = largest(state.force)
-    return state
 
 
 @compiled

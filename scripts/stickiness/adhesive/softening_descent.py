@@ -11,7 +11,7 @@ fields are flat.
 
 import numpy as np
 
-from stickiness.adhesive.problem import State, evaluate, largest, spans
+from stickiness.adhesive.problem import largest, spans
 from stickiness.compiled import compiled
 from stickiness.repulsive import convolution
 
@@ -35,8 +35,7 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
     or comes to nothing, or, if `convex`, at the first direction of negative curvature. `observer`
     is called with the state at every round; descent stops when it returns true.
     """
-    state, other = problem.state(gap), State.empty(gap.shape)
-    steps, finished = _Steps(problem), True
+    state, steps, finished = problem.state(gap), _Steps(problem), True
     while finished:
         done = state.residual <= tol or steps.count >= max_iterations
         done = done or not np.isfinite(state.residual)
@@ -45,27 +44,27 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
         steps.begin(state)
         goal = max(_ROUND_REDUCTION * state.residual, _LAST_ROUND_SHARE * tol)
         steps.descend(goal, max_iterations, convex)
-        finished = not (convex and steps.last_soft) and (steps.soft or steps.change.any())
-        finished = finished and _moved(problem, state, steps, other)
-        if finished:
-            state, other = other, state
+        moved = None
+        if not (convex and steps.last_soft) and (steps.soft or steps.change.any()):
+            moved = _moved(problem, state, steps)
+        finished = moved is not None
+        state = moved if finished else state
     state.iterations, state.last_run = steps.count, steps.count - steps.last_soft
     return state, finished
 
 
-def _moved(problem, state, steps, other):
-    """State after a round into the arrays of another; returns whether the energy fell."""
-    gaps = state.gap.ravel(), other.gap.ravel()
+def _moved(problem, state, steps):
+    """State after a round; None if the energy rose."""
+    gap = np.empty_like(state.gap)
+    gaps = state.gap.ravel(), gap.ravel()
     total = _move_gap(*gaps, steps.change, problem.unit, steps.above)
     if problem.mean_gap is not None and total > 0:
         # In proportion: contact stays contact, edges keep their shape.
-        other.gap *= problem.mean_gap * other.gap.size / total
-    other.elastic[...] = problem.elastic(other.gap)
+        gap *= problem.mean_gap * gap.size / total
+    other = problem.state(gap)
     pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
-    change = _sum_work_between(*gaps, *pressures)
-    evaluate(problem, other)
-    change = change / state.gap.size + other.potential - state.potential
-    return change <= 8 * np.finfo(float).eps * abs(state.potential)
+    change = _sum_work_between(*gaps, *pressures) / gap.size + other.potential - state.potential
+    return other if change <= 8 * np.finfo(float).eps * abs(state.potential) else None
 
 
 class _Steps:
