@@ -10,6 +10,7 @@ import warnings
 from itertools import product
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from common.adhesion_sets import LEAST, scaled_law
@@ -86,8 +87,7 @@ def follow(heights, length, loop, adhesion_length_over_range, control):
                 row["separating"] = float(state.branch == "separation")
                 row["jumped"] = float(point.event in ("jump-in", "jump-out"))
                 rows.append(row | {"work": point.work, "dissipated": point.dissipated})
-    data = {name: ("state", [row[name] for row in rows]) for name in rows[0]}
-    return xr.Dataset(data, {"state": np.arange(len(rows))})
+    return pd.DataFrame(rows).rename_axis("state").to_xarray()
 
 
 if __name__ == "__main__":

@@ -31,11 +31,6 @@ class TractionLaw(ABC):
         Work of adhesion over E* [length]; the integral of the traction over the gap.
     range : float
         Range of attraction epsilon [length].
-
-    Raises
-    ------
-    ValueError
-        If either is not positive and finite.
     """
 
     adhesion_length: float

@@ -102,6 +102,7 @@ class _Conjugate:
         if not wall:  # of every point alone, or in the longest wave
             stiff = state.slope > self.stiff_limit
             self._stiffness = np.where(stiff, state.slope + self.stiff_limit, self.longest)
+            self._give = 1 / self._stiffness
         if at_gap:
             force = self._less_mean(force.copy(), free)
         step = self._precondition(force, free, soft)
@@ -145,8 +146,7 @@ class _Conjugate:
         """Subtract, in place, the mean force on free points, by what each would give way."""
         if self.problem.wall:
             return balanced(force, free)
-        weight = 1 / self._stiffness
-        force -= np.vdot(weight, force) / weight.sum() * free
+        force -= np.vdot(self._give, force) / self._give.sum() * free
         return force
 
     def _balance(self, field, points):
@@ -156,8 +156,7 @@ class _Conjugate:
         """
         if self.problem.wall:
             return balanced(field, points)
-        weight = 1 / self._stiffness
-        field -= field.sum(dtype=float) / weight.sum() * weight
+        field -= field.sum(dtype=float) / self._give.sum() * self._give
         return field
 
 

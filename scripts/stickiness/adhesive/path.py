@@ -70,6 +70,8 @@ def path(
 ) -> Iterator[PathPoint]:
     """Follow the contact through rising and falling pressure or mean gap.
 
+    The first state comes without work. After a pull-off the path ends.
+
     Parameters
     ----------
     heights, length, law, tol, max_iterations, solid
@@ -96,11 +98,6 @@ def path(
         Least number of steps between two of the values.
     max_states : int
         States to compute at most.
-
-    Yields
-    ------
-    PathPoint
-        States in order, the first one without work. After a pull-off the path ends.
 
     Raises
     ------

@@ -17,8 +17,7 @@ from stickiness.arguments import plain, positive
 ONSET, ADVANCE = 0.43, 1.3
 SHARPNESS = 8.0  #: of the corner between tough and weak
 # Exponents of the elastic energy of contact without adhesion against the mean gap over h_rms. Over
-# simulations of whole surfaces it is 0.9 to 1.15 up to a gap of 1, 0.7 to 0.9 at 1.5, 0.5 to 0.9 at
-# 2 and 0.4 to 0.9 at 2.3. No single pair of constants does for all of them.
+# simulations of whole surfaces it is 0.9 to 1.15 up to a gap of 1, and 0.4 to 0.9 at 2.3.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2
 _GAPS = np.linspace(0.0, 10.0, 201)  # mean gaps over h_rms
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
@@ -56,8 +55,7 @@ def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDA
 def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
     """Onset of contact for a width of the cohesive zone, which lets attraction reach over gaps.
 
-    Simulations reach z = 0.05. What short ranges leave is extrapolated: other forms fit as well,
-    with onsets of 0.36 to 0.51 at z = 0.
+    Simulations reach z = 0.05; beyond, other forms fit as well, with onsets of 0.36 to 0.51 at 0.
     """
     (zone,) = positive(zone=zone)
     return plain(onset / (1 + ADVANCE * np.sqrt(zone)))
@@ -131,8 +129,7 @@ def remaining_share(
 
     `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
     independent: what springs keep beyond the rest counts by (1 - S)^2, which follows simulations of
-    S = 0.1 to 0.5. Long waves of a thin incompressible layer are stiffer than springs, and keep
-    more.
+    S = 0.1 to 0.5.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))
