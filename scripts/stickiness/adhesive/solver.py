@@ -55,7 +55,6 @@ class Adhesion:
     control: str  #: "pressure" or "mean_gap"
     law: TractionLaw
     length: tuple  #: sides of the periodic cell
-    rms_height: float  #: of the heights about their mean
 
     @property
     def energy(self):
@@ -316,16 +315,14 @@ class Scaled:
             control=next(iter(control)),
             law=self.law,
             length=self.lengths,
-            rms_height=self.rms_height,
         )
 
 
 @compiled
 def _sum_up(gap, elastic, traction, heights, net, pressure, wall, reach):
-    """Fill in the net pressure at every point, and sum up over all what `Adhesion` has means of.
+    """Fill in the net pressure at every point, and sum up what `Adhesion` has means of.
 
-    Returns sums of repulsion, of attraction and of twice the elastic energy, and counts of points
-    in contact, of those that are compressed, and of others within the reach of the law.
+    Repulsion, attraction, twice the elastic energy; points in contact, compressed, and near.
     """
     repulsion = attraction = energy = 0.0
     touching = compressed = near = 0
