@@ -208,7 +208,7 @@ def _without_adhesion(problem, max_iterations):
     """
     mean_gap = problem.mean_gap
     if problem.pressure is not None:
-        at = problem.heights, problem.sides, problem.pressure, solver.Effort(_START_TOLERANCE)
+        at = problem.heights, problem.sides, problem.pressure, _START_TOLERANCE
         return solver.press(*at, solid=problem.solid).gap
     gap = mean_gap - problem.heights
     if gap.min() >= 0:

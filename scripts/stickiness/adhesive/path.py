@@ -20,7 +20,6 @@ from stickiness.adhesive.solver import (
     SEPARATION,
     Adhesion,
     ConvergenceError,
-    Effort,
     PullOffError,
     Scaled,
     relax_from,
@@ -123,7 +122,7 @@ def path(
         first=last,
         scaled=Scaled.of(grid("heights", heights), last.length, law, solid),
         control=control,
-        effort=Effort(tol, max_iterations),
+        effort=(tol, max_iterations),
         span=float(np.ptp(values)),
         left=max_states - 1,
         scale=_LEAST_SCALE * law.adhesion_length,
@@ -144,7 +143,7 @@ class _Follower:
     first: Adhesion
     scaled: Scaled
     control: str
-    effort: Effort
+    effort: tuple  #: tolerance and most iterations of a state
     span: float  #: between the largest and the smallest value of the control
     left: int  #: states that may still be computed
     scale: float  #: largest change of elastic plus interaction energy so far [E* length]

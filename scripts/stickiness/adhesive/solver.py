@@ -12,7 +12,7 @@ from stickiness.arguments import grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
-from stickiness.repulsive.solver import ConvergenceError, Effort
+from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, check_solid
 from stickiness.traction_laws import TractionLaw, check_law
 
@@ -146,7 +146,6 @@ def solve(
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
-    effort = Effort(tol, max_iterations)
     gap, branch, spent = None, APPROACH, 0
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
@@ -155,17 +154,17 @@ def solve(
     elif pressure is not None and pressure < 0:
         unloaded = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
         gap, spent = unloaded.gap, unloaded.iterations
-    return relax_from(scaled, gap, branch, control, effort, spent)
+    return relax_from(scaled, gap, branch, control, (tol, max_iterations), spent)
 
 
 def relax_from(scaled, gap, branch, control, effort, spent=0):
     """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
     None stands for loading from afar. `control` has the pressure or the mean gap by its name.
-    `spent`: iterations that went into the start.
+    `effort`: tolerance and most iterations; `spent`: iterations that went into the start.
     """
     problem, closing = scaled.problem(**control), branch == APPROACH
-    state = relax(problem, gap, effort.tol, effort.max_iterations, closing)
+    state = relax(problem, gap, *effort, closing)
     state.iterations += spent
     result = scaled.adhesion(state, branch, control)
     if state.separated:
@@ -175,10 +174,10 @@ def relax_from(scaled, gap, branch, control, effort, spent=0):
             "control mean_gap instead",
             result,
         )
-    if not state.residual <= effort.tol:
+    if not state.residual <= effort[0]:
         raise ConvergenceError(
             f"residual {state.residual:.2e} after {state.iterations} iterations exceeds tol = "
-            f"{effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"{effort[0]:.2e}: raise max_iterations, or tol if it is near rounding",
             result,
         )
     return result
