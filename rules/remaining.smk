@@ -1,5 +1,5 @@
 # How much adhesion remains: approach and separation of rough surfaces, simulated once for all. The
-# model of the verdicts is compared with the committed summary.
+# model of the verdicts is compared with the committed table.
 
 MEASURED = REMAINING_CAMPAIGN["sets"]
 
@@ -43,8 +43,7 @@ rule tabulate_remaining:
             for seed in measured["seeds"]
         ],
     output:
-        table=f"{REMAINING}/remaining.csv",
-        summary=f"{REMAINING}/remaining.md",
+        f"{REMAINING}/remaining.csv",
     log:
         f"{REMAINING}/logs/tabulate_remaining/remaining.log",
     benchmark:

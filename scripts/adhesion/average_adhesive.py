@@ -24,7 +24,6 @@ from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import cell_size, read_all
 from stickiness import datasets
-from stickiness.adhesive import edge_zone
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
 
@@ -32,7 +31,6 @@ STATES = {
     "external_pressure": "mean pressure over E* q0 h_rms",
     "repulsive_area": "area at a gap of zero over nominal area",
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
-    "attractive_area": "area within the range, not in contact, over nominal area",
 }
 # Slopes and fits have as their control the quantity of the DMT limit of the same name.
 SLOPES = {
@@ -57,7 +55,9 @@ NET = [name for name in ALL if "net" in name.split("_")]
 # it is second order in the strength, (sigma0/B)^2 where the pressure rises as B x^(1/2), but the
 # pixels make it first order: what is left of the difference falls as the root of the pixel only.
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
-AREA_OF_DMT = ("repulsive_area", "net_repulsive_area")  # without what attraction draws in
+# Pixels across the zone of attraction below which an attraction is a statement about the grid.
+NARROWEST = 1.5
+AREAS = ("repulsive_area", "net_repulsive_area")
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
@@ -72,7 +72,6 @@ FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
 OTHERS = {
     "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
     "residual": "largest residual of all realisations",
-    "iterations": "mean iterations on the fine grid",
     "zone_strength": "width of the zone of attraction over range^2/adhesion length",
 }
 VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
@@ -121,7 +120,7 @@ def take_dmt_limit(limit):
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
-    for name in AREA_OF_DMT:
+    for name in AREAS:
         dataset[name] = limit.area_fraction + none
         dataset[f"{name}_error"] = limit.area_fraction_error.where(limit.source != "model") + none
     return dataset
@@ -130,7 +129,7 @@ def take_dmt_limit(limit):
 def average(states, full, ensemble, adhesion, made):
     """Means over the realisations: full simulations, or their DMT limit where there are none."""
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
-    wide = zone_width(ensemble, states) >= edge_zone.NARROWEST * made["pixel"]
+    wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
     states = add_dmt(states, full)
     in_limit = find_linear(adhesion, ensemble)
     linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
@@ -143,24 +142,15 @@ def average(states, full, ensemble, adhesion, made):
     limit = partial(quantities_of, adhesion, in_limit)
     controls = coarse(ensemble, limit)
     twins = controls and limit(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
-    dataset = xr.Dataset()
+    solver = solver_error(states)
+    fuller = add_slopes(add_pixels(states, made), ensemble, linear)
+    dataset, source = xr.Dataset(), xr.DataArray(list(SOURCES), dims="source", name="source")
     for name in ALL:
         values, more = states[name].where(resolved[name]), None
         if controls and name in CONTROLS:
             control = CONTROLS[name]
             more = replace(controls, values=controls.values[control], twin=twins[control])
         dataset = add_errors(dataset, name, values, more, plain=True)
-        if name in NET:
-            dataset[f"{name}_discretisation_error"] *= SLOW
-    models = {
-        name: fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
-        for name in ("inverse_kappa_ad", "dmt_ratio")
-    }
-    for name in FITS:
-        models[name] = linearity_error(dataset[name.removesuffix("_fit")], linear)
-    solver = solver_error(states)
-    fuller = add_slopes(add_pixels(states, made), ensemble, linear)
-    for name in ALL:
         value, at_worst = dataset[name], solver
         if "pressure" not in value.dims:
             at_worst = solver.max("pressure")
@@ -168,19 +158,22 @@ def average(states, full, ensemble, adhesion, made):
         unseen = abs(fine(fuller[name] - states[name]).mean("seed"))
         # For the seeds solved in full, which is more than enough for multilevel means.
         sampling = students_t(states.sizes["seed"]) * dataset[f"{name}_standard_error"]
+        model = 0.0
+        if f"{name}_equal_area" in states:
+            model = fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
+        elif name in FITS:
+            model = linearity_error(dataset[name.removesuffix("_fit")], linear)
         parts = {
-            "discretisation": dataset[f"{name}_discretisation_error"],
+            "discretisation": dataset[f"{name}_discretisation_error"]
+            * (SLOW if name in NET else 1.0),
             "solver": at_worst * scale,
             "sampling": np.maximum(sampling, unseen),
             "bandwidth": 0.0,
-            "model": abs(models.get(name, 0.0)),
+            "model": abs(model),
         }
         parts = [(xr.zeros_like(value) + parts[s]).transpose(*value.dims) for s in SOURCES]
-        source = xr.DataArray(list(SOURCES), dims="source", name="source")
         dataset[f"{name}_error"] = xr.concat(parts, source)
-    dataset["residual"] = states.residual.max(["seed", "resolution"])
-    dataset["iterations"] = fine(states.iterations).mean("seed")
-    return dataset
+    return dataset.assign(residual=states.residual.max(["seed", "resolution"]))
 
 
 def add_pixels(states, made):
@@ -195,8 +188,7 @@ def add_pixels(states, made):
     pixels = states.sizes["seed"] * (made["grid_points"] * made["refine"]) ** 2
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
-    areas = [name for name in STATES if name.endswith("_area")]
-    return states.assign({name: states[name] + unseen / pixels for name in areas})
+    return states.assign({name: states[name] + unseen / pixels for name in AREAS})
 
 
 def add_dmt(states, full):
@@ -257,12 +249,14 @@ def pressure_at(states, ensemble):
 
 
 def zone_width(ensemble, at):
-    """Mean width of the zone of attraction without adhesion, times q0."""
+    """Mean width of the zone of attraction without adhesion, times q0.
+
+    The gap beside an edge grows with the distance to the power 3/2.
+    """
     made = datasets.parameters(ensemble)
     edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
     edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
-    pixel = cell_size(made) / made["grid_points"]
-    return edge.copy(data=edge_zone.zone_width(pixel, edge.values, range_.values))
+    return cell_size(made) / made["grid_points"] * np.cbrt(range_ / edge) ** 2
 
 
 if __name__ == "__main__":

@@ -8,12 +8,13 @@ that the equivalent sphere models.
 import numpy as np
 import xarray as xr
 
+from adhesion.dmt_limit import integrate_areas
 from common import conventions
 from common.adhesion_sets import solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import read_all
-from stickiness import datasets, dmt
+from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
 from stickiness.error_budget import ErrorComponent, with_budget
 from stickiness.statistics import students_t
@@ -50,19 +51,17 @@ def main(job):
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
     dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
     dataset = conventions.annotate(dataset, **VARIABLES)
-    solver = solver_error(adhesive)
     seeds = states.sizes["seed"]
     for name in QUOTED:
         fine = states[name]
         change = abs((fine - coarse[name]).mean("seed", skipna=False))
+        solver = solver_error(adhesive) * fine.mean("seed")
         error = students_t(seeds) * fine.std("seed", ddof=1) / np.sqrt(seeds)
         dataset = with_budget(
             dataset,
             name,
             discretisation=ErrorComponent(change, "change from half the resolution"),
-            solver=ErrorComponent(
-                solver * fine.mean("seed"), "by tolerance and branch, as measured"
-            ),
+            solver=ErrorComponent(solver, "by tolerance and branch, as measured"),
             sampling=ErrorComponent(error, "Student's t"),
             **SIMULATED,
         )
@@ -78,17 +77,15 @@ def compare(adhesive, alone, q0_h_rms, grid):
     """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
     adhesive = adhesive.isel(resolution=grid, drop=True)
     strength = adhesive.adhesion_length_over_range / q0_h_rms
-    attractive = adhesive.attraction_dmt / strength
     load, growth = at_equal_area(adhesive, alone.isel(resolution=-1, drop=True))
-    attractive = attractive * growth
+    attractive = adhesive.attraction_dmt / strength * growth
     t = attractive / adhesive.repulsive_area
-    tau = t.copy(data=np.full(t.shape, np.nan))
-    model = tau.copy(deep=True)
-    known = (t * load).notnull().values & (t > 0).values
-    over_mean_pressure = (strength * adhesive.repulsive_area / load).transpose(*t.dims)
-    at = t.values[known]
-    tau.values[known] = equivalent_sphere.edge_strength(at, over_mean_pressure.values[known])
-    model.values[known] = equivalent_sphere.effect(at, tau.values[known])
+    known = (t * load).notnull() & (t > 0)
+    # The model refuses what is not known.
+    over_mean_pressure = (strength * adhesive.repulsive_area / load).where(known, 1.0)
+    place = t.where(known, 1.0)
+    tau = xr.apply_ufunc(equivalent_sphere.edge_strength, place, over_mean_pressure)
+    model = xr.apply_ufunc(equivalent_sphere.effect, place, tau).where(known)
     effect = (load - adhesive.external_pressure) / (strength * attractive)
     made = datasets.parameters(adhesive)
     points = (made["grid_points"] * made["refine"]) ** 2
@@ -97,7 +94,7 @@ def compare(adhesive, alone, q0_h_rms, grid):
     return xr.Dataset(
         {
             "attractive_over_contact": t,
-            "edge_strength": tau,
+            "edge_strength": tau.where(known),
             "effect": effect.where(reported),
             "effect_model": model,
             "over_model": (effect / model).where(reported),
@@ -135,11 +132,8 @@ def attractive_area(areas, ranges, law):
     """Attraction over its strength, for a law: an area weighted by the traction."""
     if law == "maugis":
         return areas.interp(range=ranges)
-    areas, known = areas.transpose(..., "range"), areas["range"].values
-    like = areas.isel(range=0, drop=True)
     laws = [LAWS[law](adhesion_length=range_, range=range_) for range_ in ranges.values]
-    pulls = [dmt.attraction_of_areas(areas.values, known, law) for law in laws]
-    return xr.concat([like.copy(data=pull) for pull in pulls], ranges)
+    return xr.concat([integrate_areas(areas, law) for law in laws], ranges)
 
 
 if __name__ == "__main__":

@@ -30,7 +30,6 @@ VARIABLES = describe_errors(QUANTITIES, plain=True, discretisation=grid_limits.I
 VARIABLES |= {n: (*text[:2], FEW) for n, text in VARIABLES.items() if "fit" in n}
 VARIABLES["dmt_error"] = ("1", "measured relative error of this 1/kappa_ad", OUTSIDE)
 MODEL = "of the DMT limit against full simulation, as measured"
-MODEL_OF_FIT = f"{MODEL}, and what the straight line leaves out"
 
 
 def find_linear(adhesion, ensemble):
@@ -73,10 +72,16 @@ def integrate_law(adhesion, areas):
         law = scaled_law(adhesion, adhesion["law"], float(lengths[0]), range_)
         nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
         area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
-        area = area.transpose(..., "range")
-        pull = dmt.attraction_of_areas(area.values, nodes, law)
-        parts.append(area.isel(range=0, drop=True).copy(data=pull))
+        parts.append(integrate_areas(area.assign_coords(range=nodes), law))
     return xr.concat(parts, ranges) * (lengths / lengths[0])
+
+
+def integrate_areas(areas, law):
+    """Mean attraction by attractive areas along `range`."""
+    ranges = areas["range"].values
+    return xr.apply_ufunc(
+        lambda area: dmt.attraction_of_areas(area, ranges, law), areas, input_core_dims=[["range"]]
+    )
 
 
 def fit_slope(external, area, linear):
@@ -141,28 +146,25 @@ def add_budgets(dataset, simulation, linear):
     at_loads = np.hypot(area, gaps), factor, dataset.dmt_error
     of_fits = [one.where(linear).max("pressure") for one in at_loads]
     for name in QUANTITIES:
-        fitted = "fit" in name
-        solver, factor, model = of_fits if fitted else at_loads
-        pull = dataset[name]
+        solver, factor, model = of_fits if "fit" in name else at_loads
+        pull, text = dataset[name], MODEL
         if name.startswith("inverse_kappa") and "ad" not in name.split("_"):
             # The fall by attraction from what is left without.
             fall = dataset[name.replace("kappa", "kappa_ad")]
             pull = 2 * fall * pull / (1 - 2 * fall)
         error = model * abs(pull)
-        if fitted:
-            loadwise = dataset[name.removesuffix("_fit")]
-            error = np.hypot(error, linearity_error(loadwise, linear))
+        if "fit" in name:
+            error = np.hypot(error, linearity_error(dataset[name.removesuffix("_fit")], linear))
+            text = f"{MODEL}, and what the straight line leaves out"
+        solver = solver * (abs(dataset[name]) + abs(pull))
+        left = dataset[f"{name}_discretisation_error"]
         dataset = with_budget(
             dataset,
             name,
-            discretisation=ErrorComponent(
-                dataset[f"{name}_discretisation_error"], grid_limits.INHERITED
-            ),
-            solver=ErrorComponent(
-                solver * (abs(dataset[name]) + abs(pull)), "by the tolerance, as measured"
-            ),
+            discretisation=ErrorComponent(left, grid_limits.INHERITED),
+            solver=ErrorComponent(solver, "by the tolerance, as measured"),
             sampling=ErrorComponent(factor * dataset[f"{name}_standard_error"], "Student's t"),
             bandwidth=SIMULATED["bandwidth"],
-            model=ErrorComponent(error, MODEL_OF_FIT if fitted else MODEL),
+            model=ErrorComponent(error, text),
         )
     return dataset.drop_vars(f"{name}_discretisation_error" for name in QUANTITIES)

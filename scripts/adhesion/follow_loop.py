@@ -10,22 +10,19 @@ import warnings
 from itertools import product
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 
 from common.adhesion_sets import LEAST, scaled_law
 from common.conventions import annotate
-from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import pixels, read_first
 from stickiness import adhesive, datasets
-from stickiness.error_budget import ErrorComponent, unknown_error, with_budget
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 
 CONTROLS = ("mean_gap", "pressure")
 TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
-# Relative, of pull-offs to this tolerance and to 1e-7 in the target tradeoff: 4e-5 to 4e-4 of six.
-SOLVER = 5e-4
 BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
 STEPS = (2, 1)
 MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
@@ -34,15 +31,7 @@ STATES = {
     "mean_gap": "mean gap over h_rms",
     "repulsive_area_fraction": "area at a gap of zero over nominal area",
     "net_repulsive_area_fraction": "area at a gap of zero and compressed over nominal area",
-    "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
-    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
-    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
-}
-QUOTED = {
-    "pull_off_pressure": "mean pressure over E* q0 h_rms at which a press lets go",
-    "pull_off_area": "area at a gap of zero over nominal area at pull-off",
-    "lost_share": "energy lost over the work done on the surfaces, at given mean gaps",
 }
 STEPPED = {
     "separating": "1 on the way back",
@@ -69,7 +58,7 @@ def main(job):
     longest = max((one.state for one in curves), key=len)
     dataset = xr.combine_by_coords([one.reindex(state=longest) for one in curves])
     datasets.write(
-        add_quoted(annotate(dataset, **VARIABLES)),
+        annotate(dataset, **VARIABLES),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **loop},
@@ -86,52 +75,19 @@ def follow(heights, length, loop, adhesion_length_over_range, control):
         "pressure": (0.0, loop["pressure"], -2 * law.strength),
     }
     settings = {"tol": TOLERANCE, "balance": BALANCE, "smallest_jump": BALANCE, "steps": LEAST}
+    rows = []
     with warnings.catch_warnings():
         # The half grid is coarse on purpose: what that changes is the error of the loop.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        points = list(
-            adhesive.path(heights, length, law, turns[control], control=control, **settings)
-        )
-    rows = []
-    for point in points:
-        state = point.state
-        row = {name: getattr(state, name) for name in STATES}
-        row["separating"] = float(state.branch == "separation")
-        row["jumped"] = float(point.event in ("jump-in", "jump-out"))
-        row["work"], row["dissipated"] = float(point.work or 0), float(point.dissipated or 0)
-        if point.event != "pull-off":  # the last state that held is in the list already
-            rows.append(row)
-        logging.info(
-            f"l_a/range {adhesion_length_over_range:g}, {state.branch}: "
-            f"p = {state.mean_pressure:.4g}, gap {state.mean_gap:.4g}, "
-            f"area {state.repulsive_area_fraction:.4f} {point.event or ''}"
-        )
-    data = {name: ("state", [row[name] for row in rows]) for name in rows[0]}
-    return xr.Dataset(data, {"state": np.arange(len(rows))})
-
-
-def add_quoted(dataset):
-    """What is quoted of the curves, on the fine grid, with its errors."""
-    press, gap = dataset.sel(control="pressure"), dataset.sel(control="mean_gap")
-    last = press.mean_pressure.notnull().sum("state") - 1
-    found = {
-        "pull_off_pressure": press.mean_pressure.isel(state=last),
-        "pull_off_area": press.repulsive_area_fraction.isel(state=last),
-        "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
-    }
-    for name, values in found.items():
-        values = values.reset_coords(drop=True).drop_vars("state", errors="ignore")
-        coarse, fine = (values.isel(resolution=grid, drop=True) for grid in (0, -1))
-        dataset[name] = fine.assign_attrs(units="1", long_name=QUOTED[name])
-        dataset = with_budget(
-            dataset,
-            name,
-            discretisation=ErrorComponent(fine - coarse, "change from half the resolution"),
-            solver=ErrorComponent(SOLVER * fine, "by the tolerance, as measured of pull-offs"),
-            sampling=unknown_error("a single realisation"),
-            **SIMULATED,
-        )
-    return dataset
+        for point in adhesive.path(heights, length, law, turns[control], control, **settings):
+            state = point.state
+            logging.info("%s: p %.4g, gap %.4g", state.branch, state.mean_pressure, state.mean_gap)
+            if point.event != "pull-off":  # the last state that held is in the list already
+                row = {name: getattr(state, name) for name in STATES}
+                row["separating"] = float(state.branch == "separation")
+                row["jumped"] = float(point.event in ("jump-in", "jump-out"))
+                rows.append(row | {"work": point.work, "dissipated": point.dissipated})
+    return pd.DataFrame(rows).rename_axis("state").to_xarray()
 
 
 if __name__ == "__main__":

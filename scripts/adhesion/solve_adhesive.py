@@ -36,11 +36,13 @@ STATE = {
     "attraction": "attractive part of the mean pressure over E* q0 h_rms",
     "repulsive_area": "area at a gap of zero over nominal area, by pixels",
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
-    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
-    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
-    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
-    "iterations": "iterations of conjugate gradients",
+}
+ATTRIBUTES = {  # of a state, where the name is another
+    "external_pressure": "mean_pressure",
+    "attraction": "adhesive_pressure",
+    "repulsive_area": "repulsive_area_fraction",
+    "net_repulsive_area": "net_repulsive_area_fraction",
 }
 ALONE = {
     "area_alone": "contact area without adhesion over nominal area, by pixels",
@@ -93,26 +95,21 @@ def main(job):
 def combinations(adhesion, pixel, full):
     """By pressure, the indices (l_a/range, range) to be solved in full that the grid resolves."""
     _, lengths, ranges = axes(adhesion)
-    resolved = np.zeros(full.shape[1:], bool)
-    for j, k in np.ndindex(resolved.shape):
-        law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
-        bent = edge_zone.resolution(pixel, law.range, law.adhesion_length)
-        resolved[j, k] = bent <= edge_zone.COARSEST
-        if full[:, j, k].any() and not resolved[j, k]:
-            logging.info("l_a/range %g, range %g: not resolved", lengths[j], ranges[k])
-    return full & resolved
+    adhesion_length = lengths / roughness(adhesion) * ranges
+    resolved = edge_zone.resolution(pixel, ranges, adhesion_length) <= edge_zone.COARSEST
+    missing = full.any(axis=0) & ~resolved.transpose(*AXES[1:]).values
+    logging.info("%d points of l_a/range and range are not resolved", missing.sum())
+    return full & ~missing
 
 
 def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
     """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
     pressures, lengths, ranges = axes(adhesion)
     values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
-    alone = {name: np.empty(len(pressures)) for name in ALONE}
+    alone = []
     path = solver.load_path(heights, length, pressures.values, tol=tolerance)
     for i, contact in enumerate(path):
-        alone["area_alone"][i] = contact.area_fraction
-        alone["mean_gap"][i] = contact.mean_gap
-        alone["edge_gap"][i] = subpixel.edge_gap(contact.gap)
+        alone.append((contact.area_fraction, contact.mean_gap, subpixel.edge_gap(contact.gap)))
         weaker = {}  # by range, the last state with weak adhesion
         for j, k in itertools.product(range(lengths.size), range(ranges.size)):
             law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
@@ -121,14 +118,14 @@ def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
             if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
                 weak = attraction <= NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None
-                found, gap = solve_at_gap(heights, length, law, contact, tolerance, known)
-                for name, value in found.items():
-                    values[name][i, j, k] = value
+                found = solve_at_gap(heights, length, law, contact, tolerance, known)
+                for name in STATE:
+                    values[name][i, j, k] = getattr(found, ATTRIBUTES.get(name, name))
                 if weak:
-                    weaker[k] = law.adhesion_length, gap
+                    weaker[k] = law.adhesion_length, found.gap
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
-        | {name: ("pressure", value) for name, value in alone.items()},
+        | {n: ("pressure", v) for n, v in zip(ALONE, np.transpose(alone), strict=True)},
         coords={one.name: one for one in (pressures, lengths, ranges)},
     )
 

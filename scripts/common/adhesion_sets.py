@@ -18,10 +18,9 @@ OUTSIDE = "outside the table of measured errors"
 
 # Relative. Of 24 states solved to 1e-7 and to 1e-9 (loads 0.03 and 0.065, range 0.1 h_rms,
 # l_a/range 0.05 to 0.4, magnifications 16 and 32) 22 changed by less than 3e-8 of the load. Two of
-# the stickiest ended on another branch. Where a jump ends depends on the steps of the descent: when
-# they changed, 32 of the 1396 states of the standard reproduction moved by more than 1e-4 of the
-# load, up to 11 % of it and 2.5 % of the area; all but three have attraction above 1.5 times the
-# load. The mean over four seeds or more moves by less than the error here.
+# the stickiest ended on another branch. Where a jump ends depends on the steps of the descent: with
+# other steps 32 of 1396 states moved by more than 1e-4 of the load, up to 11 % of it, nearly all
+# with attraction above 1.5 times the load. The mean over four seeds moves less than the error here.
 SOLVER = 1e-6
 BRANCH, BRANCHING = 0.03, 1.5  # relative error where the attraction is that many times the load
 STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
@@ -29,15 +28,6 @@ STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still lo
 NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
 
-ATTRIBUTES = {  # quantities of an adhesive state by their names in files
-    "external_pressure": "mean_pressure",
-    "repulsive_pressure": "repulsive_pressure",
-    "attraction": "adhesive_pressure",
-    "repulsive_area": "repulsive_area_fraction",
-    "net_repulsive_area": "net_repulsive_area_fraction",
-    "attractive_area": "adhesive_area_fraction",
-    **{name: name for name in ("elastic_energy", "interaction_energy", "residual", "iterations")},
-}
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
 
@@ -54,7 +44,7 @@ def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
 
 
 def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
-    """State, and its gap, at the mean gap of a contact without adhesion.
+    """State at the mean gap of a contact without adhesion.
 
     `weaker` is None or the adhesion length and the gap of a state with the same range and mean gap.
     While the attraction is below `NEARLY_LINEAR` of the load, the gap changes in proportion to it,
@@ -75,7 +65,7 @@ def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
         f"range {law.range:g}: area {state.repulsive_area_fraction:.4f}, "
         f"residual {state.residual:.1e}, {state.iterations} iterations"
     )
-    return {name: getattr(state, attribute) for name, attribute in ATTRIBUTES.items()}, state.gap
+    return state
 
 
 def solver_error(states):

@@ -2,13 +2,8 @@
 
 The attraction does not deform the surfaces: every quantity is an integral over the gap distribution
 P(u) of the contact without adhesion. Gaps and ranges share one unit of length, pressures are in
-units of E*, areas are fractions of the nominal area.
-
-Counting whole pixels misses a strip of 0.15 pixels along the edge of contact at every range, and
-all ranges below the `edge_gap`. ``subpixel=True`` places the edge between the pixels, see
-`repulsive.subpixel`. At 8 pixels per shortest wavelength that leaves errors of 10 % at ranges of a
-tenth of the edge gap, 4 % below the edge gap, 1.8 % up to 3 and 0.2 % beyond 10 times it (33, 15
-and 2 % by counting). `repulsive.richardson` estimates the remaining error.
+units of E*, areas are fractions of the nominal area. Malformed arguments, negative gaps among them,
+raise a ValueError.
 """
 
 from __future__ import annotations
@@ -21,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import numbers, positive
 from stickiness.repulsive import subpixel as subpixel_edges
 from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
-from stickiness.traction_laws import TractionLaw
+from stickiness.traction_laws import TractionLaw, check_law
 
 _FIT = ("AvFit", "fit_a_v", "local_exponent")
 
@@ -51,17 +46,15 @@ def attractive_area(
         True where the surfaces touch; by default where the gap is exactly zero.
     subpixel : bool
         Place the edge of contact between the pixels, and the gap beside it by the edge law (see
-        `repulsive.subpixel`). Needs the gap's two axes, periodic.
+        `repulsive.subpixel`). Needs the gap's two axes, periodic. Counting whole pixels misses a
+        strip of 0.15 pixels along the edge at every range, and all ranges below the `edge_gap`. At
+        8 pixels per shortest wavelength the edge law leaves errors of 10 % at a tenth of the edge
+        gap, 4 % below it, 1.8 % up to 3 and 0.2 % beyond 10 times it (33, 15 and 2 % by counting).
 
     Returns
     -------
     float or array of the shape of `eps`
         A_ad/A_nom, the fraction with 0 < gap <= eps, contact points excluded.
-
-    Raises
-    ------
-    ValueError
-        On malformed or negative gaps, or ranges that are not positive.
 
     Examples
     --------
@@ -83,16 +76,10 @@ def adhesive_pressure(gap: ArrayLike, law: TractionLaw, contact: ArrayLike | Non
 
     For the Maugis law (adhesion_length/range) times `attractive_area`, whose `gap` and `contact`
     these are. Contact points carry no attraction in this bookkeeping: theirs is part of the
-    repulsive solution. `law` has a ``traction(gap)``, tension positive [E*].
-
-    Raises
-    ------
-    ValueError
-        On malformed or negative gaps.
+    repulsive solution.
     """
     gap, contact = gap_and_contact(gap, contact)
-    if not hasattr(law, "traction"):
-        raise ValueError(f"law must be a traction law such as adhesive.Maugis(...), got {law!r}")
+    check_law(law)
     return float(np.sum(law.traction(gap[~contact]))) / gap.size
 
 
@@ -109,13 +96,7 @@ def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) ->
     ranges : (k,) array
         Ranges [length] in increasing order, close to each other on a log scale; where the law is
         discontinuous one of them.
-    law : object with ``traction(gap)``
-        Traction law, tension positive [E*].
-
-    Raises
-    ------
-    ValueError
-        If the ranges are not positive and increasing, or not one for each area.
+    law : TractionLaw
     """
     area, (ranges,) = numbers("area", area), positive(ranges=ranges)
     if ranges.ndim != 1 or not np.all(np.diff(ranges) > 0) or area.shape[-1:] != ranges.shape:

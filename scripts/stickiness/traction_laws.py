@@ -2,9 +2,8 @@
 
 Pressures are in units of the plane-strain modulus E*, tension positive for tractions; gaps, ranges
 and the adhesion length l_a = (work of adhesion)/E* share one unit of length. A gap of zero is where
-the hard wall of the repulsive solution begins. A law is a small class: traction, derivative and
-potential as functions of the gap, strength, and three properties that say how it is to be solved
-(`hard_wall`, `smooth`, `hardens`).
+the hard wall of the repulsive solution begins. A law is a small class: its `evaluate`, its
+strength, and how it is to be solved (`hard_wall`, `smooth`).
 """
 
 from __future__ import annotations
@@ -22,12 +21,6 @@ from stickiness.arguments import number
 _LJ_PEAK = 3.0 ** (1 / 6)
 
 
-def _reals(gap: ArrayLike) -> NDArray:
-    """Gaps as an array of floating point numbers, in single precision if they are."""
-    gap = np.asarray(gap)
-    return gap if np.issubdtype(gap.dtype, np.floating) else gap.astype(float)
-
-
 @dataclass(frozen=True)
 class TractionLaw(ABC):
     """Attraction between two smooth half-spaces at a uniform gap.
@@ -38,16 +31,12 @@ class TractionLaw(ABC):
         Work of adhesion over E* [length]; the integral of the traction over the gap.
     range : float
         Range of attraction epsilon [length].
-
-    Raises
-    ------
-    ValueError
-        If either is not positive and finite.
     """
 
     adhesion_length: float
     range: float
-    #: Whether a wall at gap 0 repels; if not, the law itself does, and gaps must exceed -range.
+    #: Whether a wall at gap 0 repels: the traction must then not rise with the gap. If not, the law
+    #: itself repels, and gaps must exceed -range.
     hard_wall: ClassVar[bool] = True
     #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
     #: between constants, as in the law of Maugis.
@@ -72,30 +61,21 @@ class TractionLaw(ABC):
         """Gap of the largest traction [length], beyond which it never rises again."""
         return 0.0
 
-    @property
-    def hardens(self) -> bool:
-        """Whether the traction rises anywhere with the gap."""
-        return self.strength_gap > 0
-
     @abstractmethod
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        """Traction, derivative and potential at `gap`, in the units of the methods below."""
+
     def traction(self, gap: ArrayLike) -> NDArray:
         """Traction [E*] at `gap` [length], positive where the surfaces attract."""
+        return self.evaluate(gap)[0]
 
-    @abstractmethod
     def derivative(self, gap: ArrayLike) -> NDArray:
         """Derivative of the traction with respect to the gap [E*/length]."""
+        return self.evaluate(gap)[1]
 
-    @abstractmethod
     def potential(self, gap: ArrayLike) -> NDArray:
         """Energy per area over E* [length], zero at infinite gap; its slope is the traction."""
-
-    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
-        """Traction, derivative and potential at once, which may be cheaper."""
-        return self.traction(gap), self.derivative(gap), self.potential(gap)
-
-    def at(self, span: slice) -> TractionLaw:
-        """Law of some rows of a grid: the same everywhere."""
-        return self
+        return self.evaluate(gap)[2]
 
 
 @dataclass(frozen=True)
@@ -113,16 +93,11 @@ class Maugis(TractionLaw):
     def strength(self) -> float:
         return self.maugis_stress
 
-    def traction(self, gap: ArrayLike) -> NDArray:
-        return np.where(np.asarray(gap, dtype=float) <= self.range, self.maugis_stress, 0.0)
-
-    def derivative(self, gap: ArrayLike) -> NDArray:
-        """Return zero: the law is flat on either side of its jump at gap = range."""
-        return np.zeros_like(np.asarray(gap, dtype=float))
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        inside = np.maximum(self.range - np.asarray(gap, dtype=float), 0.0)
-        return -self.maugis_stress * inside
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        gap = np.asarray(gap, dtype=float)
+        traction = np.where(gap <= self.range, self.maugis_stress, 0.0)
+        potential = -self.maugis_stress * np.maximum(self.range - gap, 0.0)
+        return traction, np.zeros_like(gap), potential
 
 
 @dataclass(frozen=True)
@@ -133,17 +108,9 @@ class Exponential(TractionLaw):
     def strength(self) -> float:
         return self.maugis_stress
 
-    def traction(self, gap: ArrayLike) -> NDArray:
-        return self.maugis_stress * np.exp(_reals(gap) / -self.range)
-
-    def derivative(self, gap: ArrayLike) -> NDArray:
-        return -self.traction(gap) / self.range
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        return -self.range * self.traction(gap)
-
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
-        traction = self.traction(gap)
+        # In single precision if the gaps are.
+        traction = self.maugis_stress * np.exp(np.asarray(gap) / -self.range)
         return traction, traction / -self.range, traction * -self.range
 
 
@@ -152,11 +119,10 @@ class LennardJones(TractionLaw):
     """Lennard-Jones 9-3 law between half-spaces, which also repels below gap 0.
 
     sigma = (8 adhesion_length/(3 range)) [(range/g)^3 - (range/g)^9] with g = gap + range, so that
-    gap 0 is the equilibrium separation. All methods need gap > -range. With `hard_wall` a wall at
-    gap 0 replaces the repulsion of the law.
+    gap 0 is the equilibrium separation. All methods need gap > -range.
     """
 
-    hard_wall: bool = False
+    hard_wall: ClassVar[bool] = False
 
     @property
     def strength(self) -> float:
@@ -167,29 +133,23 @@ class LennardJones(TractionLaw):
     def strength_gap(self) -> float:
         return (_LJ_PEAK - 1) * self.range
 
-    def _inverse_separation(self, gap: ArrayLike) -> NDArray:
-        """Return range/g, dimensionless."""
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         separation = np.asarray(gap, dtype=float) + self.range
         if not np.all(separation > 0):
             raise ValueError(
                 f"gap must exceed -range = {-self.range!r}, got {separation.min() - self.range!r}"
             )
-        return self.range / separation
-
-    def traction(self, gap: ArrayLike) -> NDArray:
-        """Traction [E*] at `gap` [length], negative (repulsion) below gap 0."""
-        s = self._inverse_separation(gap)
-        return 8 / 3 * self.maugis_stress * (s**3 - s**9)
-
-    def derivative(self, gap: ArrayLike) -> NDArray:
-        s = self._inverse_separation(gap)
-        return 8 * self.maugis_stress / self.range * (3 * s**10 - s**4)
-
-    def potential(self, gap: ArrayLike) -> NDArray:
-        """Energy per area over E* [length] at `gap`; -adhesion_length at gap 0."""
-        s = self._inverse_separation(gap)
-        return -self.adhesion_length * (4 * s**2 - s**8) / 3
+        s, stress = self.range / separation, self.maugis_stress
+        traction = 8 / 3 * stress * (s**3 - s**9)
+        derivative = 8 * stress / self.range * (3 * s**10 - s**4)
+        return traction, derivative, -self.adhesion_length * (4 * s**2 - s**8) / 3
 
 
 #: Laws that a configuration may name.
 LAWS = {"maugis": Maugis, "exponential": Exponential}
+
+
+def check_law(law: TractionLaw) -> None:
+    """Raise ValueError unless this is a traction law."""
+    if not isinstance(law, TractionLaw):
+        raise ValueError(f"law must be a TractionLaw such as Exponential(...), got {law!r}")

@@ -75,9 +75,9 @@ def solve_states(surface, asked, pixels, tolerance, seed):
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
             problem = heights, length, law, contact, tolerance
-            (state, _), values["seconds"][i, k] = measuring.time_task(solve_at_gap, *problem)
-            for name in ("external_pressure", "repulsive_area"):
-                values[name][i, k] = state[name]
+            state, values["seconds"][i, k] = measuring.time_task(solve_at_gap, *problem)
+            values["external_pressure"][i, k] = state.mean_pressure
+            values["repulsive_area"][i, k] = state.repulsive_area_fraction
     found = {name: (("pressure", "point"), value) for name, value in values.items()}
     return xr.Dataset(found, {"pressure": loads, **coordinates})
 

@@ -1,17 +1,12 @@
 """Loading and unloading curves: quasi-static paths along branches, with their jumps.
 
-Every state is the end of a descent in energy from the one before, as in a slow experiment: it stays
-on its branch until that ends, and then falls to the next. Whether a step was reversible shows in
-its energy balance,
-
-    -(change of energy) - (integral of the mean pressure over the mean gap) = dissipated energy,
-
-integrated along a parabola of the controlled quantity through both ends and the state before. The
-error is of fourth order in the step on a branch; at a jump it does not vanish with the step. So the
-balance sets the steps, and a jump is a step that stays out of balance when it is as short as the
-tolerance for its place. On a grid, attraction of short range passes over points one by one, each
-with a small jump (a Maugis zone always does). Jumps below a given size are not located: they add to
-the dissipated energy of the step in which they occur.
+Every state is the end of a descent in energy from the one before: it stays on its branch until that
+ends, and then falls to the next. Whether a step was reversible shows in its energy balance, minus
+the change of energy less the integral of the mean pressure over the mean gap, along a parabola
+through both ends and the state before. On a branch this is of fourth order in the step; at a jump
+it does not vanish with the step. So the balance sets the steps, and a jump is a step that stays out
+of balance when it is as short as the tolerance for its place. On a grid, attraction of short range
+passes over points one by one, each with a small jump (a Maugis zone always does).
 """
 
 import math
@@ -24,9 +19,7 @@ from stickiness.adhesive.solver import (
     APPROACH,
     SEPARATION,
     Adhesion,
-    Control,
     ConvergenceError,
-    Effort,
     PullOffError,
     Scaled,
     relax_from,
@@ -43,27 +36,18 @@ _NEAR_ZERO = 0.01  # share of the path's span below which a place is not located
 
 @dataclass(frozen=True, eq=False)
 class PathPoint:
-    """One state of a path and how it was reached.
+    """One state of a path and how it was reached; energies per nominal area [E* length]."""
 
-    Attributes
-    ----------
-    state : Adhesion
-        State; its `branch` is the direction of the path.
-    event : str or None
-        "jump-in" or "jump-out" if a jump led here, "pull-off" if the path ends here because any
-        greater tension tears the surfaces apart.
-    bracket : tuple of float or None
-        Values of the control between which the event lies, the last one before it first.
-    work, dissipated : float
-        Work of the control in this step per nominal area [E* length]; that work less the gain in
-        energy, which is lost at a jump and the error of integration elsewhere. It is infinite at
-        a pull-off, where a dead load falls forever.
-    """
-
-    state: Adhesion
+    state: Adhesion  #: its `branch` is the direction of the path
+    #: "jump-in" or "jump-out" if a jump led here, "pull-off" if the path ends here because any
+    #: greater tension tears the surfaces apart.
     event: str | None = None
-    bracket: tuple | None = None
-    work: float = 0.0
+    bracket: tuple | None = (
+        None  #: values of the control beside the event, the last before it first
+    )
+    work: float = 0.0  #: of the control in this step
+    #: Work less the gain in energy, which is lost at a jump and the error of integration elsewhere;
+    #: infinite at a pull-off, where a dead load falls forever.
     dissipated: float = 0.0
 
 
@@ -81,14 +65,15 @@ def path(
     steps=20,
     max_states=5000,
     max_iterations=3000,
-    logger=None,
     solid=HALF_SPACE,
 ) -> Iterator[PathPoint]:
     """Follow the contact through rising and falling pressure or mean gap.
 
+    The first state comes without work. After a pull-off the path ends.
+
     Parameters
     ----------
-    heights, length, law, tol, max_iterations, logger, solid
+    heights, length, law, tol, max_iterations, solid
         As for `solve`.
     values : sequence of float
         At least two values of the control to go through in turn, each different from the one
@@ -113,15 +98,8 @@ def path(
     max_states : int
         States to compute at most.
 
-    Yields
-    ------
-    PathPoint
-        States in order, the first one without work. After a pull-off the path ends.
-
     Raises
     ------
-    ValueError
-        If an argument is malformed or out of range; the message names it.
     PullOffError
         If there is no equilibrium at the first value.
     ConvergenceError
@@ -137,25 +115,21 @@ def path(
     sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
     for name, value in sizes.items():
         number(name, value)
-    options = {"tol": tol, "max_iterations": max_iterations, "logger": logger, "solid": solid}
-    first = solve(heights, length, law, **{control: values[0]}, start=start, **options)
-    yield PathPoint(first)
+    options = {"tol": tol, "max_iterations": max_iterations, "solid": solid}
+    last = solve(heights, length, law, **{control: values[0]}, start=start, **options)
+    yield PathPoint(last)
     follower = _Follower(
-        first=first,
-        scaled=Scaled.of(grid("heights", heights), first.length, law, solid),
+        first=last,
+        scaled=Scaled.of(grid("heights", heights), last.length, law, solid),
         control=control,
-        effort=Effort(tol, max_iterations),
-        balance=balance,
-        smallest_jump=max(smallest_jump, balance),
-        located=located,
+        effort=(tol, max_iterations),
         span=float(np.ptp(values)),
         left=max_states - 1,
-        logger=logger,
         scale=_LEAST_SCALE * law.adhesion_length,
+        **sizes,
     )
-    last = first
     for target in values[1:]:
-        for point in follower.leg(last, target, steps):
+        for point in follower.leg(last, target):
             yield point
             if point.event == "pull-off":
                 return
@@ -169,47 +143,56 @@ class _Follower:
     first: Adhesion
     scaled: Scaled
     control: str
-    effort: Effort
+    effort: tuple  #: tolerance and most iterations of a state
+    span: float  #: between the largest and the smallest value of the control
+    left: int  #: states that may still be computed
+    scale: float  #: largest change of elastic plus interaction energy so far [E* length]
     balance: float
     smallest_jump: float
     located: float
-    span: float  #: between the largest and the smallest value of the control
-    left: int  #: states that may still be computed
-    logger: object
-    scale: float  #: largest change of elastic plus interaction energy so far [E* length]
+    steps: int
 
-    def leg(self, state, target, steps):
+    def leg(self, state, target):
         """Points from a state (left out) to a value of the control."""
         value = state.mean_pressure if self.control == "pressure" else state.mean_gap
         closing = (target > value) == (self.control == "pressure")
-        branch = APPROACH if closing else SEPARATION
-        longest = abs(target - value) / steps
+        longest = abs(target - value) / self.steps
         finest = longest / _SUBSTEPS[self.first.law.smooth]
-        before, step, blocked = None, longest, _Blocked()
+        # `end` is the target, or a value before it that could not be reached in balance.
+        before, step, end, failures = None, longest, target, 0
         while value != target:
-            end = target if blocked.at is None else blocked.at
-            trial = blocked.trial(value, end, step, self._width(end))
-            successor = self._solve(state, trial, branch)
-            point, imbalance = self._point(before, state, successor)
+            trial = self._next_value(value, end, step, failures)
+            successor = self._solve(state, trial, APPROACH if closing else SEPARATION)
+            work, dissipated = self._dissipation(before, state, successor)
             width = abs(trial - value)
-            allowed = self.smallest_jump if width <= finest else self.balance
-            if imbalance <= allowed * self.scale:
-                yield point
-                growth = 0.8 * (self.balance * self.scale / max(imbalance, 1e-300)) ** 0.25
+            allowed = max(self.smallest_jump, self.balance) if width <= finest else self.balance
+            if abs(dissipated) <= allowed * self.scale:
+                yield PathPoint(successor, work=work, dissipated=dissipated)
+                growth = 0.8 * (self.balance * self.scale / max(abs(dissipated), 1e-300)) ** 0.25
                 step = min(longest, width * min(2.0, max(growth, 0.2)))
                 before, state, value = state, successor, trial
             elif width > self._width(trial):
-                blocked.at, blocked.failures, step = trial, blocked.failures + 1, width / 2
+                end, failures, step = trial, failures + 1, width / 2
                 continue
             elif successor is None:
                 yield PathPoint(state, "pull-off", (value, trial), 0.0, math.inf)
                 return
             else:
                 event = "jump-in" if closing else "jump-out"
-                yield PathPoint(successor, event, (value, trial), point.work, point.dissipated)
+                yield PathPoint(successor, event, (value, trial), work, dissipated)
                 before, state, value, step = None, successor, trial, longest
             if trial == end:
-                blocked = _Blocked()
+                end, failures = target, 0
+
+    def _next_value(self, value, end, step, failures):
+        """Next value towards an end: by the step, or by halves if the end is known to fail."""
+        distance = abs(end - value)
+        if failures and distance > self._width(end) and (failures > 2 or step < distance):
+            step = distance / 2 if failures > 2 else min(step, distance / 2)
+        elif failures:
+            return end
+        # No crumb of a step before the end.
+        return end if 1.01 * step >= distance else value + math.copysign(step, end - value)
 
     def _width(self, value):
         return self.located * max(abs(value), _NEAR_ZERO * self.span)
@@ -219,56 +202,29 @@ class _Follower:
         if self.left <= 0:
             raise ConvergenceError("max_states do not suffice for this path: raise it", state)
         self.left -= 1
-        prescribed = Control(**{self.control: value})
-        gap = self.scaled.first_gap(state, prescribed.mean_gap)
+        control = {self.control: value}
+        gap = self.scaled.first_gap(state, control.get("mean_gap"))
         try:
-            successor = relax_from(self.scaled, gap, branch, prescribed, self.effort)
+            return relax_from(self.scaled, gap, branch, control, self.effort)
         except PullOffError:
             return None
-        if self.logger is not None:
-            text = "pressure %.6g, mean gap %.6g, area %.4f, %d iterations"
-            area = successor.repulsive_area_fraction
-            told = successor.mean_pressure, successor.mean_gap, area, successor.iterations
-            self.logger.info(text, *told)
-        return successor
 
-    def _point(self, before, state, successor):
-        """Point of the path and the imbalance of its energies."""
+    def _dissipation(self, before, state, successor):
+        """Work of the control, and what of it is dissipated; infinite if the surfaces part."""
         if successor is None:
-            return None, math.inf
-        work = self._work(before, state, successor)
-        dissipated = work - (successor.energy - state.energy)
+            return 0.0, math.inf
+        points = [s for s in (before, state, successor) if s is not None]
+        # Minus the integral of the mean pressure over the mean gap.
+        if self.control == "mean_gap":
+            work = -_integral([(s.mean_gap, s.mean_pressure) for s in points])
+        else:  # by parts: the mean gap is a function of the pressure and not the other way round
+            work = state.mean_pressure * state.mean_gap
+            work -= successor.mean_pressure * successor.mean_gap
+            work += _integral([(s.mean_pressure, s.mean_gap) for s in points])
         change = abs(successor.elastic_energy - self.first.elastic_energy)
         change += abs(successor.interaction_energy - self.first.interaction_energy)
         self.scale = max(self.scale, change)
-        return PathPoint(successor, work=work, dissipated=dissipated), abs(dissipated)
-
-    def _work(self, before, state, successor):
-        """Work of the control: minus the integral of the mean pressure over the mean gap."""
-        points = [s for s in (before, state, successor) if s is not None]
-        if self.control == "mean_gap":
-            return -_integral([(s.mean_gap, s.mean_pressure) for s in points])
-        # By parts, for the mean gap is a function of the pressure and not the other way round.
-        ends = state.mean_pressure * state.mean_gap - successor.mean_pressure * successor.mean_gap
-        return ends + _integral([(s.mean_pressure, s.mean_gap) for s in points])
-
-
-@dataclass(eq=False)
-class _Blocked:
-    """Value of the control that could not be reached in balance, and how often that was tried."""
-
-    at: float | None = None
-    failures: int = 0
-
-    def trial(self, value, end, step, width):
-        """Next value towards an end: by the step, or by halves if the end is known to fail."""
-        distance = abs(end - value)
-        if self.at is not None and distance > width and (self.failures > 2 or step < distance):
-            step = distance / 2 if self.failures > 2 else min(step, distance / 2)
-        elif self.at is not None:
-            return end
-        # No crumb of a step before the end.
-        return end if 1.01 * step >= distance else value + math.copysign(step, end - value)
+        return work, work - (successor.energy - state.energy)
 
 
 def _integral(points):

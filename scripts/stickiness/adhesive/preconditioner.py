@@ -1,7 +1,7 @@
 """Preconditioner of the descents: an approximate inverse of the stiffness of the free points.
 
 Most of the inverse is in long waves, so that it is applied on a grid half as fine: its transforms
-are four times smaller. Beside the wall, coarse points take part by their share of free ones.
+are four times smaller.
 """
 
 import numpy as np
@@ -16,12 +16,11 @@ _SHORT = 1.6
 
 
 class Smoother:
-    """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision; counts its `pairs`.
+    """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision.
 
-    The shift is the stiffness of the longest wave, of a layer that of its softest (long waves of a
-    thin incompressible one are the stiffest): it stands for the grip of what touches on the mean
-    gap, which no elasticity holds. On an even grid this is ``constant + B apply B^T``, where B is
-    the incidence of its points and the four coarse points around each (some may coincide).
+    The shift is the stiffness of the longest wave, or of the softest wave of a layer: it stands for
+    the grip of what touches on the mean gap, which no elasticity holds. On an even grid this is
+    ``constant + B apply B^T``, where B is the incidence of points and the coarse ones around each.
     """
 
     def __init__(self, shape, sides, solid):
@@ -44,7 +43,13 @@ class Smoother:
         self._convolution = convolution.choose(shape, np.float32)
         self._every = np.arange(shape[0])
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
-        self.pairs = 0.0  # in units of the grid of the fields
+
+    def share_of(self, free):
+        """Shares of free points around the coarse ones; None on an odd grid.
+
+        Beside the wall long waves give way less: coarse points take part by this share.
+        """
+        return _gather(free) / np.float32(16) if self.halved else None
 
     def apply(self, field, share=None):
         """Convolve a field in single precision; long waves between the `share` of coarse points."""
@@ -53,7 +58,6 @@ class Smoother:
             values *= share
         out = np.empty_like(values)
         self._convolution.apply(self._symbol, values, out, self._every, self._every)
-        self.pairs += out.size / field.size
         if share is not None:
             out *= share
         if self.halved:
@@ -63,27 +67,10 @@ class Smoother:
         return out
 
 
-class Preconditioner:
-    """Approximate inverse of the stiffness of the free points.
-
-    Beside the wall long waves give way less: coarse points take part by their share of free ones.
-    """
-
-    def __init__(self, surface, free):
-        self.smoother, self.share = surface.smoother, None
-        if self.smoother.halved:
-            self.share = _gather(free.astype(np.float32, copy=False))
-            self.share /= 16
-
-    def __call__(self, force):
-        """Step for a force that is zero on all but free points."""
-        return self.smoother.apply(force, self.share)
-
-
 def _gather(field):
     """Sums over the points around each coarse one, ``B^T field``."""
     coarse = np.empty(tuple(n // 2 for n in field.shape), np.float32)
-    _add_around(field, coarse, np.empty(field.shape[1], np.float32))
+    _add_around(field.astype(np.float32, copy=False), coarse, np.empty(field.shape[1], np.float32))
     return coarse
 
 

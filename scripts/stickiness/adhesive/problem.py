@@ -6,10 +6,6 @@ The energy per area is ``E(g) = <u K u> / 2 + <phi(g)>``, ``u = g + h``, ``phi' 
 ``K = |q| / 2`` or, for a layer, what `solids` says. A state of equilibrium at the mean pressure p
 has ``r = K u + traction(g) + p = 0``, or, with a hard wall at ``g = 0``, ``r >= 0`` where ``g = 0``
 and ``r = 0`` elsewhere.
-
-A descent goes from `State` to `State`: a gap and all that follows from it point by point. These
-operations are bound by memory. The law goes over the grid in blocks of rows that stay in cache, and
-all write over the arrays of a state that is no longer needed.
 """
 
 from dataclasses import dataclass
@@ -21,16 +17,20 @@ from stickiness.compiled import compiled
 from stickiness.repulsive import half_space
 from stickiness.solids import HALF_SPACE, Solid
 
-_BLOCK_POINTS = 2**14  # in a block: 128 kB in double precision
+_BLOCK_POINTS = 2**14  # in a block of rows, which stays in cache
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
-    """Heights (about their mean, in h_rms) with the elasticity of the solid on their grid."""
+class Problem:
+    """Surface and elasticity on its grid, law, and control: a pressure or a mean gap."""
 
-    heights: np.ndarray
+    heights: np.ndarray  #: about their mean, in h_rms
     sides: tuple  #: of the cell, in units of the first
-    solid: Solid = HALF_SPACE  #: its thickness in the same unit
+    law: object  #: TractionLaw or FrozenTraction
+    unit: float  #: pressure that residuals are measured in
+    solid: Solid = HALF_SPACE  #: its thickness in the unit of the sides
+    pressure: float | None = None
+    mean_gap: float | None = None
 
     @property
     def exact(self):
@@ -47,48 +47,55 @@ class Surface:
         """Approximate inverse of the stiffness."""
         return _kept_smoother(self.heights.shape, self.sides, self.solid)
 
-    @property
-    def pairs(self):
-        """Convolutions so far by all operators of this grid."""
-        return self.exact.pairs + self.quick.pairs + self.smoother.pairs
-
     def elastic(self, gap):
         """Pressure of zero mean that deforms the solid to a gap."""
         return self.exact.stiffness(gap + self.heights)
 
-
-@dataclass(frozen=True, eq=False)
-class Problem:
-    """Surface, law (in the units of the surface) and control: a pressure or a mean gap."""
-
-    surface: Surface
-    law: object  #: TractionLaw or FrozenTraction
-    unit: float  #: pressure that residuals are measured in
-    pressure: float | None = None
-    mean_gap: float | None = None
-
     @property
     def wall(self):
-        """Whether gaps end at a hard wall."""
+        """Whether gaps end at a hard wall; if not, every point is free."""
         return self.law.hard_wall
+
+    def lowest(self, gap):
+        """Lowest gaps of a step: the wall, or half the way to the singularity of the law."""
+        return 0.0 if self.wall else 0.5 * (gap - self.law.range)
+
+    def state(self, gap, elastic=None):
+        """State of a gap (not negative at a wall); `elastic` is its elastic pressure, if known.
+
+        The mean pressure, if not prescribed, is the one that balances the open points in the mean.
+        """
+        elastic = self.elastic(gap) if elastic is None else elastic
+        traction, slope, potential = self.law.evaluate(gap)
+        pressure = self.pressure
+        if pressure is None:
+            total, count, least = _unloaded(
+                gap.ravel(), elastic.ravel(), traction.ravel(), self.wall
+            )
+            # In full contact the least pressure that keeps it.
+            pressure = -total / count if count else -least
+        reaction = elastic + pressure + traction
+        # A reaction that is not a number makes a point free, and so comes to light.
+        free = (gap > 0) | ~(reaction >= 0) | (not self.wall)
+        return State(
+            *(gap, elastic, traction, slope, free),
+            force=np.where(free, reaction / self.unit, 0.0).astype(np.float32),
+            potential=sum_blocks(np.sum, potential) / gap.size,
+            pressure=pressure,
+        )
 
 
 @dataclass(frozen=True, eq=False)
 class FrozenTraction:
     """Traction that does not depend on the gap: with the hard wall the problem is convex."""
 
-    field: np.ndarray  #: or one number
+    field: np.ndarray
     range: float  #: of the law it is frozen from
     hard_wall = True
-    hardens = False
-
-    def at(self, span):
-        """Law of some rows."""
-        return FrozenTraction(self.field[span], self.range) if np.ndim(self.field) else self
 
     def evaluate(self, gap):
         """Traction, its derivative and its potential."""
-        return self.field, 0.0, self.field * gap
+        return self.field, np.zeros_like(gap), self.field * gap
 
 
 _kept_smoother = half_space.keep_per_thread(24)(Smoother)
@@ -106,18 +113,14 @@ class State:
     #: Sum of elastic pressure, traction and mean pressure on free points, in the problem's unit and
     #: in single precision: zero in equilibrium.
     force: np.ndarray
-    potential: float = 0.0  #: mean of the law's
-    pressure: float = 0.0  #: mean, prescribed or in balance with the prescribed mean gap
-    residual: float = np.inf  #: largest magnitude of the force
+    potential: float  #: mean of the law's
+    pressure: float  #: mean, prescribed or in balance with the prescribed mean gap
     iterations: int = 0
     last_run: int = 0  #: iterations since a direction of negative curvature was met
-    start_pairs: float = 0.0  #: convolutions of the start, on coarser grids by share of the points
+    separated: bool = False  #: whether no attraction left can balance the tension
 
-    @classmethod
-    def empty(cls, shape):
-        """State with arrays of arbitrary content."""
-        doubles = [np.empty(shape) for _ in range(4)]
-        return cls(*doubles, np.empty(shape, bool), np.empty(shape, np.float32))
+    def __post_init__(self):
+        self.residual = largest(self.force)
 
 
 def spans(shape):
@@ -126,27 +129,12 @@ def spans(shape):
     return [slice(start, start + rows) for start in range(0, shape[0], rows)]
 
 
-def evaluate(problem, state):
-    """Fill in what follows from the gap (not negative at a wall) and elastic pressure of a state.
+def sum_blocks(function, *fields):
+    """Sum what a function of fields, say `np.vdot`, gives over blocks of rows.
 
-    The mean pressure, if not prescribed, is the one that balances the open points in the mean.
+    Within a block, sums in single precision are good enough.
     """
-    law, potential = problem.law, 0.0
-    for span in spans(state.gap.shape):
-        values = law.at(span).evaluate(state.gap[span])
-        state.traction[span], state.slope[span], energy = values
-        potential += float(np.sum(energy))
-    state.potential = potential / state.gap.size
-    fields = state.gap.ravel(), state.elastic.ravel(), state.traction.ravel()
-    state.pressure = problem.pressure
-    if state.pressure is None:
-        total, count, least = _unloaded(*fields, problem.wall)
-        # In full contact the least pressure that keeps it.
-        state.pressure = -total / count if count else -least
-    force, free = state.force.ravel(), state.free.ravel()
-    _react(*fields, state.pressure, problem.unit, problem.wall, free, force)
-    state.residual = largest(force)
-    return state
+    return sum(float(function(*(f[span] for f in fields))) for span in spans(fields[0].shape))
 
 
 @compiled
@@ -162,26 +150,16 @@ def _unloaded(gap, elastic, traction, wall):
     return total, count, least
 
 
-@compiled
-def _react(gap, elastic, traction, pressure, unit, wall, free, force):
-    """Find the points that are free, and the forces on them."""
-    for i in range(gap.size):
-        reaction = elastic[i] + traction[i] + pressure
-        free[i] = gap[i] > 0 or not reaction >= 0 or not wall  # keeps what is not a number
-        force[i] = reaction / unit if free[i] else 0.0
-
-
 def largest(field):
     """Largest magnitude in a field; not a number if any is none."""
     return float(np.maximum(field.max(), -field.min()))
 
 
-def balanced(field, points=None):
+def balanced(field, points):
     """Subtract, in place, a constant on some points so that the field has no mean."""
-    if points is None or points.all():
-        field -= field.dtype.type(field.mean(dtype=float))
-    elif points.any():
-        field -= field.dtype.type(field.sum(dtype=float) / np.count_nonzero(points)) * points
+    count = np.count_nonzero(points)
+    if count:
+        field -= field.dtype.type(field.sum(dtype=float) / count) * points
     return field
 
 

@@ -1,25 +1,17 @@
-"""Quick descent for laws that only soften, mostly in single precision.
+"""Quick descent for laws with a wall, which only soften, mostly in single precision.
 
 The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
 precision within a round, and computed again in double precision between rounds (iterative
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
 and energies are compared, between rounds only.
 
-Until then a step is cut short at the wall, which takes another convolution: a step that passes the
-wall might pass a barrier, too. Afterwards points that pass it by little stay behind it for the rest
-of the round and are put back at its end, and a round ends when the force on them is no longer small
-against the residual. If a round raises the energy or changes nothing, the general descent takes
-over.
-
 The compiled loops at the end do all that they need at one point before they go to the next. Their
-fields are flat: those of steps in single precision, those of states and all sums in double
-precision. Sets of points are booleans.
+fields are flat.
 """
 
 import numpy as np
 
-from stickiness.adhesive.preconditioner import Preconditioner
-from stickiness.adhesive.problem import State, evaluate, largest, spans
+from stickiness.adhesive.problem import largest, spans
 from stickiness.compiled import compiled
 from stickiness.repulsive import convolution
 
@@ -36,11 +28,6 @@ _LAST_ROUND_SHARE = 0.8  # of the tolerance that a last round aims for
 _NONE, _HALF = np.float32(0), np.float32(0.5)
 
 
-def suits(problem):
-    """Whether a problem is one for `quick_descent`."""
-    return problem.wall and not problem.law.hardens
-
-
 def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False):
     """Go down in energy from a gap; returns the last `State` and whether the descent finished.
 
@@ -48,53 +35,52 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
     or comes to nothing, or, if `convex`, at the first direction of negative curvature. `observer`
     is called with the state at every round; descent stops when it returns true.
     """
-    state, other = State.empty(gap.shape), State.empty(gap.shape)
-    state.gap[...] = gap
-    state.elastic[...] = problem.surface.elastic(gap)
-    evaluate(problem, state)
-    steps, finished = _Steps(problem, gap.shape), True
+    state, steps, finished = problem.state(gap), _Steps(problem), True
     while finished:
         done = state.residual <= tol or steps.count >= max_iterations
         done = done or not np.isfinite(state.residual)
         if done or (observer is not None and observer(state)):
             break
         steps.begin(state)
-        steps.descend(
-            max(_ROUND_REDUCTION * state.residual, _LAST_ROUND_SHARE * tol), max_iterations, convex
-        )
-        finished = not (convex and steps.last_soft) and (steps.soft or steps.change.any())
-        finished = finished and _moved(problem, state, steps, other)
-        if finished:
-            state, other = other, state
+        goal = max(_ROUND_REDUCTION * state.residual, _LAST_ROUND_SHARE * tol)
+        steps.descend(goal, max_iterations, convex)
+        moved = None
+        if not (convex and steps.last_soft) and (steps.soft or steps.change.any()):
+            moved = _moved(problem, state, steps)
+        finished = moved is not None
+        state = moved if finished else state
     state.iterations, state.last_run = steps.count, steps.count - steps.last_soft
     return state, finished
 
 
-def _moved(problem, state, steps, other):
-    """State after a round into the arrays of another; returns whether the energy fell."""
-    gaps = state.gap.ravel(), other.gap.ravel()
+def _moved(problem, state, steps):
+    """State after a round; None if the energy rose."""
+    gap = np.empty_like(state.gap)
+    gaps = state.gap.ravel(), gap.ravel()
     total = _move_gap(*gaps, steps.change, problem.unit, steps.above)
-    if (
-        problem.mean_gap is not None and total > 0
-    ):  # in proportion: contact stays contact, edges keep their shape
-        other.gap *= problem.mean_gap * other.gap.size / total
-    other.elastic[...] = problem.surface.elastic(other.gap)
+    if problem.mean_gap is not None and total > 0:
+        # In proportion: contact stays contact, edges keep their shape.
+        gap *= problem.mean_gap * gap.size / total
+    other = problem.state(gap)
     pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
-    change = _sum_work_between(*gaps, *pressures)
-    evaluate(problem, other)
-    change = change / state.gap.size + other.potential - state.potential
-    return change <= 8 * np.finfo(float).eps * abs(state.potential)
+    change = _sum_work_between(*gaps, *pressures) / gap.size + other.potential - state.potential
+    return other if change <= 8 * np.finfo(float).eps * abs(state.potential) else None
 
 
 class _Steps:
-    """Conjugate directions and steps along them, in single precision and the problem's pressure."""
+    """Conjugate directions and steps along them, in single precision and the problem's pressure.
 
-    def __init__(self, problem, shape):
-        self.problem, self.surface, self.shape = problem, problem.surface, shape
-        self.law, self.unit = problem.law, problem.unit
-        self.at_gap = problem.pressure is None
-        self.pixel = problem.surface.quick.mean_stiffness
-        size = shape[0] * shape[1]
+    At first a step is cut short at the wall, which takes another convolution: a step that passes
+    the wall might pass a barrier, too. Once the force is small, points that pass it by little stay
+    behind it for the rest of the round and are put back at its end, and a round ends when the force
+    on them is no longer small against the residual.
+    """
+
+    def __init__(self, problem):
+        self.problem, self.law, self.unit = problem, problem.law, problem.unit
+        self.shape, self.at_gap = problem.heights.shape, problem.pressure is None
+        self.pixel = problem.quick.mean_stiffness
+        size = problem.heights.size
         fields = [convolution.aligned_zeros(size, np.float32) for _ in range(13)]
         # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
         self.change, self.lowest, self.traction, self.slope, *fields = fields
@@ -121,13 +107,13 @@ class _Steps:
         self.reaction[...] = reaction.ravel()
         self.slope[...] = state.slope.ravel()
         self.free[...], self.above[...] = state.free.ravel(), state.gap.ravel() > 0
-        self.free_points = np.count_nonzero(self.free)
-        self.precondition = Preconditioner(self.surface, self.free.reshape(self.shape))
         self.force, self.last_force = self.last_force, self.force
         self.force[...] = state.force.ravel()
+        self.free_points = np.count_nonzero(self.free)
+        self.share = self.problem.smoother.share_of(self.free.reshape(self.shape))
         if self.at_gap:
-            mean = self.force.sum(dtype=float) / max(self.free_points, 1)
-            _lower(self.force, np.float32(mean), self.free)
+            mean = np.float32(self._mean(self.force.sum(dtype=float)))
+            np.subtract(self.force, mean, out=self.force, where=self.free)
         if not self.linear:
             self.potential = self._evaluate(self.change, 0.0, self.traction, self.slope)
             self.slack = _ROUNDING * abs(self.potential)
@@ -149,7 +135,7 @@ class _Steps:
             if not curvature > 0:
                 curvature, longest = stiffness, self.law.range
                 self.last_soft, self.soft = self.count, self.linear or convex
-                self.precondition = self.surface.smoother.apply  # edges of contact move
+                self.share = None  # edges of contact move
             longest /= self.unit * largest(self.direction)
             # A uniform direction has no stiffness.
             length = min(-slope / curvature, longest) if curvature > 0 else longest
@@ -161,12 +147,11 @@ class _Steps:
 
         These are slope and curvature of the energy along the new direction.
         """
-        force = self.force.reshape(self.shape)
-        step = self.precondition(force).ravel()
+        step = self.problem.smoother.apply(self.force.reshape(self.shape), self.share).ravel()
         total, product, last_product, *forces = _sum_over_free(
             step, self.free, self.force, self.last_force
         )
-        mean = total / max(self.free_points, 1) if self.at_gap else 0.0
+        mean = self._mean(total)
         last, self.product = self.product, product - mean * forces[0]
         gain = self.product - (last_product - mean * forces[1])
         weight = max(0.0, gain / last) if last > 0 else 0.0
@@ -178,11 +163,15 @@ class _Steps:
 
     def _advance(self, slope, length):
         """Go along the direction; returns whether the round may go on."""
-        for _ in range(1 if self.linear else _MAX_SHORTENINGS):
-            step = self._within(np.float32(length))
-            rise = 0.0 if self.linear else self._rise(*step)
-            if self.linear or rise <= self.slack:
-                return self._go(*step)
+        for _ in range(_MAX_SHORTENINGS):
+            step, image, factor = self._within(np.float32(length))
+            if self.linear:
+                return self._go(step, image, factor)
+            elastic, work = _sum_work(step, factor, image, self.reaction, self.traction)
+            self.new_potential = self._evaluate(step, factor, self.new_traction, self.new_slope)
+            rise = self.unit * (self.unit * elastic - work) + self.new_potential - self.potential
+            if rise <= self.slack:
+                return self._go(step, image, factor)
             predicted = length * slope * self.unit**2
             length *= min(max(-0.5 * predicted / (rise - predicted), 0.1), 0.5)
         return False
@@ -200,16 +189,10 @@ class _Steps:
             self.step, self.direction, length, self.change, self.lowest, self.above
         )
         if self.at_gap and count:
-            _lower(self.step, np.float32(total / count), self.above)
+            mean = np.float32(total / count)
+            np.subtract(self.step, mean, out=self.step, where=self.above)
         self._stiffen(self.step, self.cut_image)
         return self.step, self.cut_image, np.float32(1)
-
-    def _rise(self, step, image, factor):
-        """Change of energy by a step, summed over the grid; keeps what the law says there."""
-        elastic, work = _sum_work(step, factor, image, self.reaction, self.traction)
-        self.new_potential = self._evaluate(step, factor, self.new_traction, self.new_slope)
-        total = self.unit * (self.unit * elastic - work)
-        return total + self.new_potential - self.potential
 
     def _evaluate(self, step, factor, traction, slope):
         """Traction and slope of the law after a step; returns the sum of its potential."""
@@ -217,7 +200,7 @@ class _Steps:
         _find_gaps(step, np.float32(factor), self.change, self.lowest, np.float32(self.unit), gap)
         gap, traction, slope = (field.reshape(self.shape) for field in (gap, traction, slope))
         for span in spans(self.shape):
-            traction[span], slope[span], potential = self.law.at(span).evaluate(gap[span])
+            traction[span], slope[span], potential = self.law.evaluate(gap[span])
             total += float(potential.sum())
         return total
 
@@ -233,18 +216,11 @@ class _Steps:
             self.slope, self.new_slope = self.new_slope, self.slope
             self.potential = self.new_potential
         if step is self.step:  # no rounding where it ends at the wall
-            _end_at_wall(step, self.change, self.lowest, self.free, self.above)
-        mean = total / max(self.free_points, 1) if self.at_gap else 0.0
-        self._release(np.float32(mean))
-        return (
-            not self.linear
-            or self.unit * largest(self.change) <= _MAX_LINEAR_CHANGE * self.law.range
-        )
-
-    def _release(self, mean):
-        """Free points that the wall would have to pull, put off those behind it; new forces."""
+            np.copyto(self.change, self.lowest, where=self.free & ~self.above & (step < 0))
+        # Free points that the wall would have to pull, put off those behind it; new forces.
         self.force, self.last_force = self.last_force, self.force
-        height = self.step  # scratch: not in use here
+        height = self.step  # scratch: not in use any more
+        mean = np.float32(self._mean(total))
         self.free_points, changed = _release_points(
             *(self.reaction, mean, self.change, self.lowest),
             *(self.above, self.free, self.force, height),
@@ -252,10 +228,18 @@ class _Steps:
         self.residual = largest(self.force)
         self.behind = max(-float(height.min()), 0.0) * self.pixel
         if changed:
-            self.precondition = Preconditioner(self.surface, self.free.reshape(self.shape))
+            self.share = self.problem.smoother.share_of(self.free.reshape(self.shape))
+        return (
+            not self.linear
+            or self.unit * largest(self.change) <= _MAX_LINEAR_CHANGE * self.law.range
+        )
+
+    def _mean(self, total):
+        """Mean over free points, which a prescribed mean gap leaves no work to do."""
+        return total / max(self.free_points, 1) if self.at_gap else 0.0
 
     def _stiffen(self, field, out):
-        self.surface.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
+        self.problem.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
 
 
 @compiled
@@ -317,13 +301,6 @@ def _turn_direction(direction, weight, step, mean, free, above):
         direction[i] = part
         total += part
     return total, count
-
-
-@compiled
-def _lower(field, mean, points):
-    for i in range(field.size):
-        if points[i]:
-            field[i] -= mean
 
 
 @compiled
@@ -407,14 +384,6 @@ def _apply_step_linearly(step, factor, image, change, reaction, free, slope):
         reaction[i] += part * slope[i] + image[i] * factor
         total += reaction[i] if free[i] else _NONE
     return total
-
-
-@compiled
-def _end_at_wall(step, change, lowest, free, above):
-    """Put free points whose step ends at the wall exactly there."""
-    for i in range(step.size):
-        if free[i] and not above[i] and step[i] < 0:
-            change[i] = lowest[i]
 
 
 @compiled

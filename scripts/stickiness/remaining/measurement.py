@@ -23,7 +23,7 @@ from stickiness.arguments import grid, number
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
-from stickiness.traction_laws import TractionLaw
+from stickiness.traction_laws import TractionLaw, check_law
 
 REACH = 4.0  #: ranges between the highest point and the surface where the approach begins
 STEPS_ERROR = 0.03  #: relative, of works and pull-off, by the steps of the path
@@ -51,14 +51,12 @@ class Remaining:
     bound: float  #: largest gain of energy on the path: attraction less elastic energy
     pull_off: float  #: largest mean tension on separation at given mean gaps [E*]
     area_at_zero_load: float  #: share of points in contact on approach; NaN without attraction
-    gap_at_zero_load: float  #: mean gap [length] on approach; NaN without attraction
     #: Width of the cohesive zone, range^2/adhesion_length; below two, points snap one by one.
     pixels_in_zone: float
     jumps: int  #: on the path
     gap: NDArray  #: mean gaps of the curve [length]
     pressure: NDArray  #: mean pressures of the curve [E*]
     separating: NDArray  #: whether a point of the curve is on the way back
-    fft_pairs: float  #: convolutions that it took
     points: tuple[PathPoint, ...]  #: states of the curve with their fields
     approach_limits: tuple[float, float] = (np.nan, np.nan)
     separation_limits: tuple[float, float] = (np.nan, np.nan)
@@ -99,31 +97,28 @@ def measure(
 
     Raises
     ------
-    ValueError
-        If an argument is not what it should be.
     ConvergenceError
         If a state does not converge.
     """
     heights = grid("heights", heights)
     squeeze = number("squeeze", squeeze)
-    if isinstance(law, type) or not hasattr(law, "evaluate"):
-        raise ValueError(f"law must be a TractionLaw such as Exponential(...), got {law!r}")
+    check_law(law)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    coarse = edge_zone.resolution(pixel, law.range, law.adhesion_length)
-    if np.ptp(heights) > 0 and coarse > COARSEST:
+    resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    if np.ptp(heights) > 0 and resolution > COARSEST:
         raise ValueError(
-            f"a pixel of {pixel:.3g} is {coarse:.2g} times the width of the cohesive zone, "
+            f"a pixel of {pixel:.3g} is {resolution:.2g} times the width of the cohesive zone, "
             "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
-            f"{edge_zone.COARSEST * pixel / coarse:.3g} or a longer range"
+            f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
     settings = {"tol": tol, "solid": check_solid(solid)}
+    found = _follow(heights, length, law, squeeze, settings)
     if not half_grid:
-        return _follow(heights, length, law, squeeze, settings)
+        return found
     with warnings.catch_warnings():
         # The half grid is coarse on purpose: what that changes is the error.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        coarse = replace(_follow(heights[::2, ::2], length, law, squeeze, settings), points=())
-    found, limits = _follow(heights, length, law, squeeze, settings), {}
+        coarse, limits = _follow(heights[::2, ::2], length, law, squeeze, settings), {}
     for name in ("approach", "separation", "bound", "pull_off"):
         value = getattr(found, name)
         # The change from half the grid, more than what this one still lacks, and the steps.
@@ -135,31 +130,23 @@ def measure(
 def _follow(heights, length, law, squeeze, options):
     """Approach, squeeze and part once; limits are NaN."""
     first = float(heights.max() - heights.mean()) + REACH * law.range
-    settings = options | {
-        "control": "mean_gap",
-        "balance": BALANCE,
-        "smallest_jump": BALANCE,
-        "steps": STEPS,
-        "max_states": MOST_STATES,
-    }
+    sizes = {"balance": BALANCE, "smallest_jump": BALANCE, "steps": STEPS}
+    settings = options | sizes | {"control": "mean_gap", "max_states": MOST_STATES}
     closest = 0.0 if law.hard_wall else -0.2 * law.range
-    approach = []
+    approach, separation = [], []
     for point in path(heights, length, law, (first, closest), **settings):
         approach.append(point)
         if point.state.mean_pressure >= squeeze:
             break
-    last = approach[-1].state
-    separation = []
-    values = (last.mean_gap, first, FARTHEST * first)
-    start = replace(last, branch=SEPARATION)
+    start = replace(approach[-1].state, branch=SEPARATION)
+    values = (start.mean_gap, first, FARTHEST * first)
     for point in path(heights, length, law, values, start=start, **settings):
         separation.append(point)
-        touching = point.state.repulsive_area_fraction > 0
-        if point.state.mean_gap >= first and not touching:
+        if point.state.mean_gap >= first and not point.state.repulsive_area_fraction > 0:
             break
     else:
         raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
-    points = approach + separation
+    points = (*approach, *separation)
     gap = np.array([point.state.mean_gap for point in points])
     pressure = np.array([point.state.mean_pressure for point in points])
     jumped = np.array([point.event is not None for point in points])
@@ -171,29 +158,25 @@ def _follow(heights, length, law, squeeze, options):
     ]
     energy = min(point.state.energy for point in points)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    gap_at_zero_load, area_at_zero_load = _zero_load([point.state for point in approach])
     return Remaining(
         approach=works[0],
         separation=works[1],
         bound=max(-energy, 0.0) / law.adhesion_length,
         pull_off=max(-float(pressure[ways[1]].min()), 0.0),
-        area_at_zero_load=area_at_zero_load,
-        gap_at_zero_load=gap_at_zero_load,
+        area_at_zero_load=_area_at_zero_load([point.state for point in approach]),
         pixels_in_zone=1 / edge_zone.resolution(pixel, law.range, law.adhesion_length),
         jumps=int(jumped.sum()),
         gap=gap,
         pressure=pressure,
         separating=np.arange(len(points)) >= len(approach),
-        fft_pairs=sum(point.state.fft_pairs for point in points),
-        points=tuple(points),
+        points=points,
     )
 
 
 def _work(gap, pressure, jumped):
     """Integral of the tension over the gap one way [E* length], positive."""
-    ends = [0, *np.flatnonzero(jumped), len(gap)]
     total = 0.0
-    for start, end in pairwise(ends):
+    for start, end in pairwise([0, *np.flatnonzero(jumped), len(gap)]):
         if end - start > 1:
             total += _tension_over_gap(gap[start:end], pressure[start:end])
         if start > 0:  # across the jump before
@@ -202,19 +185,15 @@ def _work(gap, pressure, jumped):
     return float(total)
 
 
-def _zero_load(states):
-    """Mean gap and area where tension turns into pressure."""
+def _area_at_zero_load(states):
+    """Area where tension turns into pressure."""
     for one, other in reversed(list(pairwise(states))):
         if one.mean_pressure < 0 <= other.mean_pressure:
             share = -one.mean_pressure / (other.mean_pressure - one.mean_pressure)
-            return tuple(
-                float(getattr(one, name) + share * (getattr(other, name) - getattr(one, name)))
-                for name in ("mean_gap", "repulsive_area_fraction")
-            )
+            area = one.repulsive_area_fraction
+            return float(area + share * (other.repulsive_area_fraction - area))
     # Full contact holds tension at a gap of zero, and is the state at zero load too.
-    last = states[-1]
-    closed = last.mean_pressure < 0
-    return (last.mean_gap, last.repulsive_area_fraction) if closed else (np.nan, np.nan)
+    return states[-1].repulsive_area_fraction if states[-1].mean_pressure < 0 else np.nan
 
 
 def _tension_over_gap(gap, pressure):

@@ -14,19 +14,17 @@ from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
-# absolute, which is all that is known of small ones. In simulations of two by two waves and more
-# they hold all energies where more than 5 % remains, but two thirds of those at energy ratios up to
-# 0.35, where the theory is mostly too high; half of all in cells of one wave. That of the onset is
-# the spread of the forms by which simulations are extrapolated to short ranges, not an interval of
-# 90 %.
+# absolute. In simulations of two by two waves and more they hold all energies where more than 5 %
+# remains, but two thirds of those at energy ratios up to 0.35, where the theory is mostly too high.
+# That of the onset is the spread of the forms by which simulations are extrapolated to short
+# ranges, not an interval of 90 %.
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
-# All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost,
-# times the distance of S of the longest waves from 1. LAYER_LESS is for films on a soft backing and
-# for S of about a half, LAYER_MORE for thin incompressible layers, whose long waves are stiffer
-# than springs. Both were set so that limits hold all simulations on layers (H = 0.6 and 0.8, no
-# roll-off); no others were kept back.
+# On layers limits are wider by these parts of what is lost, times the distance of S of the longest
+# waves from 1. LAYER_LESS is for films on a soft backing and for S of about a half, LAYER_MORE for
+# thin incompressible layers, whose long waves are stiffer than springs. Both were set so that
+# limits hold all simulations on layers (H = 0.6 and 0.8, no roll-off); no others were kept back.
 LAYER_LESS, LAYER_MORE = 0.06, 0.2
 # The largest tension on separation is what remains over a distance, the range plus
 # DISTANCE x^DISTANCE_POWER rms heights.
@@ -63,9 +61,6 @@ class Prediction:
     separation_limits: tuple[float, float]
     pull_off_limits: tuple[float, float]
     energy_ratio: float  #: work of adhesion over the elastic energy of full contact
-    #: Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
-    #: out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
-    tabor: float
     #: Factor on the errors that limits stand for, see `find_anisotropy_error_factor`.
     anisotropy_error_factor: float = 1.0
 
@@ -100,22 +95,15 @@ class Roughness:
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
         share = share + layer * fades * lost
         if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
-            share = self._bound(share, adhesion_length, range, sign)
+            # A solid that is stiffer to every wave has no state of less energy than a half-space,
+            # and a softer one has none of more.
+            known = np.isfinite(self.half_space_energy)
+            energy = np.where(known, self.half_space_energy, self.elastic_energy)
+            deep = Roughness(self.h_rms, self.q0, energy).share(adhesion_length, range, sign)
+            bound = np.where(harder >= 0, np.minimum(share, deep), np.maximum(share, deep))
+            share = np.where(known, bound, share)
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
-
-    def _bound(self, share, adhesion_length, range, sign) -> NDArray:
-        """Bound the share of a layer by the share of a half-space.
-
-        A solid that is stiffer to every wave has no state of less energy, and a softer one has
-        none of more.
-        """
-        known = np.isfinite(self.half_space_energy)
-        energy = np.where(known, self.half_space_energy, self.elastic_energy)
-        deep = Roughness(self.h_rms, self.q0, energy).share(adhesion_length, range, sign)
-        stiffer = np.asarray(self.relative_compliance) <= 1
-        bound = np.where(stiffer, np.minimum(share, deep), np.maximum(share, deep))
-        return np.where(known, bound, share)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts, the range plus part of the rms height [length]."""
@@ -159,17 +147,15 @@ class Roughness:
 
         With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
         """
-        range = np.asarray(range, dtype=float)
         names = ("h_rms", "q0", "elastic_energy", "relative_compliance")
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
         at = np.broadcast_arrays(*values, half_space, sign)
-        energy = at[names.index("elastic_energy")]
+        energy = at[2]
 
-        def excess(log_length, *at):
-            *surface, range, half_space, sign = at
-            rough = Roughness(*surface, half_space)
+        def excess(log_length, h, q0, energy, compliance, range, half_space, sign):
+            rough = Roughness(h, q0, energy, compliance, half_space)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
@@ -180,10 +166,7 @@ class Roughness:
 
 
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
-    """Elastic energy that bounds that of a layer; none where some waves are softer, others stiffer.
-
-    A film that bends is softer than a half-space to long waves, and its layer stiffer to others.
-    """
+    """Elastic energy that bounds that of a layer; none of a film, which is softer to long waves."""
     bends = isinstance(solid, Layer) and isinstance(solid.backing, Film)
     return None if solid == HALF_SPACE or bends else spectrum.elastic_energy()
 
@@ -191,8 +174,7 @@ def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
 def find_anisotropy_error_factor(ratio: float) -> float:
     """Factor on the errors of a prediction for a ratio of correlation lengths: 1 without direction.
 
-    It is `UNLIKE` at `UNLIKE_RATIO` and grows on. Simulations of ratios up to 4 lie within the
-    limits without it, but they are few (`benchmarks/direction.py`).
+    Simulations of ratios up to 4 lie within the limits without it, but they are few.
     """
     return UNLIKE ** float(np.log(ratio) / np.log(UNLIKE_RATIO))
 
@@ -226,11 +208,6 @@ def predict(
         incompressible layers the value is a third to nine tenths of what was simulated (the less,
         the weaker the adhesion); the limits hold that.
 
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
-
     Examples
     --------
     >>> from stickiness.spectrum import SelfAffine
@@ -241,11 +218,9 @@ def predict(
     """
     check_spectrum(spectrum)
     length, range = number("adhesion_length", adhesion_length), number("range", range)
-    if q0 is None:
-        q0 = spectrum.q_longest
-    q0, h = number("q0", q0), spectrum.h_rms
+    q0 = number("q0", spectrum.q_longest if q0 is None else q0)
     rough = Roughness(
-        h_rms=h,
+        h_rms=spectrum.h_rms,
         q0=q0,
         elastic_energy=spectrum.elastic_energy(solid),
         relative_compliance=check_solid(solid).factor(q0),
@@ -264,6 +239,5 @@ def predict(
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=(least, most),
         energy_ratio=ratio,
-        tabor=float(np.cbrt((length * rough.relative_compliance) ** 2 / (q0**2 * h * range**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,
     )

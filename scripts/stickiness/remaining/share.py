@@ -17,8 +17,7 @@ from stickiness.arguments import plain, positive
 ONSET, ADVANCE = 0.43, 1.3
 SHARPNESS = 8.0  #: of the corner between tough and weak
 # Exponents of the elastic energy of contact without adhesion against the mean gap over h_rms. Over
-# simulations of whole surfaces it is 0.9 to 1.15 up to a gap of 1, 0.7 to 0.9 at 1.5, 0.5 to 0.9 at
-# 2 and 0.4 to 0.9 at 2.3. No single pair of constants does for all of them.
+# simulations of whole surfaces it is 0.9 to 1.15 up to a gap of 1, and 0.4 to 0.9 at 2.3.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2
 _GAPS = np.linspace(0.0, 10.0, 201)  # mean gaps over h_rms
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
@@ -33,10 +32,9 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 
     The energy gained per area, w times the share S, grows with w by the area of contact of the
     deepest state at zero load, d(x S)/dx = A. Contact begins at an onset x0, and S must tend to
-    1 - 1/x, what full contact leaves. The simplest area that does both, `tough_area`, gives
-    ``S = 1 - 1/x + (1 - x0)/x exp(-(x - x0)/(1 - x0))``. The onset was fitted to simulations of
-    H = 0.5 to 0.9 and magnifications 4 to 64: what is predicted over what was simulated rises with
-    the magnification, from about 0.9 at 4 to 1.15 at 64.
+    1 - 1/x, what full contact leaves. `tough_area` is the simplest area that does both. The onset
+    was fitted to simulations of H = 0.5 to 0.9 and magnifications 4 (predicted over simulated about
+    0.9) to 64 (1.15).
     """
     (x,) = positive(energy_ratio=energy_ratio)
     rest = 1 - np.asarray(onset)
@@ -47,9 +45,8 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
     """Area of contact over the nominal one at zero load, where contact is tough.
 
-    ``A = 1 - exp(-(x - x0)/(1 - x0))``, an upper estimate: 1.0 to 1.7 times what simulations have
-    at an energy ratio of 1, 1.2 to 2.4 times at 0.5, where attraction over gaps stands in for
-    contact.
+    An upper estimate: 1.0 to 1.7 times what simulations have at an energy ratio of 1, 1.2 to 2.4
+    times at 0.5, where attraction over gaps stands in for contact.
     """
     (x,) = positive(energy_ratio=energy_ratio)
     return plain(-np.expm1(-np.maximum(x - onset, 0) / (1 - np.asarray(onset))))
@@ -58,8 +55,7 @@ def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDA
 def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
     """Onset of contact for a width of the cohesive zone, which lets attraction reach over gaps.
 
-    Simulations reach z = 0.05. What short ranges leave is extrapolated: other forms fit as well,
-    with onsets of 0.36 to 0.51 at z = 0.
+    Simulations reach z = 0.05; beyond, other forms fit as well, with onsets of 0.36 to 0.51 at 0.
     """
     (zone,) = positive(zone=zone)
     return plain(onset / (1 + ADVANCE * np.sqrt(zone)))
@@ -69,11 +65,9 @@ def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArr
     """Share that remains where attraction acts over the gaps of Gaussian heights.
 
     The largest of ``<exp(-gap/range)> - U(gap)/w`` over the mean gap, as in the bearing area model
-    of Ciavarella (Meccanica 53, 241, 2018, doi:10.1007/s11012-017-0701-6). U, the elastic energy of
-    contact without adhesion, is a law through simulations; no constant is fitted to adhesion.
-    Overlap of undeformed heights counts as contact, so that a short range leaves a share as well:
-    0.4 % at x = 0.3, 1.1 % at 0.4 and 2 % at 0.5. There U is too low at the gaps that matter, 1.3
-    to 2 rms heights, and the share comes out too large.
+    of Ciavarella (doi:10.1007/s11012-017-0701-6). U, the elastic energy of contact without
+    adhesion, is a law through simulations. Overlap of undeformed heights counts as contact, so that
+    a short range leaves a share as well: 0.4 % at x = 0.3 and 2 % at 0.5, which is too much.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
@@ -135,8 +129,7 @@ def remaining_share(
 
     `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
     independent: what springs keep beyond the rest counts by (1 - S)^2, which follows simulations of
-    S = 0.1 to 0.5. Long waves of a thin incompressible layer are stiffer than springs, and keep
-    more.
+    S = 0.1 to 0.5.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))

@@ -46,19 +46,8 @@ def pull_off(
 ) -> SpherePullOff:
     """Pull-off of a sphere from a rough surface, after a contact that was formed by load.
 
-    Parameters
-    ----------
-    rough : Roughness
-        Of the surface.
-    radius, adhesion_length, range : array_like
-        Radius of the sphere, work of adhesion over E*, range of the attraction [length].
-    sign : int
-        -1 or +1 for the low or high limit. The high one allows for a pinned edge.
-
-    Raises
-    ------
-    ValueError
-        If an argument is not positive and finite.
+    Lengths are in one unit, `adhesion_length` is the work of adhesion over E*. `sign` is -1 or +1
+    for the low or high limit. The high one allows for a pinned edge.
     """
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     work = work_of_separation(rough, length, range, sign)
@@ -77,10 +66,9 @@ def work_of_separation(
 ) -> NDArray:
     """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`.
 
-    Roughness pins the edge, so that parting takes more work than remains. Dalvi et al. (PNAS 116,
-    25484, 2019, doi:10.1073/pnas.1913126116) measured what a cycle of contact and removal loses:
-    the work of adhesion times the true area of contact. The high limit is what remains plus that
-    loss, but at most `PINNING` elastic energies more than a smooth surface takes.
+    Roughness pins the edge. Dalvi et al. (doi:10.1073/pnas.1913126116) measured what a cycle of
+    contact and removal loses: the work of adhesion times the true area of contact. The high limit
+    is what remains plus that loss, but at most `PINNING` elastic energies more than 1.
     """
     share = np.asarray(rough.share(adhesion_length, range, sign))
     if sign <= 0:
@@ -110,11 +98,9 @@ def _table() -> tuple[NDArray, NDArray]:
 
 
 def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike) -> NDArray:
-    """Maugis' parameter lambda = 2 sigma_0 (R/(pi w K^2))^(1/3) with K = 4 E*/3, dimensionless.
+    """Maugis' parameter lambda = 2 sigma_0 (R/(pi w K^2))^(1/3), K = 4 E*/3: 1.127 Tabor's.
 
-    It is 1.127 times Tabor's parameter (R l_a^2/range^3)^(1/3) when the range is that of Maugis'
-    law, sigma_0 = w/range. (The 1.157 often quoted compares with the separation of a Lennard-Jones
-    law of the same strength.)
+    (The 1.157 often quoted compares with the separation of a Lennard-Jones law of equal strength.)
     """
     tabor = np.cbrt(radius * adhesion_length**2) / range
     return 2 * np.cbrt(9 / (16 * np.pi)) * tabor
@@ -123,24 +109,13 @@ def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: Array
 def maugis_curve(
     angle: ArrayLike, parameter: float
 ) -> tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike]:
-    """Equilibria of Maugis' sphere along their curve.
+    """Contact radius, cohesive radius, force and indentation of Maugis' sphere in equilibrium.
 
     The angle t = arccos(a/c) between contact radius a and cohesive radius c runs from 0 (large
     contact) to pi/2 (point contact). The condition that the gap be the range at c is quadratic in c
-    at fixed t, so that nothing needs to be iterated. Maugis, J. Colloid Interface Sci. 150, 243
-    (1992), doi:10.1016/0021-9797(92)90285-T.
-
-    Parameters
-    ----------
-    angle : float or array
-        Angle t, above 0 and up to pi/2.
-    parameter : float
-        `maugis_parameter`.
-
-    Returns
-    -------
-    contact_radius, cohesive_radius, force, indentation : float or array
-        Radii in units of r = (3 pi l_a R^2/4)^(1/3), force over pi l_a R, indentation over r^2/R.
+    at fixed t, so that nothing needs to be iterated. Radii are in units of r = (3 pi l_a R^2/4)^
+    (1/3), the force of pi l_a R, the indentation of r^2/R. Maugis, J. Colloid Interface Sci. 150,
+    243 (1992), doi:10.1016/0021-9797(92)90285-T.
     """
     t = np.asarray(angle, dtype=float)
     first = parameter / 2 * opening(t)

@@ -12,13 +12,6 @@ from stickiness.adhesive import Exponential, LennardJones, Maugis
 # Some of the laws under test are too short of range for these grids, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore:a pixel of")
 LAWS = (Exponential, Maugis, LennardJones)
-
-
-def walled(adhesion_length, range):
-    """Lennard-Jones' attraction with the hard wall of the other laws."""
-    return LennardJones(adhesion_length, range, hard_wall=True)
-
-
 SIDES = (1.0, 1.0)
 SLOPE = 0.1  # q0 h_rms of the rough surfaces
 HEIGHT = SLOPE / (2 * np.pi)  # their h_rms, on a side of 1
@@ -67,7 +60,7 @@ def assert_equilibrium(a, heights, tol=1e-8, sides=SIDES):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [*LAWS, walled])
+@pytest.mark.parametrize("kind", LAWS)
 @pytest.mark.parametrize(("eps", "la"), [(1.0, 0.05), (0.1, 0.5), (10.0, 0.01)])
 @pytest.mark.parametrize("start", ["approach", "separation"])
 def test_states_are_in_equilibrium(kind, eps, la, start):
@@ -178,7 +171,7 @@ def test_invariances(kind):
         np.testing.assert_array_equal(b.gap, a.gap * c)
         np.testing.assert_array_equal(b.pressure, a.pressure)
         assert b.energy == a.energy * c
-        assert (b.residual, b.fft_pairs) == (a.residual, a.fft_pairs)
+        assert (b.residual, b.iterations) == (a.residual, a.iterations)
     for c in (1e-3, 30.0):
         law = kind(a.law.adhesion_length * c**2, a.law.range * c)
         b = adhesive.solve(heights * c, 1.0, law, pressure=LOAD * c)
@@ -267,7 +260,7 @@ def controls(law, shape):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [*LAWS, walled])
+@pytest.mark.parametrize("kind", LAWS)
 @pytest.mark.parametrize("la", [1e-6, 0.1, 10.0])
 @pytest.mark.parametrize("eps", [1e-3, 1.0, 1e3])
 def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
