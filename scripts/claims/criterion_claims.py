@@ -7,7 +7,7 @@ from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
-from stickiness.criteria.area_load import JTB_CONSTANT
+from stickiness.criteria.formulas import JTB_CONSTANT
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
@@ -124,7 +124,7 @@ def polished_steel(files):
         verdict=grade(satisfied and abs(q0 * h / 0.1 - 1) < 0.1, satisfied),
         facts={
             "slope": q0 * h,
-            "crystal": criteria.dmt_validity(h, q0, CRYSTAL * RANGE, RANGE).margin,
+            "crystal": h / criteria.jtb_limit(q0, CRYSTAL * RANGE, RANGE),
             "ratio": CRYSTAL,
             "range": RANGE,
             "within": [pair for pair in margins if pair[1] > 1],

@@ -81,7 +81,7 @@ def sticky_asphalt(files):
             "smooth": smooth,
             "limits": (low, high),
             "inside": inside,
-            "jtb": criteria.dmt_validity(h_rms, q0, length, RANGE).margin,
+            "jtb": h_rms / criteria.jtb_limit(q0, length, RANGE),
         },
     )
 

@@ -18,9 +18,10 @@ from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, OUTCOMES, SIL
 from common.job import start
 from common.templates import write_page
 from stickiness import datasets
+from stickiness.criteria.a_v_table import surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
-from stickiness.criteria.verdict import BROAD_A_V, describe_surface, surface_a_v
+from stickiness.criteria.verdict import BROAD_A_V, describe_surface
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE

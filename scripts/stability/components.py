@@ -370,7 +370,7 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     ratio = criteria.traction_ratio(1.0, 1.0, la, eps, a_v)
     yield compare("modulus", criteria.modulus_threshold(1.0, 1.0, la, eps, a_v), ratio)
     margin = 75 / 4 * q0_h_rms / adhesion_length_over_range
-    yield compare("DMT range", criteria.dmt_validity(1.0, 1.0, la, eps).margin, margin)
+    yield compare("DMT range", 1 / criteria.jtb_limit(1.0, la, eps), margin)
     yield compare(
         "Persson-Tosatti", criteria.persson_tosatti(s, la).margin, la / s.elastic_energy()
     )

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from stickiness.accuracy.error_models import Surface
 from stickiness.arguments import positive
-from stickiness.criteria.area_load import jtb_limit
+from stickiness.criteria.formulas import jtb_limit
 from stickiness.units import si
 
 AXES = ("magnification", "pressure", "range_over_h_rms", "strength")

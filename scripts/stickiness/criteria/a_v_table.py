@@ -18,10 +18,18 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
 from stickiness.arguments import plain, positive
+from stickiness.criteria.formulas import pastewka_robbins_a_v
+from stickiness.persson.theory import Persson
+from stickiness.spectrum.interface import Spectrum
 
 PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
 VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth
 NORMAL_90 = float(ndtri(0.95))  #: standard errors either side that cover 90 %
+LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
+RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated
+# Relative, of theory's a_V against simulation: the error model of config/accuracy.csv at this load,
+# doubled as for all spectra broader than those measured.
+THEORY_ERROR = 0.25
 NEEDED = (
     *("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error", "extrapolation_error"),
     *("theory_below", "theory_above", "theory_below_limit", "theory_above_limit"),
@@ -68,9 +76,9 @@ class SurfaceAv:
     """a_V of a surface against the range, with limits."""
 
     ranges: NDArray  #: (n,), over h_rms, increasing
-    #: (m, n), a_V by every variant of the theory and by the edge law below the edge range
+    #: (m, n), a_V by every variant of the theory and by the edge law below the edge range; the
+    #: first is quoted, the others are limits
     theory: NDArray
-    quoted: int  #: which of them is quoted; the others are limits
     relative_error: float  #: of theory against simulation; widens the limits
 
     def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
@@ -80,10 +88,29 @@ class SurfaceAv:
         ]
         every = np.exp(logs)
         return (
-            plain(every[self.quoted]),
+            plain(every[0]),
             plain(every.min(axis=0) * max(1 - self.relative_error, 0.01)),
             plain(every.max(axis=0) * (1 + self.relative_error)),
         )
+
+
+def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
+    """a_V of a spectrum at every range, by both variants of Persson's theory and by the edge law.
+
+    `known` has q0 and the moments. Below the edge range, where the variants part, they are held
+    constant, and Pastewka and Robbins' estimate is the edge law.
+    """
+    moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
+    edge_a_v = float(pastewka_robbins_a_v(*moments))
+    h_rms, theory = spectrum.h_rms, Persson(spectrum)
+    load = LOAD * float(known["q0"]) * h_rms
+    areas = [theory.with_variant(name).gap_cumulative(RANGES * h_rms, load) for name in VARIANTS]
+    resolved = [local_a_v(area, LOAD, RANGES) for area in areas]
+    edge = edge_range(RANGES, *resolved)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(resolved[0])))
+    a_v = [np.where(edge > RANGES, at_edge, a) for a in resolved]
+    a_v.append(np.where(edge > RANGES, edge_a_v, a_v[0]))
+    return SurfaceAv(RANGES, np.array(a_v), THEORY_ERROR)
 
 
 @dataclass(frozen=True)

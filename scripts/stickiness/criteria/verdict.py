@@ -14,11 +14,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import positive
-from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
-from stickiness.criteria.formulas import dmt_validity, pastewka_robbins_a_v
+from stickiness.criteria.a_v_table import RANGES, surface_a_v
+from stickiness.criteria.formulas import jtb_limit
 from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.persson.theory import Persson
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
@@ -30,11 +29,6 @@ from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
 
-LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
-RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated
-# Relative, of theory's a_V against simulation: the error model of config/accuracy.csv at this load,
-# doubled as for all spectra broader than those measured.
-THEORY_ERROR = 0.25
 BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
 SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
 LIMITED = {  #: units and descriptions of the quantities that have limits by the model
@@ -49,7 +43,6 @@ QUANTITIES = {
     for ending in SIGNS
 } | {
     "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
-    "range_over_h_rms": ("1", "range of attraction over rms height"),
     "pair_h_rms": ("m", "rms height of the pair, of both solids if both are rough"),
     "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
     "pair_rms_slope": ("1", "rms gradient of the pair"),
@@ -78,13 +71,12 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
     found |= {
         "energy_ratio": length / pair.elastic_energy,
-        "range_over_h_rms": pair.range / pair.h_rms,
         "edge_strength": edges.strength,
         "attractive_over_contact": edges.attractive_over_contact,
         "over_dmt": edges.effect,
         "regime": classify_edges(edges).astype("i1"),
         "simulated": np.asarray(edges.simulated).astype("i1"),
-        "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
+        "jtb_margin": pair.h_rms / jtb_limit(pair.q0, length, pair.range),
     }
     for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v", "a_v_low", "a_v_high"):
         found[f"pair_{name}"] = getattr(pair, name)
@@ -322,22 +314,3 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
         warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=4)
     ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
     return measured.spectrum(), measured.fit.q_rolloff or measured.lowest, ratio
-
-
-def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
-    """a_V of a spectrum at every range, by both variants of Persson's theory and by the edge law.
-
-    `known` has q0 and the moments. Below the edge range, where the variants part, they are held
-    constant, and Pastewka and Robbins' estimate is the edge law.
-    """
-    moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
-    edge_a_v = float(pastewka_robbins_a_v(*moments))
-    h_rms, theory = spectrum.h_rms, Persson(spectrum)
-    load = LOAD * float(known["q0"]) * h_rms
-    areas = [theory.with_variant(name).gap_cumulative(RANGES * h_rms, load) for name in VARIANTS]
-    resolved = [local_a_v(area, LOAD, RANGES) for area in areas]
-    edge = edge_range(RANGES, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(resolved[0])))
-    a_v = [np.where(edge > RANGES, at_edge, a) for a in resolved]
-    a_v.append(np.where(edge > RANGES, edge_a_v, a_v[0]))
-    return SurfaceAv(RANGES, np.array(a_v), 0, THEORY_ERROR)

@@ -51,8 +51,8 @@ def test_inequality_forms_agree_on_a_map():
     np.testing.assert_allclose(verdict.margin, ratio**0.6, rtol=1e-13)
     printed = criteria.violano_printed(h, q0, length, eps).margin
     np.testing.assert_allclose(printed, (9 / 4 * length / (eps * q0)) ** 0.6 / h, rtol=1e-13)
-    validity = criteria.dmt_validity(h, q0, length, eps).valid
-    np.testing.assert_array_equal(validity, h / eps > 4 / 75 * (length / eps) / (eps * q0))
+    valid = h > criteria.jtb_limit(q0, length, eps)
+    np.testing.assert_array_equal(valid, h / eps > 4 / 75 * (length / eps) / (eps * q0))
 
 
 def test_kappa_from_the_slope_of_area_against_external_pressure():
