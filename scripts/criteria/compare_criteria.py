@@ -35,10 +35,10 @@ VARIABLES = {
 def main(job):
     asked, load = job.params.compared, job.params.pressure
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    constant = measure_a_v(job.input, load).value
-    dataset = compare(asked, load, table, constant)
+    constant = measure_a_v(job.input, load)[0]
+    dataset = datasets.annotate(compare(asked, load, table, constant), **VARIABLES)
     datasets.write(
-        add_budgets(datasets.annotate(dataset, **VARIABLES)),
+        add_budgets(dataset),
         job.output[0],
         title="adhesion at the threshold of stickiness by every criterion",
         parameters={**asked, "pressure": load, "constant_a_v": constant},

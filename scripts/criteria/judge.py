@@ -16,7 +16,8 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 
 
 def main(job):
-    materials, surfaces = job.params.materials, read_surfaces(job.params.surfaces, job.input.surfaces)
+    materials = job.params.materials
+    surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
     labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)

@@ -1,5 +1,6 @@
 """Figure 5: roughness at the threshold of stickiness over range and adhesion length, and slopes."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -44,16 +45,25 @@ ENDS = {"": ("value", 0), "_low": ("low", -1), "_high": ("high", 1)}  # of a_V, 
 
 
 def main(job):
-    asked = job.params.map
-    constant = measure_a_v(job.input, job.params.pressure)
+    asked, pressure = job.params.map, job.params.pressure
+    a_v, parts = measure_a_v(job.input, pressure)
+    error = float(np.linalg.norm([each.error for each in parts.values()]))
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    dataset = find_limits(asked, constant, Roughness(table, asked, job.params.pressure))
+    dataset = find_limits(asked, a_v, Roughness(table, asked, pressure))
     dataset = dataset.assign(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
+    dataset = dataset.assign(a_v=a_v, a_v_low=max(a_v - error, 0.01 * a_v), a_v_high=a_v + error)
+    dataset = datasets.annotate(dataset, **VARIABLES)
+    for name in ("h_rms_limit", "h_rms_limit_edges"):
+        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
+    dataset = with_budget(dataset, "a_v", **parts)
+    # In proportion to a_V^(3/5).
+    scale = 3 / 5 * dataset.h_rms_limit_constant / a_v
+    parts = {name: replace(each, error=each.error * scale) for name, each in parts.items()}
     datasets.write(
-        add_budgets(datasets.annotate(dataset, **VARIABLES), constant),
+        with_budget(dataset, "h_rms_limit_constant", **parts),
         job.output[0],
         title="map of the stickiness criterion",
-        parameters={**asked, "pressure": job.params.pressure},
+        parameters={**asked, "pressure": pressure},
     )
 
 
@@ -96,7 +106,7 @@ class Roughness:
         return self._table.a_v_at(self._hurst, self._pressure, range_, zeta)
 
 
-def find_limits(asked, constant, roughness):
+def find_limits(asked, constant_a_v, roughness):
     """Largest h_rms/range that sticks by every form of the criterion, and where the forms hold.
 
     With the range as unit of length only range q0, l_a/range and the shortest wavelength remain.
@@ -124,13 +134,11 @@ def find_limits(asked, constant, roughness):
         ratios[f"h_rms_limit{ending}"] = partial(by_dmt, which=which, sign=sign)
         ratios[f"h_rms_limit_edges{ending}"] = partial(by_edges, which=which, sign=sign)
     found = {name: find_largest(ratio, *at, roughness.largest) for name, ratio in ratios.items()}
-    found["h_rms_limit_constant"] = criteria.h_rms_limit(*at, 1.0, constant.value)
+    found["h_rms_limit_constant"] = criteria.h_rms_limit(*at, 1.0, constant_a_v)
     found["h_rms_limit_printed"] = criteria.h_rms_limit(*at, 1.0, criteria.PRINTED_A_V)
     found["jtb_limit"] = criteria.jtb_limit(*at, 1.0)
-    a_v, error = constant.value, constant.error
-    scalars = {"a_v": a_v, "a_v_low": max(a_v - error, 0.01 * a_v), "a_v_high": a_v + error}
     fields = {name: (dims, values) for name, values in found.items()}
-    return xr.Dataset(fields | scalars, coords=dict(zip(dims, axes, strict=True)))
+    return xr.Dataset(fields, coords=dict(zip(dims, axes, strict=True)))
 
 
 def find_largest(ratio, q0, length, end):
@@ -154,16 +162,6 @@ def find_slopes(parameters, a_v):
         "h_rms_over_range": h,
         "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
     }
-
-
-def add_budgets(dataset, constant):
-    """Add error budgets to the limits and the constant a_V."""
-    for name in ("h_rms_limit", "h_rms_limit_edges"):
-        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
-    dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
-    # In proportion to a_V^(3/5).
-    parts = constant.parts(3 / 5 * dataset.h_rms_limit_constant)
-    return with_budget(dataset, "h_rms_limit_constant", **parts)
 
 
 if __name__ == "__main__":

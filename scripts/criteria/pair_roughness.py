@@ -7,10 +7,10 @@ thickness changes the energy that it takes to conform.
 
 import numpy as np
 import xarray as xr
+from scipy.special import erf
 
 from common.real_spectra import real_spectrum
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
-from stickiness.persson.theory import Persson
 from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum import sums
@@ -36,11 +36,10 @@ def combine(material, surface, a_v, second=None):
     pair = describe(surface)
     if second is not None:
         pair = add_surfaces(surface, second, material.solid)
-        spectra = find_spectra(surface, second)
-        load = [LOAD * float(pair.q0) * spectrum.h_rms for spectrum in spectra]
-        areas = [Persson(s).area_fraction(p) for s, p in zip(spectra, load, strict=True)]
-        if max(areas) < FULL:
-            a_v = [find_end_a_v(pair, *each) for each in zip(ENDS, spectra, strict=True)]
+        area = erf(np.sqrt(np.pi) * LOAD * pair.q0 * pair.h_rms / pair.rms_slope)  # Persson's
+        if area.max() < FULL:
+            spectra = zip(ENDS, find_spectra(surface, second), strict=True)
+            a_v = [find_end_a_v(pair, *each) for each in spectra]
         else:
             pair.attrs["not_judged"] = TOO_DIFFERENT
     if material.solid != HALF_SPACE:

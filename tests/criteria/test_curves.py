@@ -67,7 +67,9 @@ def followed(drawn, thickness=THICK):
 
 def follow_at(moduli, drawn):
     """Share and limits of the tape at these E* [Pa]."""
-    entries = {i: TAPE | {"youngs_modulus": f"{0.75 * float(x)!r} Pa"} for i, x in enumerate(moduli)}
+    entries = {
+        i: TAPE | {"youngs_modulus": f"{0.75 * float(x)!r} Pa"} for i, x in enumerate(moduli)
+    }
     found = judge(entries, drawn, np.ones(1))
     return [x.transpose(..., "material") for x in (found.remaining, *find_limits(found))]
 
