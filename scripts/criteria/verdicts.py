@@ -14,7 +14,7 @@ from criteria.pair_roughness import ENDS, MOMENTS, combine, find_a_v, read_draws
 from stickiness import datasets
 from stickiness.criteria.pair import NOT_JUDGED, REGIMES, WORDS, Pair, decide
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.criteria.verdict import BROAD_A_V, LIMITED, QUANTITIES, judge
+from stickiness.criteria.verdict import LIMITED, QUANTITIES, judge
 
 OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "hurst", "psd")
 FILM, UNMEASURED = "elastic backing", "not measured"
@@ -122,10 +122,8 @@ def judge_pairs(solids, roughness, frequencies):
     ends = [[one.drop_dims("draw", errors="ignore") for one in row] for row in roughness]
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)
     rough = rough.broadcast_like(rough.h_rms).transpose(*DIMS)
-    pair = Pair(
-        **{field.name: rough[field.name].values for field in fields(Pair) if field.name in rough},
-        constant_a_v=BROAD_A_V,
-    )
+    names = [field.name for field in fields(Pair) if field.name in rough]
+    pair = Pair(**{name: rough[name].values for name in names})
     dataset = xr.Dataset({name: (DIMS, values) for name, values in judge(pair).items()})
     # There is no threshold of E* with a film: the modulus of the layer alone cannot change without
     # changing what the layer does.

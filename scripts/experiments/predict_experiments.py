@@ -21,7 +21,7 @@ from stickiness import datasets
 from stickiness.criteria.a_v_table import surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
-from stickiness.criteria.verdict import BROAD_A_V, describe_surface
+from stickiness.criteria.verdict import describe_surface
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
@@ -166,7 +166,6 @@ class Observation:
             a_v=value,
             a_v_low=low,
             a_v_high=high,
-            constant_a_v=BROAD_A_V,
         )
 
     def pull_off(self, pair: Pair) -> list[sphere.SpherePullOff]:

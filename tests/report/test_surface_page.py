@@ -1,7 +1,6 @@
 """From a file to a page: measured surfaces as the workflow analyses, judges and shows them."""
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np

@@ -19,6 +19,7 @@ NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY, NOT_JUDGED = range(6)
 FULL_SHARE = 0.8  #: of the work of adhesion, from which a pair sticks fully
 REGIMES = ("weak", "between", "tough", "strong")
 WEAK, BETWEEN, TOUGH, STRONG = range(4)
+BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Pair:
     a_v: ArrayLike  #: at this range on this surface
     a_v_low: ArrayLike  #: its limits
     a_v_high: ArrayLike
-    constant_a_v: ArrayLike  #: a_V of a broad spectrum, the same for every pair
+    constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
     relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
     half_space_energy: ArrayLike | None = None  #: of full contact of a half-space, under a layer

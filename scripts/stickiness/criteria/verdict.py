@@ -29,7 +29,6 @@ from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
 
-BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
 SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
 LIMITED = {  #: units and descriptions of the quantities that have limits by the model
     "remaining": ("1", "share of the work of adhesion that remains"),
@@ -153,7 +152,6 @@ def verdict(
     poisson: float | None = None,
     length: float | tuple[float, float] | None = None,
     a_v: tuple[float, float, float] | None = None,
-    constant_a_v: float = BROAD_A_V,
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
 ) -> StickinessVerdict:
@@ -178,8 +176,6 @@ def verdict(
         a_V of the pair with its limits. By default Persson's theory on the spectrum gives it, and
         two variants of the theory and Pastewka and Robbins' estimate give its limits, widened by
         `THEORY_ERROR`.
-    constant_a_v : float
-        a_V of a broad spectrum, for the criterion that takes one.
     wanted_share : float
         Share of the work of adhesion that must remain for a pair to stick, between 0 and 1.
     solid : HalfSpace or Layer
@@ -241,7 +237,6 @@ def verdict(
         a_v=value,
         a_v_low=low,
         a_v_high=high,
-        constant_a_v=constant_a_v,
         wanted_share=wanted_share,
     )
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
