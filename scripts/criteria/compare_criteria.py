@@ -48,10 +48,11 @@ def main(job):
 def compare(asked, load, table, constant):
     """Thresholds over roughness and over magnification, each with the other held."""
     heights, zetas = (logarithmic_grid(asked[key]) for key in ("h_rms_over_range", "magnification"))
-    one_zeta = np.full_like(heights, asked["quoted_magnification"])
-    one_height = np.full_like(zetas, asked["quoted_h_rms_over_range"])
-    over_h = find_thresholds(asked, heights, one_zeta, load, table, constant)
-    over_zeta = find_thresholds(asked, one_height, zetas, load, table, constant)
+    height, zeta = asked["quoted_h_rms_over_range"], asked["quoted_magnification"]
+    over_h, over_zeta = (
+        find_thresholds(asked, *np.broadcast_arrays(*at), load, table, constant)
+        for at in ((heights, float(zeta)), (float(height), zetas))
+    )
     return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),

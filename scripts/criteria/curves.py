@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from common.verdicts import find_limits
-from stickiness.criteria.verdict import LIMITED, SIGNS
+from stickiness.criteria.pair import LIMITED, SIGNS
 from stickiness.statistics import COVERS
 
 DIMS = ("material", "surface", "end")

@@ -12,9 +12,17 @@ from criteria.budgets import add_budgets
 from criteria.curves import CURVES, DIMS, QUANTILES, draw_errors, follow_remaining
 from criteria.pair_roughness import ENDS, MOMENTS, combine, find_a_v, read_draws
 from stickiness import datasets
-from stickiness.criteria.pair import NOT_JUDGED, REGIMES, WORDS, Pair, decide
+from stickiness.criteria.pair import (
+    LIMITED,
+    NOT_JUDGED,
+    QUANTITIES,
+    REGIMES,
+    WORDS,
+    Pair,
+    decide,
+    judge,
+)
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.criteria.verdict import LIMITED, QUANTITIES, judge
 
 OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "hurst", "psd")
 FILM, UNMEASURED = "elastic backing", "not measured"

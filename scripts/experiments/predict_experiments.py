@@ -171,7 +171,7 @@ class Observation:
     def pull_off(self, pair: Pair) -> list[sphere.SpherePullOff]:
         """Pull-off of the sphere: low limit, value, high limit."""
         at = self.inputs["radius"][:, None], pair.adhesion_length, pair.range
-        return [sphere.pull_off(pair.roughness, *at, sign) for sign in SIGNS]
+        return [sphere.pull_off(pair, *at, sign) for sign in SIGNS]
 
 
 @cache
@@ -264,7 +264,7 @@ def predict(observation):
         waves = float((2 * found[1].zone_radius * pair.q0 / (2 * np.pi))[MIDDLE, 0])
     else:
         length, reach = pair.adhesion_length, pair.range
-        stress = np.array([pair.roughness.tension(length, reach, sign) for sign in SIGNS])
+        stress = np.array([pair.tension(length, reach, sign) for sign in SIGNS])
         relative = np.minimum(stress * reach / length, 1.0)[..., 0]
         separation = np.array([*share[:2], np.minimum(share[2] * HYSTERESIS, 1.0)])
         waves = np.nan

@@ -198,7 +198,7 @@ class AvTable:
         return AvEstimate(*(part.reshape(given[0].shape)[()] for part in parts))
 
     def _look_up_limit(self, h, log_zeta, log_p, log_eps):
-        """As `_look_up_finite`, at infinite magnification, where no range is below the edge range."""
+        """As `_look_up_finite`, at infinite magnification: no range is below the edge range."""
         at = np.stack([h, log_p, log_eps], axis=-1)
         names = ("a_v_limit", "theory_below_limit", "theory_above_limit")
         return *(self._theory[name](at) for name in names), np.zeros(len(h))

@@ -251,31 +251,25 @@ def pastewka_robbins_a_v_power_law(
 
 
 @takes_positive
-def fuller_tabor(
-    h_rms: ArrayLike,
-    rms_curvature: ArrayLike,
-    adhesion_length: ArrayLike,
-    radius: ArrayLike | None = None,
-) -> Verdict:
+def fuller_tabor(h_rms: ArrayLike, rms_curvature: ArrayLike, adhesion_length: ArrayLike) -> Verdict:
     """Fuller & Tabor (1975): sticky when theta = h_rms^(3/2)/(R^(1/2) l_a) is below 10.
 
-    The margin is 10 over theta: at 10 the pull-off force has practically gone.
+    The margin is 10 over theta: at 10 the pull-off force has practically gone. The summit radius R,
+    originally that of equal spheres, is 2/h'', the radius of the paraboloid whose Laplacian is the
+    root mean square one. Nayak's mean summit curvature (8/3) sqrt(m4/pi) gives 1.085/h'', a theta
+    larger by 1.36.
 
     Parameters
     ----------
     h_rms, rms_curvature, adhesion_length : array_like
         Root mean square height [length] and Laplacian h'' [1/length]; work of adhesion over E*
         [length].
-    radius : array_like, optional
-        Summit radius R [length], originally that of equal spheres. Default: 2/h'', the radius of
-        the paraboloid whose Laplacian is the root mean square one. Nayak's mean summit curvature
-        (8/3) sqrt(m4/pi) gives 1.085/h'', a theta larger by 1.36.
 
     References
     ----------
     Fuller & Tabor, Proc. R. Soc. A 345, 327 (1975), doi:10.1098/rspa.1975.0138.
     """
-    radius = 2 / rms_curvature if radius is None else radius
+    radius = 2 / rms_curvature
     return _verdict("fuller_tabor", 10.0 * np.sqrt(radius) * adhesion_length / h_rms**1.5)
 
 
