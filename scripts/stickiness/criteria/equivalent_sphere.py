@@ -53,11 +53,6 @@ class EdgeAttraction:
         """Whether the model was compared with simulation there."""
         return plain(np.asarray(self.error_factor) < ERROR_BEYOND)
 
-    @property
-    def tough(self) -> bool | NDArray:
-        """Whether the edges are `tough`."""
-        return tough(self.attractive_over_contact, self.strength)
-
 
 @takes_positive
 def attraction(

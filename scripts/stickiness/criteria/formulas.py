@@ -25,7 +25,7 @@ __all__ = [  # noqa: PLE0604
     *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit"),
     *("modulus_threshold", "pastewka_robbins", "pastewka_robbins_a_v"),
     *("pastewka_robbins_a_v_power_law", "persson_tosatti", "slope_angle"),
-    *("traction_ratio", "violano", "violano_printed"),
+    *("traction_ratio", "violano"),
 ]
 
 PRINTED_A_V = 1.5  #: the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
@@ -165,14 +165,6 @@ def violano(
     True
     """
     return _verdict("violano", h_rms_limit(q0, adhesion_length, range, a_v) / h_rms)
-
-
-@takes_positive
-def violano_printed(
-    h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
-) -> Verdict:
-    """`violano` with the coefficient 9/4 as printed, that is with a_V = 3/2."""
-    return _verdict("violano_printed", h_rms_limit(q0, adhesion_length, range, PRINTED_A_V) / h_rms)
 
 
 # --- Other criteria --------------------------------------------------------------------------

@@ -123,6 +123,7 @@ def judge(pair: Pair) -> dict[str, NDArray]:
     """Compute every quantity of `QUANTITIES` for a pair, by name."""
     length, edges, tau = pair.adhesion_length, pair.edges, np.asarray(pair.edges.strength)
     weak, between = tau <= equivalent_sphere.WEAK, tau < equivalent_sphere.TOUGH
+    tough = equivalent_sphere.tough(edges.attractive_over_contact, tau)
     found = {}
     for ending, sign in SIGNS.items():
         threshold = pair.remaining_threshold(sign)
@@ -135,7 +136,7 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         "edge_strength": edges.strength,
         "attractive_over_contact": edges.attractive_over_contact,
         "over_dmt": edges.effect,
-        "regime": np.select([weak, between, edges.tough], range(3), 3).astype("i1"),
+        "regime": np.select([weak, between, tough], range(3), 3).astype("i1"),
         "simulated": np.asarray(edges.simulated).astype("i1"),
         "jtb_margin": pair.h_rms / jtb_limit(pair.q0, length, pair.range),
     }

@@ -49,7 +49,7 @@ def test_inequality_forms_agree_on_a_map():
     np.testing.assert_array_equal(verdict.sticky, criteria.slope_angle(inverse) > np.pi / 2)
     ratio = criteria.traction_ratio(h, q0, length, eps, a_v)
     np.testing.assert_allclose(verdict.margin, ratio**0.6, rtol=1e-13)
-    printed = criteria.violano_printed(h, q0, length, eps).margin
+    printed = criteria.violano(h, q0, length, eps, criteria.PRINTED_A_V).margin
     np.testing.assert_allclose(printed, (9 / 4 * length / (eps * q0)) ** 0.6 / h, rtol=1e-13)
     valid = h > criteria.jtb_limit(q0, length, eps)
     np.testing.assert_array_equal(valid, h / eps > 4 / 75 * (length / eps) / (eps * q0))
