@@ -69,7 +69,6 @@ def find_thresholds(asked, h_rms, magnification, load, table, constant):
         SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, h_rms=h)
         for h, zeta in zip(h_rms, magnification, strict=True)
     ]
-    a_v = table.a_v_at(hurst, load, 1 / h_rms, magnification)
     pair = Pair(  # with the range and the adhesion length as unit of length
         h_rms=h_rms,
         q0=q0,
@@ -77,9 +76,7 @@ def find_thresholds(asked, h_rms, magnification, load, table, constant):
         rms_curvature=np.array([s.rms_curvature for s in spectra]),
         elastic_energy=np.array([s.elastic_energy() for s in spectra]),
         **dict.fromkeys(("modulus", "work_of_adhesion", "range"), 1.0),
-        a_v=a_v.value,
-        a_v_low=a_v.low,
-        a_v_high=a_v.high,
+        a_v=table.a_v_at(hurst, load, 1 / h_rms, magnification).value,
         constant_a_v=constant,
     )
     others = {

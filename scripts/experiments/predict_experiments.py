@@ -152,8 +152,7 @@ class Observation:
         modulus, work, reach = (
             self.inputs[name][some, None] for name in ("modulus", "work_of_adhesion", "range")
         )
-        at = [found.at(ratios) for found, ratios in zip(a_v, reach / h_rms, strict=True)]
-        value, low, high = np.swapaxes(at, 0, 1)
+        at = [found.at(ratios)[0] for found, ratios in zip(a_v, reach / h_rms, strict=True)]
         return Pair(
             h_rms=h_rms,
             q0=q0,
@@ -163,9 +162,7 @@ class Observation:
             modulus=modulus,
             work_of_adhesion=work,
             range=reach,
-            a_v=value,
-            a_v_low=low,
-            a_v_high=high,
+            a_v=np.array(at),
         )
 
     def pull_off(self, pair: Pair) -> list[sphere.SpherePullOff]:

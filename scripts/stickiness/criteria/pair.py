@@ -42,8 +42,6 @@ QUANTITIES = {
     "pair_rms_slope": ("1", "rms gradient of the pair"),
     "pair_rms_curvature": ("1/m", "rms Laplacian of the pair"),
     "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
-    "pair_a_v_low": ("1", "low limit of the pair's a_V"),
-    "pair_a_v_high": ("1", "high limit of the pair's a_V"),
     "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
     "attractive_over_contact": ("1", "area within the range over area of contact"),
     "over_dmt": ("1", "attraction over its DMT limit, at equal area of contact"),
@@ -66,8 +64,6 @@ class Pair(Roughness):
     work_of_adhesion: ArrayLike  #: [J/m^2]
     range: ArrayLike  #: of the attraction [m]
     a_v: ArrayLike  #: at this range on this surface
-    a_v_low: ArrayLike  #: its limits
-    a_v_high: ArrayLike
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
 
@@ -140,6 +136,6 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         "simulated": np.asarray(edges.simulated).astype("i1"),
         "jtb_margin": pair.h_rms / jtb_limit(pair.q0, length, pair.range),
     }
-    for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v", "a_v_low", "a_v_high"):
+    for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
         found[f"pair_{name}"] = getattr(pair, name)
     return {name: np.asarray(value) for name, value in found.items()}

@@ -171,8 +171,6 @@ def verdict(
         **known,
         **material,
         a_v=value,
-        a_v_low=low,
-        a_v_high=high,
         wanted_share=wanted_share,
     )
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
