@@ -95,7 +95,7 @@ def add_surfaces(surface, second, solid):
         size = one.sizes["draw"]
         more = {name: ("draw", np.resize(other[name], size)) for name in known}
         other = other.drop_dims("draw").assign(more)
-    elif known and np.ptp(other.h_rms) == 0:
+    elif known and np.ptp(other.h_rms.values) == 0:
         smooth = other.sel(end=ENDS[0], drop=True)
         other = other.assign({name: smooth[name.removesuffix("_draws")] for name in known})
     elif known:

@@ -135,10 +135,12 @@ def test_roughness_of_both_solids_adds():
 
 
 def test_a_smooth_partner_changes_nothing():
-    rough, smooth = wall(), wall(h_rms=1e-11)
+    rough, smooth = wall(draws=4), wall(h_rms=1e-11)
+    smooth = smooth.isel(end=[0, 0]).assign_coords(end=list(ENDS))  # known exactly
     both = joined(read_material(TAPE), rough, second=smooth)
     assert both.elastic_energy == pytest.approx(rough.elastic_energy.values, rel=1e-6)
     assert both.q0 == pytest.approx(float(rough.q0), rel=1e-6)
+    assert both.h_rms_draws == pytest.approx(rough.h_rms_draws.values, rel=1e-6)
 
 
 @pytest.mark.slow
