@@ -13,7 +13,7 @@ from common.real_spectra import real_spectrum
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
 from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
 from stickiness.solids import HALF_SPACE, Film
-from stickiness.spectrum import sums
+from stickiness.spectrum import combine as add_roughness
 
 ENDS = ("smooth", "rough")
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
@@ -63,7 +63,7 @@ def describe(surface):
 def find_spectra(surface, second=None):
     """Spectra of both ends, with the spectrum of the other solid if that is rough itself."""
     one = [real_spectrum(surface, end) for end in ENDS]
-    return one if second is None else list(map(sums.combine, one, find_spectra(second)))
+    return one if second is None else list(map(add_roughness, one, find_spectra(second)))
 
 
 def find_a_v(surface):
