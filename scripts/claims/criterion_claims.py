@@ -12,7 +12,7 @@ from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
-from stickiness.criteria.area_load import JTB_CONSTANT
+from stickiness.criteria.formulas import JTB_CONSTANT
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
@@ -122,7 +122,7 @@ def polished_steel(verdicts, polished_steel):
         margin.min(),
         grade(satisfied and abs(q0 * h / 0.1 - 1) < 0.1, satisfied),
         slope=q0 * h,
-        crystal=criteria.dmt_validity(h, q0, CRYSTAL * RANGE, RANGE).margin,
+        crystal=h / criteria.jtb_limit(q0, CRYSTAL * RANGE, RANGE),
         ratio=CRYSTAL,
         range=RANGE,
         within=[pair for pair in margins if pair[1] > 1],
@@ -271,7 +271,7 @@ def sticky_asphalt(asphalt):
         smooth=find_modulus(smooth, 0),
         limits=limits,
         inside=inside,
-        jtb=criteria.dmt_validity(float(rough.h_rms), float(rough.q0), length, RANGE).margin,
+        jtb=float(rough.h_rms) / criteria.jtb_limit(float(rough.q0), length, RANGE),
     )
 
 

@@ -35,10 +35,10 @@ VARIABLES = {
 def main(job):
     asked, load = job.params.compared, job.params.pressure
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    constant = measure_a_v(job.input, load).value
-    dataset = compare(asked, load, table, constant)
+    constant = measure_a_v(job.input, load)[0]
+    dataset = datasets.annotate(compare(asked, load, table, constant), **VARIABLES)
     datasets.write(
-        add_budgets(datasets.annotate(dataset, **VARIABLES)),
+        add_budgets(dataset),
         job.output[0],
         title="adhesion at the threshold of stickiness by every criterion",
         parameters={**asked, "pressure": load, "constant_a_v": constant},
@@ -48,10 +48,11 @@ def main(job):
 def compare(asked, load, table, constant):
     """Thresholds over roughness and over magnification, each with the other held."""
     heights, zetas = (logarithmic_grid(asked[key]) for key in ("h_rms_over_range", "magnification"))
-    one_zeta = np.full_like(heights, asked["quoted_magnification"])
-    one_height = np.full_like(zetas, asked["quoted_h_rms_over_range"])
-    over_h = find_thresholds(asked, heights, one_zeta, load, table, constant)
-    over_zeta = find_thresholds(asked, one_height, zetas, load, table, constant)
+    height, zeta = asked["quoted_h_rms_over_range"], asked["quoted_magnification"]
+    over_h, over_zeta = (
+        find_thresholds(asked, *np.broadcast_arrays(*at), load, table, constant)
+        for at in ((heights, float(zeta)), (float(height), zetas))
+    )
     return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
@@ -68,7 +69,6 @@ def find_thresholds(asked, h_rms, magnification, load, table, constant):
         SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, h_rms=h)
         for h, zeta in zip(h_rms, magnification, strict=True)
     ]
-    a_v = table.a_v_at(hurst, load, 1 / h_rms, magnification)
     pair = Pair(  # with the range and the adhesion length as unit of length
         h_rms=h_rms,
         q0=q0,
@@ -76,9 +76,7 @@ def find_thresholds(asked, h_rms, magnification, load, table, constant):
         rms_curvature=np.array([s.rms_curvature for s in spectra]),
         elastic_energy=np.array([s.elastic_energy() for s in spectra]),
         **dict.fromkeys(("modulus", "work_of_adhesion", "range"), 1.0),
-        a_v=a_v.value,
-        a_v_low=a_v.low,
-        a_v_high=a_v.high,
+        a_v=table.a_v_at(hurst, load, 1 / h_rms, magnification).value,
         constant_a_v=constant,
     )
     others = {

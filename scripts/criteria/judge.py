@@ -7,17 +7,17 @@ from common.formatting import NOTHING, interval
 from common.job import start
 from common.templates import write_page
 from common.verdicts import find_limits
-from criteria.judging import judge_materials, read_surfaces
+from criteria.verdicts import judge_materials, read_surfaces
 from stickiness import datasets
+from stickiness.criteria.a_v_table import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.criteria.verdict import THEORY_ERROR
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 
 def main(job):
-    surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
     materials = job.params.materials
+    surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
     labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)

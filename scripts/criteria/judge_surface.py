@@ -1,7 +1,7 @@
 """Verdict for every material on one surface."""
 
 from common.job import start
-from criteria.judging import judge_materials, read_surfaces
+from criteria.verdicts import judge_materials, read_surfaces
 from stickiness import datasets
 
 

@@ -1,5 +1,6 @@
 """Figure 5: roughness at the threshold of stickiness over range and adhesion length, and slopes."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -44,16 +45,25 @@ ENDS = {"": ("value", 0), "_low": ("low", -1), "_high": ("high", 1)}  # of a_V, 
 
 
 def main(job):
-    asked = job.params.map
-    constant = measure_a_v(job.input, job.params.pressure)
+    asked, pressure = job.params.map, job.params.pressure
+    a_v, parts = measure_a_v(job.input, pressure)
+    error = float(np.linalg.norm([each.error for each in parts.values()]))
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    dataset = find_limits(asked, constant, Roughness(table, asked, job.params.pressure))
+    dataset = find_limits(asked, a_v, Roughness(table, asked, pressure))
     dataset = dataset.assign(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
+    dataset = dataset.assign(a_v=a_v, a_v_low=max(a_v - error, 0.01 * a_v), a_v_high=a_v + error)
+    dataset = datasets.annotate(dataset, **VARIABLES)
+    for name in ("h_rms_limit", "h_rms_limit_edges"):
+        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
+    dataset = with_budget(dataset, "a_v", **parts)
+    # In proportion to a_V^(3/5).
+    scale = 3 / 5 * dataset.h_rms_limit_constant / a_v
+    parts = {name: replace(each, error=each.error * scale) for name, each in parts.items()}
     datasets.write(
-        add_budgets(datasets.annotate(dataset, **VARIABLES), constant),
+        with_budget(dataset, "h_rms_limit_constant", **parts),
         job.output[0],
         title="map of the stickiness criterion",
-        parameters={**asked, "pressure": job.params.pressure},
+        parameters={**asked, "pressure": pressure},
     )
 
 
@@ -67,13 +77,9 @@ class Roughness:
         self._narrowest, self._broadest = table.bounds["magnification"]
         self.largest = 1 / table.bounds["range"][0]  # h_rms/range at which a_V is still known
 
-    def magnification(self, q0):
-        """q1/q0, at least the smallest in the table of a_V."""
-        return np.maximum(self._q1 / q0, self._narrowest)
-
     def slope(self, h, q0):
         """Root mean square gradient."""
-        zeta = self.magnification(q0)
+        zeta = np.maximum(self._q1 / q0, self._narrowest)
         every = np.unique(zeta)
         unit = [SelfAffine(hurst=self._hurst, q0=1.0, q1=z, h_rms=1.0).rms_slope for z in every]
         return h * q0 * np.interp(np.log(zeta), np.log(every), unit)
@@ -86,7 +92,7 @@ class Roughness:
         compared with its finest waves, times the change of a_V at infinite magnification between
         the two ranges.
         """
-        range_, zeta = 1 / h, self.magnification(q0)
+        range_, zeta = 1 / h, np.maximum(self._q1 / q0, self._narrowest)
         held = np.minimum(zeta, self._broadest)
         moved = np.minimum(range_ * (zeta / held) ** self._hurst, 1)
         between = self._at(range_, np.inf).value / self._at(moved, np.inf).value
@@ -95,42 +101,40 @@ class Roughness:
     def _at(self, range_, zeta):
         return self._table.a_v_at(self._hurst, self._pressure, range_, zeta)
 
+    def attraction(self, h, q0, length, which):
+        """Attraction over repulsion by the edges of contact."""
+        slope, a_v = self.slope(h, q0), self.a_v(h, q0, which)
+        return equivalent_sphere.attraction(h, q0, slope, length, 1.0, a_v)
 
-def find_limits(asked, constant, roughness):
+
+def find_limits(asked, constant_a_v, roughness):
     """Largest h_rms/range that sticks by every form of the criterion, and where the forms hold.
 
     With the range as unit of length only range q0, l_a/range and the shortest wavelength remain.
     """
-    dims = ("range_times_q0", "adhesion_length_over_range")
-    axes = [logarithmic_grid(asked[dim]) for dim in dims]
-    at = np.meshgrid(*axes, indexing="ij")
-
-    def attraction(h, q0, length, which):
-        slope, a_v = roughness.slope(h, q0), roughness.a_v(h, q0, which)
-        return equivalent_sphere.attraction(h, q0, slope, length, 1.0, a_v)
 
     def by_dmt(h, q0, length, which, sign):
         return criteria.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
 
     def by_edges(h, q0, length, which, sign):
-        found = attraction(h, q0, length, which)
+        found = roughness.attraction(h, q0, length, which)
         return found.ratio * found.error_factor**sign
 
     def over_weak(h, q0, length):
-        return attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
+        return roughness.attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
     ratios = {"weak_limit": over_weak}
     for ending, (which, sign) in ENDS.items():
         ratios[f"h_rms_limit{ending}"] = partial(by_dmt, which=which, sign=sign)
         ratios[f"h_rms_limit_edges{ending}"] = partial(by_edges, which=which, sign=sign)
+    dims = ("range_times_q0", "adhesion_length_over_range")
+    axes = {dim: logarithmic_grid(asked[dim]) for dim in dims}
+    at = np.meshgrid(*axes.values(), indexing="ij")
     found = {name: find_largest(ratio, *at, roughness.largest) for name, ratio in ratios.items()}
-    found["h_rms_limit_constant"] = criteria.h_rms_limit(*at, 1.0, constant.value)
+    found["h_rms_limit_constant"] = criteria.h_rms_limit(*at, 1.0, constant_a_v)
     found["h_rms_limit_printed"] = criteria.h_rms_limit(*at, 1.0, criteria.PRINTED_A_V)
     found["jtb_limit"] = criteria.jtb_limit(*at, 1.0)
-    a_v, error = constant.value, constant.error
-    scalars = {"a_v": a_v, "a_v_low": max(a_v - error, 0.01 * a_v), "a_v_high": a_v + error}
-    fields = {name: (dims, values) for name, values in found.items()}
-    return xr.Dataset(fields | scalars, coords=dict(zip(dims, axes, strict=True)))
+    return xr.Dataset({name: (dims, values) for name, values in found.items()}, coords=axes)
 
 
 def find_largest(ratio, q0, length, end):
@@ -154,16 +158,6 @@ def find_slopes(parameters, a_v):
         "h_rms_over_range": h,
         "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
     }
-
-
-def add_budgets(dataset, constant):
-    """Add error budgets to the limits and the constant a_V."""
-    for name in ("h_rms_limit", "h_rms_limit_edges"):
-        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
-    dataset = with_budget(dataset, "a_v", **constant.parts(constant.value))
-    # In proportion to a_V^(3/5).
-    parts = constant.parts(3 / 5 * dataset.h_rms_limit_constant)
-    return with_budget(dataset, "h_rms_limit_constant", **parts)
 
 
 if __name__ == "__main__":

@@ -17,9 +17,10 @@ from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOM
 from common.job import start
 from common.templates import write_page
 from stickiness import datasets
+from stickiness.criteria.a_v_table import surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
-from stickiness.criteria.verdict import BROAD_A_V, describe_surface, surface_a_v
+from stickiness.criteria.verdict import describe_surface
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
@@ -120,7 +121,8 @@ class Observation:
         shape = [inputs[name][:, 0] for name in SHAPE if name in inputs]
         moments, a_v = zip(*map(describe_shape, *shape), strict=True)
         q0, slope, curvature, energy = (values[:, None] for values in np.transpose(moments))
-        at = [found.at(ratios) for found, ratios in zip(a_v, inputs["range"] / h_rms, strict=True)]
+        ratios = inputs["range"] / h_rms
+        at = [found.at(ratio)[0] for found, ratio in zip(a_v, ratios, strict=True)]
         return Pair(
             h_rms=h_rms,
             q0=q0,
@@ -128,8 +130,7 @@ class Observation:
             rms_curvature=curvature * h_rms,
             elastic_energy=energy * h_rms**2,
             **{name: inputs[name] for name in ("modulus", "work_of_adhesion", "range")},
-            **dict(zip(("a_v", "a_v_low", "a_v_high"), np.swapaxes(at, 0, 1), strict=True)),
-            constant_a_v=BROAD_A_V,
+            a_v=np.array(at),
         )
 
     def press(self, pair: Pair) -> list[sphere.SpherePullOff] | None:
@@ -137,7 +138,7 @@ class Observation:
         if "radius" not in self.inputs:
             return None
         at = self.inputs["radius"][:, None], pair.adhesion_length, pair.range
-        return [sphere.pull_off(pair.roughness, *at, sign) for sign in SIGNS]
+        return [sphere.pull_off(pair, *at, sign) for sign in SIGNS]
 
 
 @cache
@@ -222,7 +223,7 @@ def predict(observation):
     elif quantity == "relative_pull_off" and spheres:
         found = np.array([one.relative for one in spheres])
     elif quantity == "relative_pull_off":
-        stress = np.array([pair.roughness.tension(length, reach, sign) for sign in SIGNS])
+        stress = np.array([pair.tension(length, reach, sign) for sign in SIGNS])
         found = np.minimum(stress * reach / length, 1.0)
     elif quantity == "work_of_approach":
         found[0] /= LATE

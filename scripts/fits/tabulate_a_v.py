@@ -6,20 +6,14 @@ import xarray as xr
 from common.conventions import annotate
 from common.job import start
 from stickiness import datasets
-from stickiness.error_budget import (
-    ENDINGS,
-    ErrorComponent,
-    not_applicable,
-    unknown_error,
-    with_budget,
-)
+from stickiness import error_budget as budget
 from stickiness.statistics import COVERS
 
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
 PER_DECADE = 4  # simulated ranges
 QUOTED = ("a_v", "a_v_limit", "edge_a_v")
-BUDGETS = tuple(f"{name}{ending}" for name in QUOTED for ending in ENDINGS)
-THEORY = (*QUOTED, *BUDGETS, "edge_range", "quadrature_error")
+THEORY = [f"{name}{ending}" for name in QUOTED for ending in ("", *budget.ENDINGS)]
+THEORY += ["edge_range", "quadrature_error"]
 APART = "ln of how far other variants and corrections of the theory are"
 VARIABLES = {
     "a_v": "a_V by theory; to be held constant below edge_range",
@@ -41,24 +35,25 @@ VARIABLES = {
 
 def main(job):
     theory = datasets.read(job.input.theory, THEORY)
-    comparisons = [
-        datasets.read(path, ["attractive_area_difference", "window_holds"])
-        for path in job.input.comparisons
-    ]
-    dataset = theory[list(THEORY)].isel(variant=0, drop=True).merge(reach(theory))
+    needed = ["attractive_area_difference", "window_holds"]
+    comparisons = [datasets.read(path, needed) for path in job.input.comparisons]
+    dataset = theory[THEORY].isel(variant=0, drop=True).merge(reach(theory))
     dataset = annotate(dataset.merge(simulated(comparisons)), **VARIABLES)
-    # The errors of all cases are in the error of their ratio together.
     error = COVERS * dataset.simulation_error * dataset.simulation_ratio
-    dataset = with_budget(
-        dataset,
-        "simulation_ratio",
-        **dict.fromkeys(("discretisation", "solver"), not_applicable("counted with the sampling")),
-        sampling=ErrorComponent(error, "of a further surface, the errors of the cases included"),
-        bandwidth=unknown_error("the trend beyond the largest magnification is not simulated"),
-        model=not_applicable("simulation over theory is what is quoted"),
-    )
+    counted = budget.not_applicable("counted with the sampling")
+    parts = {
+        "discretisation": counted,
+        "solver": counted,
+        "sampling": budget.ErrorComponent(
+            error, "of a further surface, the errors of the cases included"
+        ),
+        "bandwidth": budget.unknown_error(
+            "the trend beyond the largest magnification is not simulated"
+        ),
+        "model": budget.not_applicable("simulation over theory is what is quoted"),
+    }
     datasets.write(
-        dataset,
+        budget.with_budget(dataset, "simulation_ratio", **parts),
         job.output[0],
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
@@ -90,13 +85,12 @@ def simulated(comparisons):
     cases' errors, which are not taken to average out, as grids err to one side in all of them.
     """
     points = collect(comparisons)
-    loads, largest = np.unique(points.pressure), float(points.magnification.max())
-    between = scatter(points, loads, largest)
+    between = scatter(points)
     error = np.hypot(points.error, between)
-    mean, trend = fit(points, error, loads, largest)
+    mean, trend = fit(points, error)
     say = 1 / (error**2 * points.sharing)
     common = (say * points.error**2).sum("point") / say.sum("point")
-    spread = np.hypot(between, jackknife(points, error, loads, largest))
+    spread = np.hypot(between, jackknife(points, error))
     # Towards smaller ranges: what a decade of simulated ones changes.
     change = mean.sel(range=10 * SMALLEST_RANGE, method="nearest") - mean.isel(range=0)
     found = xr.Dataset(
@@ -105,7 +99,7 @@ def simulated(comparisons):
             "simulation_error": np.sqrt(spread**2 + common),
             "simulation_trend": trend,
             "smallest_magnification": points.magnification.min(),
-            "largest_magnification": largest,
+            "largest_magnification": points.magnification.max(),
             "extrapolation_error": np.sqrt((change**2).mean()),
         }
     )
@@ -141,8 +135,13 @@ def collect(comparisons):
     return points
 
 
-def fit(points, error, loads, largest):
-    """Log ratio at the magnification `largest` and `loads`, and its change per doubling of it."""
+def fit(points, error, kept=slice(None)):
+    """Log ratio at every load and the largest magnification, and its change per doubling of that.
+
+    Only the points `kept` are fitted.
+    """
+    loads, largest = np.unique(points.pressure), float(points.magnification.max())
+    points, error = points.isel(point=kept), error.isel(point=kept)
     degree = min(2, len(np.unique(points.pressure)) - 1)
     several = len(np.unique(points.magnification)) > 1
 
@@ -157,17 +156,14 @@ def fit(points, error, loads, largest):
     found = np.transpose(found)
     coords = {"pressure": loads, "range": points["range"].values}
     mean = terms(loads, np.full(len(loads), largest)) @ found
-    trend = found[-1] if several else np.zeros(found.shape[1])
-    return (
-        xr.DataArray(mean, coords, ("pressure", "range")),
-        xr.DataArray(trend, {"range": coords["range"]}, ("range",)),
-    )
+    trend = xr.DataArray(found[-1] if several else np.zeros(found.shape[1]), dims="range")
+    return xr.DataArray(mean, coords), trend.assign_coords(range=coords["range"])
 
 
-def scatter(points, loads, largest):
+def scatter(points):
     """Standard deviation between cases at each range, what their errors explain taken away."""
-    mean, trend = fit(points, xr.ones_like(points.error), loads, largest)
-    doublings = np.log2(points.magnification / largest)
+    mean, trend = fit(points, xr.ones_like(points.error))
+    doublings = np.log2(points.magnification / points.magnification.max())
     left = points.log - mean.sel(pressure=points.pressure).drop_vars("pressure") - trend * doublings
     squares, explained = (
         (part**2).groupby(points.case).mean().mean("case") for part in (left, points.error)
@@ -177,14 +173,12 @@ def scatter(points, loads, largest):
     return np.sqrt(np.maximum(squares * count / max(count - spent, 1) - explained, 0))
 
 
-def jackknife(points, error, loads, largest):
+def jackknife(points, error):
     """Standard error of the fit, by leaving out one case after the other."""
     cases = np.unique(points.case)
     if len(cases) == 1:
         return 0.0
-    without = [(points.case != case).values for case in cases]
-    rest = [(points.isel(point=kept), error.isel(point=kept)) for kept in without]
-    means = [fit(*each, loads, largest)[0] for each in rest]
+    means = [fit(points, error, (points.case != case).values)[0] for case in cases]
     return np.sqrt((len(cases) - 1) * xr.concat(means, "case").var("case"))
 
 

@@ -13,9 +13,8 @@ from common.formatting import (
     quantity_with_error,
     with_error,
 )
-from stickiness.criteria.pair import NOT_JUDGED, WORDS
+from stickiness.criteria.pair import BROAD_A_V, NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.criteria.verdict import BROAD_A_V
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 

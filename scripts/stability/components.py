@@ -306,7 +306,7 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     limit = criteria.h_rms_limit(1.0, la, eps, a_v)
     yield compare("threshold", criteria.violano(limit, 1.0, la, eps, a_v).margin, 1)
     margin = 75 / 4 / adhesion_length_over_range
-    yield compare("DMT range", criteria.dmt_validity(1.0, 1.0, la, eps).margin, margin)
+    yield compare("DMT range", 1 / criteria.jtb_limit(1.0, la, eps), margin)
     energy = integrate_band(0.8, 64, 1) / integrate_band(0.8, 64, 0) / 4
     yield compare("Persson-Tosatti", criteria.persson_tosatti(s, la).margin, la / energy)
     margin = 10 * np.sqrt(2 / s.rms_curvature) * la

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import wraps
+from inspect import signature
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,6 +21,19 @@ def numbers(name: str, value: ArrayLike) -> NDArray:
 def positive(**values: ArrayLike) -> tuple[NDArray, ...]:
     """Return the named values as float arrays; ValueError unless all are positive and finite."""
     return _check(values, lambda x: np.isfinite(x) & (x > 0), "must be positive and finite")
+
+
+def takes_positive(function: Callable) -> Callable:
+    """Let a function have its arguments as float arrays, all positive and finite; None may stay."""
+
+    @wraps(function)
+    def checked(*args, **kwargs):
+        bound = signature(function).bind(*args, **kwargs)
+        bound.apply_defaults()
+        given = {name: value for name, value in bound.arguments.items() if value is not None}
+        return function(**bound.arguments | dict(zip(given, positive(**given), strict=True)))
+
+    return checked
 
 
 def finite(**values: ArrayLike) -> tuple[NDArray, ...]:

@@ -21,8 +21,8 @@ def test_1_fuller_tabor_dimension():
 
     grown = np.log(printed(s * h, s * radius, s * length) / printed(h, radius, length)) / np.log(s)
     assert NUMBERS[1]["length_exponent_printed"] == pytest.approx(grown, abs=1e-12) == 2
-    right = criteria.fuller_tabor(h, 1.0, length, radius=radius).margin
-    scaled = criteria.fuller_tabor(s * h, 1.0, s * length, radius=s * radius).margin
+    right = criteria.fuller_tabor(h, 2 / radius, length).margin
+    scaled = criteria.fuller_tabor(s * h, 2 / (s * radius), s * length).margin
     assert scaled == pytest.approx(right, rel=1e-12)
     assert NUMBERS[1]["length_exponent_correct"] == 0
 

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from criteria import compare_criteria, map_criterion
-from criteria.simulated_a_v import MeasuredAv
 from stickiness import criteria
 from stickiness.criteria import equivalent_sphere
 from stickiness.spectrum import SelfAffine
@@ -19,7 +18,6 @@ COMPARED = {"hurst": 0.8, "range_times_q0": 1e-6}
 COMPARED |= {"h_rms_over_range": {"minimum": 10, "maximum": 1e4, "per_decade": 2}}
 COMPARED |= {"magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2}}
 COMPARED |= {"quoted_h_rms_over_range": 1000, "quoted_magnification": 1e4}
-CONSTANT = MeasuredAv(3.0, sampling=0.2, discretisation=0.1, fit_interval=0.1, bandwidth=0.5)
 
 
 class ConstantAv:
@@ -34,7 +32,7 @@ class ConstantAv:
 
 def made_map():
     roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
-    return map_criterion.find_limits(ASKED_MAP, CONSTANT, roughness)
+    return map_criterion.find_limits(ASKED_MAP, 3.0, roughness)
 
 
 def test_map_with_constant_a_v_has_the_closed_form():

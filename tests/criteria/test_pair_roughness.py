@@ -1,19 +1,21 @@
 """What a material and a surface bring to their contact: layers, two rough solids, direction."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
 from common.materials import describe_modulus, read_material
-from criteria import judging, pair_roughness
-from criteria.pair_roughness import ENDS, combine, half_space_pair
+from criteria import verdicts
+from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine
 from report.table_rows import describe_pair
 from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.criteria.pair import WORDS
 from stickiness.spectrum import SelfAffine, Tabulated
 
-A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0, 0.1)
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 TAPE = {"label": "tape", "youngs_modulus": "0.1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "made up"}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
@@ -23,11 +25,12 @@ LONGEST = 2e-4  # of the made-up wall [m]
 @pytest.fixture(autouse=True)
 def fixed_a_v(monkeypatch):
     """Of a_V nothing here depends, and theory takes its time."""
-    monkeypatch.setattr(pair_roughness, "find_a_v", lambda surface: (A_V, A_V))
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
 
 
 def joined(material, surface, second=None):
-    return combine(material, surface, half_space_pair(surface), second)
+    found = combine(material, surface, (A_V, A_V), second)
+    return SimpleNamespace(**{name: values.values for name, values in found.items()})
 
 
 def wall(h_rms=1e-6, draws=0, **more):
@@ -70,12 +73,11 @@ def test_a_layer_takes_the_energy_of_its_response(backing):
     psd = np.exp(np.interp(np.log(q), np.log(surface.wave_number), np.log(surface.psd[0])))
     factor = layer_factor(np.minimum(q * 40e-6, 300), backing)
     ratio = np.trapezoid(q**3 * psd / factor, np.log(q)) / np.trapezoid(q**3 * psd, np.log(q))
-    assert found.energy_ratio_to_half_space == pytest.approx([ratio, ratio], rel=1e-5)
+    assert found.stiffening == pytest.approx([ratio, ratio], rel=1e-5)
     assert found.elastic_energy == pytest.approx(ratio * surface.elastic_energy.values, rel=1e-5)
     assert found.relative_compliance == pytest.approx(
         layer_factor(float(surface.q0) * 40e-6, backing)
     )
-    assert found.layer_strain == pytest.approx([1 / 40, 2 / 40], rel=1e-3)
 
 
 def test_a_thick_layer_is_a_half_space():
@@ -84,7 +86,7 @@ def test_a_thick_layer_is_a_half_space():
     )
     assert thick.elastic_energy == pytest.approx(deep.elastic_energy, rel=1e-12)
     assert thick.relative_compliance == deep.relative_compliance == 1
-    assert (deep.energy_ratio_to_half_space == 1).all()
+    assert (deep.stiffening == 1).all()
 
 
 def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
@@ -92,8 +94,8 @@ def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
         joined(read_material(TAPE | {"thickness": "40 um", "backing": backing}), wall())
         for backing in ("bonded", FILM, FILM | {"thickness": "2 um"})
     )
-    assert (base.energy_ratio_to_half_space > tape.energy_ratio_to_half_space).all()
-    assert (tape.energy_ratio_to_half_space > thin.energy_ratio_to_half_space).all()
+    assert (base.stiffening > tape.stiffening).all()
+    assert (tape.stiffening > thin.stiffening).all()
     assert np.isnan(tape.half_space_energy).all()  # a half-space bounds nothing
     assert np.isfinite(base.half_space_energy).all()
 
@@ -113,9 +115,10 @@ def test_no_threshold_with_a_film():
 def test_the_layer_acts_on_draws_as_on_both_ends():
     found = joined(read_material(TAPE | {"thickness": "40 um"}), wall(draws=3))
     plain = joined(read_material(TAPE), wall(draws=3))
-    ratio = found.samples.elastic_energy / plain.samples.elastic_energy
-    assert ratio == pytest.approx(np.full(3, found.energy_ratio_to_half_space[0]))
-    assert found.samples.relative_compliance == found.relative_compliance < 1
+    ratio = found.elastic_energy_draws / plain.elastic_energy_draws
+    assert ratio == pytest.approx(np.full(3, found.stiffening[0]))
+    assert found.relative_compliance < 1
+    assert found.half_space_energy_draws == pytest.approx(plain.elastic_energy_draws)
 
 
 def test_roughness_of_both_solids_adds():
@@ -126,16 +129,27 @@ def test_roughness_of_both_solids_adds():
         assert getattr(both, name) == pytest.approx(np.sqrt(2) * getattr(one, name))
     assert both.elastic_energy == pytest.approx(2 * one.elastic_energy)
     assert both.q0 == pytest.approx(one.q0)
-    assert both.samples.h_rms == pytest.approx(np.sqrt(2) * one.samples.h_rms)
-    assert both.samples.elastic_energy == pytest.approx(2 * one.samples.elastic_energy)
+    assert both.h_rms_draws == pytest.approx(np.sqrt(2) * one.h_rms_draws)
+    assert both.elastic_energy_draws == pytest.approx(2 * one.elastic_energy_draws)
     assert both.anisotropy_error_factor == 1
 
 
 def test_a_smooth_partner_changes_nothing():
-    rough, smooth = wall(), wall(h_rms=1e-11)
+    rough, smooth = wall(draws=4), wall(h_rms=1e-11)
+    smooth = smooth.isel(end=[0, 0]).assign_coords(end=list(ENDS))  # known exactly
     both = joined(read_material(TAPE), rough, second=smooth)
     assert both.elastic_energy == pytest.approx(rough.elastic_energy.values, rel=1e-6)
     assert both.q0 == pytest.approx(float(rough.q0), rel=1e-6)
+    assert both.h_rms_draws == pytest.approx(rough.h_rms_draws.values, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_solids_of_very_different_scale_are_not_judged():
+    steep = wall(h_rms=1e-3).assign(q0=6e7)
+    found = judged({"rough": TAPE | {"surface": "wall"}}, {"wall": steep})
+    assert found.not_judged.item() == TOO_DIFFERENT
+    assert WORDS[found.verdict.item()] == "not judged"
+    assert np.isnan(found.remaining).all()
 
 
 def test_a_direction_widens_limits():
@@ -145,7 +159,7 @@ def test_a_direction_widens_limits():
 
 def judged(materials, surfaces):
     solids = {name: read_material(entry) for name, entry in materials.items()}
-    return judging.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
+    return verdicts.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
 
 
 @pytest.mark.slow
@@ -153,6 +167,8 @@ def test_thinner_tapes_keep_less_and_the_row_says_why():
     tapes = {"deep": {}} | {d: {"thickness": f"{d} um"} for d in ("50", "20")}
     found = judged({name: TAPE | keys for name, keys in tapes.items()}, {"wall": wall(h_rms=3e-6)})
     remaining = found.remaining.sel(surface="wall", end="smooth").values
+    strains = 3 / 50, 3 / 20 / (20e-6 * 2 * np.pi / LONGEST)
+    assert found.layer_strain.values[:, 0, 0] == pytest.approx([0, *strains], rel=1e-3)
     assert remaining[0] > remaining[1] > remaining[2]
     thick = found.sel(material="20", surface="wall").assign(layer_strain=("end", [0.15, 0.301]))
     deep, thin = (describe_pair(found.sel(material=d, surface="wall")) for d in ("deep", "50"))

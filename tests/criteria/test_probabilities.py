@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from common import materials
-from criteria.judging import judge_samples
+from criteria.verdicts import judge_draws
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import Prony
 
@@ -48,10 +48,10 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
-    found = judge_samples(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy))
+    found = judge_draws(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy))
     assert found["error_of_spectrum"] == pytest.approx(0.2, rel=0.05)
     h, q0 = 1e-6 * np.exp(0.1 * rng.normal(size=4000)), 1e5 * np.exp(0.2 * rng.normal(size=4000))
-    found = judge_samples(MATERIAL, Roughness(h, q0, 1e-7 * SAME))
+    found = judge_draws(MATERIAL, Roughness(h, q0, 1e-7 * SAME))
     assert found["error_of_spectrum"] < 1e-3
 
 
@@ -63,7 +63,7 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
     Half of the draws stick at the threshold, all or none of them well beyond the model's error.
     """
     solid = material_at(factor)
-    found = judge_samples(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
+    found = judge_draws(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
     assert found["error_of_spectrum"] == pytest.approx(0, abs=1e-12)
     assert found["share_error_of_spectrum"] == pytest.approx(0, abs=1e-12)
     # What sticks is what keeps the wanted share.

@@ -9,10 +9,10 @@ import xarray as xr
 from scipy.stats import binomtest, norm
 
 from common.materials import read_material
-from criteria import judging, pair_roughness
+from criteria import verdicts
 from criteria.budgets import add_budget_of_probability
-from criteria.classification import decide_pairs
 from criteria.simulated_a_v import measure_a_v
+from criteria.verdicts import decide_pairs
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
 from stickiness.criteria import equivalent_sphere
@@ -57,7 +57,7 @@ def test_edges_agree_with_pastewka_and_robbins(hurst):
 def test_pair_takes_its_own_range():
     ranges = np.array([1e-4, 1e-2, 1.0])
     theory = np.array([[4.0, 2.0, 1.0], [2.0, 2.0, 3.0]])
-    pair = SurfaceAv(ranges, 1.5 * theory, quoted=0, relative_error=0.1)
+    pair = SurfaceAv(ranges, 1.5 * theory, relative_error=0.1)
     value, low, high = pair.at(1e-4)
     assert (value, low, high) == pytest.approx((6.0, 3.0 * 0.9, 6.0 * 1.1))
     assert pair.at(1e-3)[0] == pytest.approx(1.5 * np.sqrt(4.0 * 2.0))  # halfway in logarithms
@@ -106,9 +106,9 @@ def judge(modulus, reach, h_rms=1e-6, a_v=(4.0, 4.0, 4.0)):
         {name: ("end", [value, value]) for name, value in known.items()} | {"q0": s.q0},
         coords={"end": ["smooth", "rough"]},
     )
-    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0, 0.0)
-    with mock.patch.object(pair_roughness, "find_a_v", return_value=(a_v, a_v)):
-        found = judging.find_verdicts({"one": solid}, {"one": surface}, {}, np.array([1.0, 1e3]))
+    a_v = SurfaceAv(np.array([1e-9, 1.0]), np.transpose([a_v, a_v]), 0.0)
+    with mock.patch.object(verdicts, "find_a_v", return_value=(a_v, a_v)):
+        found = verdicts.find_verdicts({"one": solid}, {"one": surface}, {}, np.array([1.0, 1e3]))
     return found.isel(end=0, surface=0, material=0)
 
 
@@ -209,11 +209,11 @@ def inputs(tmp_path_factory):
 
 @pytest.mark.slow
 def test_a_v_is_that_of_the_simulation_in_the_file(inputs):
-    found = measure_a_v(inputs, 0.065)
-    assert found.value == 2.0
-    assert found.sampling == pytest.approx(0.38)  # as the file states it, covering 90 %
-    assert found.discretisation == pytest.approx(0.1)
-    assert (found.fit_interval, found.bandwidth) == (0, 0)
+    a_v, parts = measure_a_v(inputs, 0.065)
+    assert a_v == 2.0
+    assert parts["sampling"].error == pytest.approx(0.38)  # as the file states it, covering 90 %
+    assert parts["discretisation"].error == pytest.approx(0.1)
+    assert (parts["model"].error, parts["bandwidth"].error) == (0, 0)
 
 
 def test_a_v_at_another_load_is_refused(inputs):

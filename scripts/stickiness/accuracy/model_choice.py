@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.accuracy.error_models import Surface
-from stickiness.criteria.area_load import jtb_limit
+from stickiness.criteria.formulas import jtb_limit
 from stickiness.units import si
 
 AXES = ("magnification", "pressure", "range_over_h_rms", "strength")

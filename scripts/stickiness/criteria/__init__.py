@@ -1,11 +1,10 @@
 """Stickiness criteria: which contacts sustain tension, and below which modulus.
 
 - `formulas`: the criteria, whose names are also here
-- `area_load`: area-load relation of an adhesive contact in the DMT limit
 - `equivalent_sphere`: attraction by the edges of contact, from weak to tough
-- `pair`: a material on a surface, as all criteria see it, and the words of verdicts
+- `pair`: a material on a surface, as all criteria see it, and every quantity of it
 - `registry`: every criterion with its threshold, reason and line in figures, in one table
-- `verdict`: every quantity of pairs, and from a surface and a material to a verdict
+- `verdict`: from a surface and a material to a verdict
 - `a_v_fit`: the prefactor a_V fitted to attractive areas
 - `a_v_table`: a_V from Persson's theory: of a spectrum, and tabulated for self-affine surfaces
 """

@@ -8,7 +8,7 @@ does not depend on the range. There the variants of the theory part, see `edge_r
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,18 +18,24 @@ from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
 from stickiness.arguments import plain, positive
+from stickiness.criteria.formulas import pastewka_robbins_a_v
+from stickiness.persson.theory import Persson
+from stickiness.spectrum.interface import Spectrum
 
 PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
 VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth
 NORMAL_90 = float(ndtri(0.95))  #: standard errors either side that cover 90 %
-NEEDED = (
-    *("a_v", "a_v_limit", "edge_range", "edge_a_v", "quadrature_error", "extrapolation_error"),
-    *("theory_below", "theory_above", "theory_below_limit", "theory_above_limit"),
-    *("simulation_ratio", "simulation_error", "simulation_trend"),
-    *("smallest_magnification", "largest_magnification"),
-)
+LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
+RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated
+# Relative, of theory's a_V against simulation: the error model of config/accuracy.csv at this load,
+# doubled as for all spectra broader than those measured.
+THEORY_ERROR = 0.25
+_CUBIC = ("a_v", "a_v_limit", "edge_range", "edge_a_v")
+_LINEAR = ("theory_below", "theory_above", "theory_below_limit", "theory_above_limit")
+_NUMBERS = ("smallest_magnification", "largest_magnification")
+_NUMBERS += ("quadrature_error", "extrapolation_error")
+NEEDED = (*_CUBIC, *_LINEAR, *_NUMBERS, "simulation_ratio", "simulation_error", "simulation_trend")
 _AXES = ("hurst", "magnification", "pressure", "range")
-_LIMIT_AXES = ("hurst", "pressure", "range")
 
 
 def local_a_v(area: ArrayLike, pressure: ArrayLike, ranges: ArrayLike) -> NDArray:
@@ -68,9 +74,9 @@ class SurfaceAv:
     """a_V of a surface against the range, with limits."""
 
     ranges: NDArray  #: (n,), over h_rms, increasing
-    #: (m, n), a_V by every variant of the theory and by the edge law below the edge range
+    #: (m, n), a_V by every variant of the theory and by the edge law below the edge range; the
+    #: first is quoted, the others are limits
     theory: NDArray
-    quoted: int  #: which of them is quoted; the others are limits
     relative_error: float  #: of theory against simulation; widens the limits
 
     def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
@@ -80,10 +86,29 @@ class SurfaceAv:
         ]
         every = np.exp(logs)
         return (
-            plain(every[self.quoted]),
+            plain(every[0]),
             plain(every.min(axis=0) * max(1 - self.relative_error, 0.01)),
             plain(every.max(axis=0) * (1 + self.relative_error)),
         )
+
+
+def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
+    """a_V of a spectrum at every range, by both variants of Persson's theory and by the edge law.
+
+    `known` has q0 and the moments. Below the edge range, where the variants part, they are held
+    constant, and Pastewka and Robbins' estimate is the edge law.
+    """
+    moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
+    edge_a_v = float(pastewka_robbins_a_v(*moments))
+    h_rms, theory = spectrum.h_rms, Persson(spectrum)
+    load = LOAD * float(known["q0"]) * h_rms
+    areas = [theory.with_variant(name).gap_cumulative(RANGES * h_rms, load) for name in VARIANTS]
+    resolved = [local_a_v(area, LOAD, RANGES) for area in areas]
+    edge = edge_range(RANGES, *resolved)
+    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(resolved[0])))
+    a_v = [np.where(edge > RANGES, at_edge, a) for a in resolved]
+    a_v.append(np.where(edge > RANGES, edge_a_v, a_v[0]))
+    return SurfaceAv(RANGES, np.array(a_v), THEORY_ERROR)
 
 
 @dataclass(frozen=True)
@@ -118,26 +143,15 @@ class AvTable:
     def __init__(self, table: xr.Dataset):
         #: ends of hurst, magnification, pressure and range (over h_rms) in the table
         self.bounds = {name: (float(table[name].min()), float(table[name].max())) for name in _AXES}
-        self._finite = {
-            "a_v": _interpolate(np.log(table.a_v), _AXES, "cubic"),
-            "edge": _interpolate(np.log(table.edge_range), _AXES[:3], "cubic"),
-            "below": _interpolate(table.theory_below, _AXES),
-            "above": _interpolate(table.theory_above, _AXES),
-            "edge_a_v": _interpolate(np.log(table.edge_a_v), _AXES[:2], "cubic"),
-        }
-        self._limit = (
-            _interpolate(np.log(table.a_v_limit), _LIMIT_AXES, "cubic"),
-            _interpolate(table.theory_below_limit, _LIMIT_AXES),
-            _interpolate(table.theory_above_limit, _LIMIT_AXES),
+        self._theory = {name: _interpolate(np.log(table[name]), "cubic") for name in _CUBIC}
+        self._theory |= {name: _interpolate(table[name]) for name in _LINEAR}
+        self._ratio = _hold(np.log(table.simulation_ratio))
+        self._ratio_error, self._trend = (
+            _hold(table.simulation_error),
+            _hold(table.simulation_trend),
         )
-        self._quadrature = float(table.quadrature_error)
-        self._ratio = _held(np.log(table.simulation_ratio))
-        self._ratio_error = _held(table.simulation_error)
-        self._trend = _held(table.simulation_trend)
-        ends = table.smallest_magnification, table.largest_magnification
-        self._doublings = np.log2([float(end) for end in ends])
+        self._known = {name: float(table[name]) for name in _NUMBERS}
         self._simulated = float(table.simulated_range.min())
-        self._extrapolation = float(table.extrapolation_error)
 
     def a_v_at(
         self,
@@ -154,20 +168,17 @@ class AvTable:
         given = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
         for name, values in zip(_AXES, given, strict=True):
             self._check(name, values)
-        shape = given[0].shape
         h, zeta, p, eps = (x.ravel() for x in given)
-        logs, below, above = np.empty((3, h.size))
-        edge, broad = np.zeros(h.size, dtype=bool), np.isinf(zeta)
-        at = np.stack([h, np.log(p), np.log(eps)], axis=-1)[broad]
-        for found, limit in zip((logs, below, above), self._limit, strict=True):
-            found[broad] = limit(at)
-        rest = ~broad
-        if rest.any():
-            found = self._at_finite(*(np.log(x[rest]) for x in (zeta, p, eps)), h[rest])
-            logs[rest], below[rest], above[rest], edge[rest] = found
-        where = np.stack([np.log(p), np.log(eps)], axis=-1)
+        at, broad = (h, np.log(zeta), np.log(p), np.log(eps)), np.isinf(zeta)
+        theory = np.empty((4, h.size))
+        for which, look_up in ((broad, self._look_up_limit), (~broad, self._look_up_finite)):
+            if which.any():
+                theory[:, which] = look_up(*(x[which] for x in at))
+        logs, below, above, edge = theory
+        where = np.stack(at[2:], axis=-1)
         trend = self._trend(where[:, 1:])
-        least, most = self._doublings
+        ends = self._known["smallest_magnification"], self._known["largest_magnification"]
+        least, most = np.log2(ends)
         held = np.clip(np.log2(zeta), least, most) - most
         value = np.exp(logs + self._ratio(where) + trend * held)
         # The ratio has a limit, because simulation and theory both converge. Its trend does not
@@ -179,21 +190,27 @@ class AvTable:
         # but from one simulated decade to the next its drift changes size, and at small loads sign:
         # a step a decade.
         decades = np.clip(np.log10(self._simulated / eps), 0, None)
-        simulation = np.hypot(simulation, self._extrapolation * np.sqrt(decades))
-        others = (NORMAL_90 * simulation) ** 2 + self._quadrature**2
+        simulation = np.hypot(simulation, self._known["extrapolation_error"] * np.sqrt(decades))
+        others = (NORMAL_90 * simulation) ** 2 + self._known["quadrature_error"] ** 2
         low = value * np.exp(-np.sqrt(below**2 + others))
         high = value * np.exp(np.sqrt(above**2 + others))
-        parts = value, low, high, below, above, simulation, edge
-        return AvEstimate(*(part.reshape(shape)[()] for part in parts))
+        parts = value, low, high, below, above, simulation, edge.astype(bool)
+        return AvEstimate(*(part.reshape(given[0].shape)[()] for part in parts))
 
-    def _at_finite(self, log_zeta, log_p, log_eps, h):
+    def _look_up_limit(self, h, log_zeta, log_p, log_eps):
+        """As `_look_up_finite`, at infinite magnification: no range is below the edge range."""
+        at = np.stack([h, log_p, log_eps], axis=-1)
+        names = ("a_v_limit", "theory_below_limit", "theory_above_limit")
+        return *(self._theory[name](at) for name in names), np.zeros(len(h))
+
+    def _look_up_finite(self, h, log_zeta, log_p, log_eps):
         """Logarithm of a_V, reach of the other theories below and above, below the edge range."""
-        know = self._finite
-        log_edge = know["edge"](np.stack([h, log_zeta, log_p], axis=-1))
+        know = self._theory
+        log_edge = know["edge_range"](np.stack([h, log_zeta, log_p], axis=-1))
         edge = log_eps < log_edge
         held = np.clip(np.where(edge, log_edge, log_eps), None, np.log(self.bounds["range"][1]))
         at = np.stack([h, log_zeta, log_p, held], axis=-1)
-        logs, below, above = (know[name](at) for name in ("a_v", "below", "above"))
+        logs, below, above = (know[name](at) for name in ("a_v", "theory_below", "theory_above"))
         # The variants part here by definition; another estimate of what edges give takes over.
         other = know["edge_a_v"](np.stack([h, log_zeta], axis=-1)) - logs
         below = np.where(edge, np.maximum(-other, 0), below)
@@ -203,10 +220,9 @@ class AvTable:
     def _check(self, name: str, values: NDArray) -> None:
         low, high = self.bounds[name]
         inside = (values >= low * (1 - 1e-9)) & (values <= high * (1 + 1e-9))
-        infinite = ""
-        if name == "magnification":
+        infinite = " or infinite" if name == "magnification" else ""
+        if infinite:
             inside |= np.isposinf(values)
-            infinite = " or infinite"
         if not inside.all():
             raise ValueError(
                 f"{name} must lie between {low:g} and {high:g}{infinite}, where a_V is "
@@ -214,7 +230,9 @@ class AvTable:
             )
 
 
-def _interpolate(table: xr.DataArray, axes: Sequence[str], method: str = "linear"):
+def _interpolate(table: xr.DataArray, method: str = "linear") -> RegularGridInterpolator:
+    """Interpolator along those of `_AXES` that the table has, all but hurst as logarithms."""
+    axes = [name for name in _AXES if name in table.dims]
     grid = [table[name].values.astype(float) for name in axes]
     grid = [x if name == "hurst" else np.log(x) for name, x in zip(axes, grid, strict=True)]
     # Points within rounding of an end count as inside; a_v_at has checked the rest.
@@ -223,9 +241,9 @@ def _interpolate(table: xr.DataArray, axes: Sequence[str], method: str = "linear
     )
 
 
-def _held(table: xr.DataArray):
+def _hold(table: xr.DataArray) -> Callable[[NDArray], NDArray]:
     """Linear between simulated loads and ranges, or ranges alone, held constant beyond them."""
-    axes = [name for name in ("simulated_pressure", "simulated_range") if name in table.dims]
-    interpolator = _interpolate(table, axes)
+    names = {"simulated_pressure": "pressure", "simulated_range": "range"}
+    interpolator = _interpolate(table.rename({n: x for n, x in names.items() if n in table.dims}))
     low, high = (np.array([end(x) for x in interpolator.grid]) for end in (np.min, np.max))
     return lambda at: interpolator(np.clip(at, low, high))

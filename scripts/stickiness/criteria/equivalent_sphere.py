@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
-from stickiness.arguments import plain, positive
-from stickiness.criteria.area_load import traction_ratio
+from stickiness.arguments import plain, takes_positive
+from stickiness.criteria.formulas import traction_ratio
 from stickiness.remaining.sphere import opening
 
 KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h'_rms)
@@ -53,12 +53,8 @@ class EdgeAttraction:
         """Whether the model was compared with simulation there."""
         return plain(np.asarray(self.error_factor) < ERROR_BEYOND)
 
-    @property
-    def tough(self) -> bool | NDArray:
-        """Whether the edges are `tough`."""
-        return tough(self.attractive_over_contact, self.strength)
 
-
+@takes_positive
 def attraction(
     h_rms: ArrayLike,
     q0: ArrayLike,
@@ -71,12 +67,11 @@ def attraction(
     """Attraction over repulsion at equal area of contact, by the equivalent sphere.
 
     `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
-    load without adhesion; the other arguments are those of `criteria.area_load.traction_ratio`.
+    load without adhesion; the other arguments are those of `criteria.traction_ratio`.
     """
-    slope, kappa_rep = positive(rms_slope=rms_slope, kappa_rep=kappa_rep)
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
     # Mean pressure in the contact is E* h'/kappa, attraction over it sigma_0 t.
-    strength_over_pressure = np.asarray(adhesion_length) / range * kappa_rep / slope
+    strength_over_pressure = adhesion_length / range * kappa_rep / rms_slope
     area = dmt / strength_over_pressure
     tau = edge_strength(area, strength_over_pressure)
     change = effect(area, tau)
@@ -89,6 +84,7 @@ def attraction(
     )
 
 
+@takes_positive
 def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> float | NDArray:
     """Tabor's parameter tau = l_a d/range^2 of the edges of a rough contact.
 
@@ -96,26 +92,24 @@ def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> fl
     zones, in a contact whose area is proportional to its load. `traction` is the attractive one
     over the mean pressure in the contact, sigma_0 A_rep/F.
     """
-    t, traction = positive(attractive_over_contact=attractive_over_contact, traction=traction)
-    return plain(0.75 * traction / np.sqrt(t))
+    return plain(0.75 * traction / np.sqrt(attractive_over_contact))
 
 
+@takes_positive
 def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Factor, up or down, within which `effect` holds for rough contacts."""
-    t, tau = positive(attractive_over_contact=attractive_over_contact, strength=strength)
-    simulated = (t >= SMALLEST_SIMULATED) & (tau <= STRONGEST_SIMULATED)
-    within = np.where(tau <= WEAK, ERROR_WEAK, ERROR_STRONG)
-    return plain(np.where(simulated, within, ERROR_BEYOND))
+    wide, known = attractive_over_contact >= SMALLEST_SIMULATED, strength <= STRONGEST_SIMULATED
+    within = np.where(strength <= WEAK, ERROR_WEAK, ERROR_STRONG)
+    return plain(np.where(wide & known, within, ERROR_BEYOND))
 
 
+@takes_positive
 def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Attraction at equal area of contact over its DMT limit, of the equivalent sphere.
 
     `weak_effect` for small strengths tau, `tough_effect` for large ones.
     """
-    t, tau = np.broadcast_arrays(
-        *positive(attractive_over_contact=attractive_over_contact, strength=strength)
-    )
+    t, tau = np.broadcast_arrays(attractive_over_contact, strength)
     # Radius of contact and of curvature are 1; c = 1/cos(angle). The edge of a sphere has
     # range/d = (8/3pi) sqrt(t) for small t, which defines its traction at any t.
     widest = np.arctan(np.sqrt(t))
@@ -133,16 +127,17 @@ def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | N
     return plain(2 * (angle / np.cos(angle) ** 2 + np.tan(angle)) / (np.pi * t))
 
 
+@takes_positive
 def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
     """`effect` at vanishing strength, ``2 [(1 + t) arctan(sqrt t) + sqrt t]/(pi t)``.
 
     It tends to 1 at large t and to ``(4/pi) t^(-1/2)`` at small t.
     """
-    (t,) = positive(attractive_over_contact=attractive_over_contact)
-    root = np.sqrt(t)
+    t, root = attractive_over_contact, np.sqrt(attractive_over_contact)
     return plain(2 * ((1 + t) * np.arctan(root) + root) / (np.pi * t))
 
 
+@takes_positive
 def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArray:
     """`weak_effect` at equal approach of the sphere, instead of equal area of contact.
 
@@ -150,18 +145,18 @@ def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArr
     ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)
     arccos(a/r)`` of itself off the load, by reciprocity with the flat punch.
     """
-    (t,) = positive(attractive_over_contact=attractive_over_contact)
-    root = np.sqrt(t)
+    t, root = attractive_over_contact, np.sqrt(attractive_over_contact)
     return plain(2 * ((1 + t) * np.arctan(root) - root) / (np.pi * t))
 
 
+@takes_positive
 def tough_effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """`effect` at large strength: JKR, ``(4/pi) sqrt(pi/(4 t tau))`` for small t.
 
     The ratio to repulsion is then ``t^(3/4)`` times the root of the adhesion length: t grows as
     range^(2/3), so that the range drops out.
     """
-    t, tau = positive(attractive_over_contact=attractive_over_contact, strength=strength)
+    t, tau = attractive_over_contact, strength
     # sqrt(8 pi w a^3) over sigma_0 pi a^2 t, in the units and with the traction of `effect`.
     reach = _hertz_gap(np.arctan(np.sqrt(t)))
     return plain(np.sqrt(3 * reach / (tau * np.sqrt(t))) / t)
@@ -178,20 +173,16 @@ def tough(attractive_over_contact: ArrayLike, strength: ArrayLike) -> bool | NDA
     return plain((tau >= TOUGH) & (np.abs(over - 1) <= TOUGH_WITHIN))
 
 
+@takes_positive
 def adhesion_length_threshold(
-    h_rms: ArrayLike,
-    q0: ArrayLike,
-    rms_slope: ArrayLike,
-    range: ArrayLike,
-    a_v: ArrayLike,
+    h_rms: ArrayLike, q0: ArrayLike, rms_slope: ArrayLike, range: ArrayLike, a_v: ArrayLike
 ) -> float | NDArray:
     """Adhesion length [length] at which the attraction balances the repulsion.
 
     The modulus threshold is the work of adhesion over it. Parameters as of `attraction`.
     """
-    surface = h, q0, slope, range, a_v = np.broadcast_arrays(
-        *positive(h_rms=h_rms, q0=q0, rms_slope=rms_slope, range=range, a_v=a_v)
-    )
+    surface = np.broadcast_arrays(h_rms, q0, rms_slope, range, a_v)
+    h, q0, slope, range, a_v = surface
 
     def excess(log_length, h, q0, slope, range, a_v):
         found = attraction(h, q0, slope, np.exp(log_length), range, a_v)

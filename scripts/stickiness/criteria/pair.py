@@ -1,14 +1,19 @@
-"""A material on a rough surface: what the criteria need to know, and the words of verdicts."""
+"""A material on a rough surface: what the criteria need to know, and all that is said of it.
+
+`QUANTITIES` lists what is said of a pair, and the stages write all of it to their files. To add a
+quantity, give it a line there and one in `judge`.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria import equivalent_sphere
+from stickiness.criteria.formulas import jtb_limit
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 
 WORDS = (
@@ -17,55 +22,70 @@ WORDS = (
 )
 NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY, NOT_JUDGED = range(6)
 FULL_SHARE = 0.8  #: of the work of adhesion, from which a pair sticks fully
-REGIMES = ("weak", "between", "tough", "strong")
-WEAK, BETWEEN, TOUGH, STRONG = range(4)
+REGIMES = ("weak", "between", "tough", "strong")  #: of the edges, by code
+BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
+SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
+LIMITED = {  #: units and descriptions of the quantities that have limits by the model
+    "remaining": ("1", "share of the work of adhesion that remains"),
+    "pull_off": ("Pa", "largest mean tension on separation"),
+    "margin": ("1", "adhesion length over the one at which the wanted share remains"),
+    "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
+}
+QUANTITIES = {
+    f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
+    for name, (units, text) in LIMITED.items()
+    for ending in SIGNS
+} | {
+    "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
+    "pair_h_rms": ("m", "rms height of the pair, of both solids if both are rough"),
+    "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
+    "pair_rms_slope": ("1", "rms gradient of the pair"),
+    "pair_rms_curvature": ("1/m", "rms Laplacian of the pair"),
+    "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
+    "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
+    "attractive_over_contact": ("1", "area within the range over area of contact"),
+    "over_dmt": ("1", "attraction over its DMT limit, at equal area of contact"),
+    "regime": ("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
+    "simulated": ("1", "1 where full simulation agrees with the model"),
+    "jtb_margin": ("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
+}
 
 
-@dataclass(frozen=True)
-class Pair:
-    """A material on a surface; numbers, or arrays that broadcast against each other."""
+@dataclass(frozen=True, kw_only=True)
+class Pair(Roughness):
+    """A material on a surface; numbers, or arrays that broadcast against each other, in SI units.
 
-    h_rms: ArrayLike  #: [m]
-    q0: ArrayLike  #: lowest wave number [1/m]
+    What the surface adds to `Roughness` serves the other criteria than that of what remains.
+    """
+
     rms_slope: ArrayLike  #: rms gradient [1]
     rms_curvature: ArrayLike  #: rms Laplacian [1/m]
-    elastic_energy: ArrayLike  #: of full contact per nominal area over E* [m]
     modulus: ArrayLike  #: plane-strain modulus E* [Pa]
     work_of_adhesion: ArrayLike  #: [J/m^2]
     range: ArrayLike  #: of the attraction [m]
     a_v: ArrayLike  #: at this range on this surface
-    a_v_low: ArrayLike  #: its limits
-    a_v_high: ArrayLike
-    constant_a_v: ArrayLike  #: a_V of a broad spectrum, the same for every pair
+    constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
-    relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
-    half_space_energy: ArrayLike | None = None  #: of full contact of a half-space, under a layer
-    anisotropy_error_factor: ArrayLike = 1.0  #: on the errors of what remains, as in `Roughness`
 
     @property
     def adhesion_length(self) -> float | NDArray:
         """Work of adhesion over E* [m]."""
         return self.work_of_adhesion / self.modulus
 
-    @property
-    def roughness(self) -> Roughness:
-        """The surface as `stickiness.remaining` needs it."""
-        return Roughness(**{field.name: getattr(self, field.name) for field in fields(Roughness)})
-
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
-        return self.roughness.share(self.adhesion_length, self.range, sign)
+        return self.share(self.adhesion_length, self.range, sign)
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
-        return self.roughness.tension(self.adhesion_length, self.range, sign) * self.modulus
+        return self.tension(self.adhesion_length, self.range, sign) * self.modulus
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
         """Adhesion length [m] above which the wanted share remains.
 
         With `sign` +1 or -1 by the high or low limit of the share.
         """
-        return self.roughness.threshold(self.range, self.wanted_share, sign)
+        return self.threshold(self.range, self.wanted_share, sign)
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:
@@ -95,11 +115,27 @@ def decide(
     ).astype("i1")
 
 
-def classify_edges(edges: equivalent_sphere.EdgeAttraction) -> NDArray:
-    """Return the code of the regime of the edges, its place in `REGIMES`."""
-    tau = np.asarray(edges.strength)
-    return np.select(
-        [tau <= equivalent_sphere.WEAK, tau < equivalent_sphere.TOUGH, edges.tough],
-        [WEAK, BETWEEN, TOUGH],
-        STRONG,
-    )
+def judge(pair: Pair) -> dict[str, NDArray]:
+    """Compute every quantity of `QUANTITIES` for a pair, by name."""
+    length, edges, tau = pair.adhesion_length, pair.edges, np.asarray(pair.edges.strength)
+    weak, between = tau <= equivalent_sphere.WEAK, tau < equivalent_sphere.TOUGH
+    tough = equivalent_sphere.tough(edges.attractive_over_contact, tau)
+    found = {}
+    for ending, sign in SIGNS.items():
+        threshold = pair.remaining_threshold(sign)
+        found[f"remaining{ending}"] = pair.remaining(sign)
+        found[f"pull_off{ending}"] = pair.pull_off(sign)
+        found[f"margin{ending}"] = length / threshold
+        found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
+    found |= {
+        "energy_ratio": length / pair.elastic_energy,
+        "edge_strength": edges.strength,
+        "attractive_over_contact": edges.attractive_over_contact,
+        "over_dmt": edges.effect,
+        "regime": np.select([weak, between, tough], range(3), 3).astype("i1"),
+        "simulated": np.asarray(edges.simulated).astype("i1"),
+        "jtb_margin": pair.h_rms / jtb_limit(pair.q0, length, pair.range),
+    }
+    for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
+        found[f"pair_{name}"] = getattr(pair, name)
+    return {name: np.asarray(value) for name, value in found.items()}

@@ -1,8 +1,4 @@
-"""From a rough surface and a material to a verdict on whether they stick.
-
-`QUANTITIES` lists what is said of a pair, and the stages write all of it to their files. To add a
-quantity, give it a line there and one in `judge`.
-"""
+"""From a rough surface and a material to a verdict on whether they stick."""
 
 from __future__ import annotations
 
@@ -11,14 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from stickiness.arguments import positive
-from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
-from stickiness.criteria.formulas import dmt_validity, pastewka_robbins_a_v
-from stickiness.criteria.pair import REGIMES, WORDS, Pair, classify_edges, decide
+from stickiness.criteria.a_v_table import RANGES, surface_a_v
+from stickiness.criteria.pair import LIMITED, REGIMES, WORDS, Pair, decide, judge
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.persson.theory import Persson
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import (
     DEFAULT_SHARE,
@@ -29,66 +23,6 @@ from stickiness.remaining.prediction import (
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
-
-LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
-RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated
-# Relative, of theory's a_V against simulation: the error model of config/accuracy.csv at this load,
-# doubled as for all spectra broader than those measured.
-THEORY_ERROR = 0.25
-BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
-SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
-LIMITED = {  #: units and descriptions of the quantities that have limits by the model
-    "remaining": ("1", "share of the work of adhesion that remains"),
-    "pull_off": ("Pa", "largest mean tension on separation"),
-    "margin": ("1", "adhesion length over the one at which the wanted share remains"),
-    "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
-}
-QUANTITIES = {
-    f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
-    for name, (units, text) in LIMITED.items()
-    for ending in SIGNS
-} | {
-    "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
-    "range_over_h_rms": ("1", "range of attraction over rms height"),
-    "pair_h_rms": ("m", "rms height of the pair, of both solids if both are rough"),
-    "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
-    "pair_rms_slope": ("1", "rms gradient of the pair"),
-    "pair_rms_curvature": ("1/m", "rms Laplacian of the pair"),
-    "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
-    "pair_a_v_low": ("1", "low limit of the pair's a_V"),
-    "pair_a_v_high": ("1", "high limit of the pair's a_V"),
-    "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
-    "attractive_over_contact": ("1", "area within the range over area of contact"),
-    "over_dmt": ("1", "attraction over its DMT limit, at equal area of contact"),
-    "regime": ("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
-    "simulated": ("1", "1 where full simulation agrees with the model"),
-    "jtb_margin": ("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
-}
-
-
-def judge(pair: Pair) -> dict[str, NDArray]:
-    """Compute every quantity of `QUANTITIES` for a pair, by name."""
-    length, edges = pair.adhesion_length, pair.edges
-    found = {}
-    for ending, sign in SIGNS.items():
-        threshold = pair.remaining_threshold(sign)
-        found[f"remaining{ending}"] = pair.remaining(sign)
-        found[f"pull_off{ending}"] = pair.pull_off(sign)
-        found[f"margin{ending}"] = length / threshold
-        found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
-    found |= {
-        "energy_ratio": length / pair.elastic_energy,
-        "range_over_h_rms": pair.range / pair.h_rms,
-        "edge_strength": edges.strength,
-        "attractive_over_contact": edges.attractive_over_contact,
-        "over_dmt": edges.effect,
-        "regime": classify_edges(edges).astype("i1"),
-        "simulated": np.asarray(edges.simulated).astype("i1"),
-        "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
-    }
-    for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v", "a_v_low", "a_v_high"):
-        found[f"pair_{name}"] = getattr(pair, name)
-    return {name: np.asarray(value) for name, value in found.items()}
 
 
 @dataclass(frozen=True)
@@ -125,31 +59,24 @@ class StickinessVerdict:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
         modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
         beyond = "" if self.simulated else " (beyond what was simulated)"
-        others = "; ".join(
-            f"{CRITERIA[name].label} {margin:.3g}"
-            for name, margin in self.margins.items()
-            if name != REMAINING
+        others = [f"{CRITERIA[n].label} {x:.3g}" for n, x in self.margins.items() if n != REMAINING]
+        direction = (
+            f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
+            "few surfaces with a direction were simulated\n"
         )
-        lines = [
+        return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
-            f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted",
-            f"pull-off stress: {pull_off}",
-            f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)",
-            f"edges at the finest wave: {self.regime}{beyond}",
-            f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})",
-            f"margins by other criteria: {others}",
-        ]
-        if pair.anisotropy_error_factor > 1:
-            lines.append(
-                f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
-                "few surfaces with a direction were simulated"
-            )
-        lines.append(
+            f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
+            f"pull-off stress: {pull_off}\n"
+            f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
+            f"edges at the finest wave: {self.regime}{beyond}\n"
+            f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
+            f"margins by other criteria: {'; '.join(others)}\n"
+            f"{direction if pair.anisotropy_error_factor > 1 else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
         )
-        return "\n".join(lines)
 
 
 def verdict(
@@ -161,7 +88,6 @@ def verdict(
     poisson: float | None = None,
     length: float | tuple[float, float] | None = None,
     a_v: tuple[float, float, float] | None = None,
-    constant_a_v: float = BROAD_A_V,
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
 ) -> StickinessVerdict:
@@ -186,8 +112,6 @@ def verdict(
         a_V of the pair with its limits. By default Persson's theory on the spectrum gives it, and
         two variants of the theory and Pastewka and Robbins' estimate give its limits, widened by
         `THEORY_ERROR`.
-    constant_a_v : float
-        a_V of a broad spectrum, for the criterion that takes one.
     wanted_share : float
         Share of the work of adhesion that must remain for a pair to stick, between 0 and 1.
     solid : HalfSpace or Layer
@@ -247,9 +171,6 @@ def verdict(
         **known,
         **material,
         a_v=value,
-        a_v_low=low,
-        a_v_high=high,
-        constant_a_v=constant_a_v,
         wanted_share=wanted_share,
     )
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
@@ -322,22 +243,3 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
         warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=4)
     ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
     return measured.spectrum(), measured.fit.q_rolloff or measured.lowest, ratio
-
-
-def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
-    """a_V of a spectrum at every range, by both variants of Persson's theory and by the edge law.
-
-    `known` has q0 and the moments. Below the edge range, where the variants part, they are held
-    constant, and Pastewka and Robbins' estimate is the edge law.
-    """
-    moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
-    edge_a_v = float(pastewka_robbins_a_v(*moments))
-    h_rms, theory = spectrum.h_rms, Persson(spectrum)
-    load = LOAD * float(known["q0"]) * h_rms
-    areas = [theory.with_variant(name).gap_cumulative(RANGES * h_rms, load) for name in VARIANTS]
-    resolved = [local_a_v(area, LOAD, RANGES) for area in areas]
-    edge = edge_range(RANGES, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(resolved[0])))
-    a_v = [np.where(edge > RANGES, at_edge, a) for a in resolved]
-    a_v.append(np.where(edge > RANGES, edge_a_v, a_v[0]))
-    return SurfaceAv(RANGES, np.array(a_v), 0, THEORY_ERROR)

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from common.materials import read_material
-from criteria import judging, pair_roughness
+from criteria import verdicts
 from criteria.judge import describe_page
 from report import table_rows, write_report
 from stickiness.criteria.a_v_table import SurfaceAv
@@ -18,7 +18,7 @@ GEL = {
     "work_of_adhesion": "50 mJ/m^2",
     "range": "0.3 nm",
 }
-A_V = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0, 0.1)
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0.1)
 
 
 @pytest.fixture
@@ -36,13 +36,13 @@ def road():
 
 @pytest.fixture(autouse=True)
 def fixed_a_v(monkeypatch):
-    monkeypatch.setattr(pair_roughness, "find_a_v", lambda surface: (A_V, A_V))
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
 
 
 @pytest.fixture
 def judged(road):
     solids = {"gel": read_material(GEL)}
-    return judging.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
+    return verdicts.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
 
 
 @pytest.fixture
@@ -83,7 +83,7 @@ def test_every_threshold_is_where_the_margin_is_one(judged, road):
         modulus = float(pair.threshold_by_criterion.sel(criterion=name))
         solids = {"gel": read_material(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"})}
         at = (
-            judging.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
+            verdicts.find_verdicts(solids, {"road": road}, {}, np.array([1.0]))
             .sel(criterion=name, end="rough")
             .squeeze()
         )
