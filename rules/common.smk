@@ -75,10 +75,10 @@ try:
     # What a user leaves out is as in the project.
     given, config = config, load.defaults(PROJECT, project_file)
     update_config(config, given)
-    TRADE, REMAINING_CAMPAIGN = (load.campaign(PROJECT, name) for name in ("tradeoff", "remaining"))
+    campaigns = {name: load.load(Path(PROJECT, path)) for name, path in load.CAMPAIGNS.items()}
+    TRADE, REMAINING_CAMPAIGN = campaigns["tradeoff"], campaigns["remaining"]
     if workflow.is_main_process:  # whose jobs read what was checked here
         name = f"config of module {MODULE}" if MODULE else load.USER
-        campaigns = {"tradeoff": TRADE, "remaining": REMAINING_CAMPAIGN}
         load.check_all(config, campaigns, given, name, made=bool(MODULE))
     MATERIALS, REAL_SURFACES, EXPERIMENTS = (
         load.load(config[table])[table] for table in load.TABLES

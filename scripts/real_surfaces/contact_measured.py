@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from common import conventions
-from common.config.entries import MOST_POINTS, has_units, measurements
+from common.config.entries import MOST_POINTS, measurements
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
@@ -116,7 +116,8 @@ def highest_wave_number(bem, cutoff):
 def read_setting(bem, **settings):
     """Loads, material and grid as configured, beside the other settings."""
     material = read_material(bem["adhesion"]) if "adhesion" in bem else None
-    pressures, absolute = bem["pressures"], has_units(bem["pressures"])
+    pressures = bem["pressures"]
+    absolute = any(isinstance(pressure, str) for pressure in pressures)
     if absolute:
         pressures = [si(pressure, "Pa") / material.modulus for pressure in pressures]
     return Setting(

@@ -43,10 +43,6 @@ def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]
     return [(f"measurements[{index}].", shared | dict(one)) for index, one in several]
 
 
-def has_units(pressures: list[float | str]) -> bool:
-    return any(isinstance(pressure, str) for pressure in pressures)
-
-
 def conditions_of(experiment: Mapping[str, Any], case: Mapping[str, Any]) -> dict[str, Any]:
     """Return the conditions of a case: its own, or those of the experiment."""
     conditions = {key: case.get(key, experiment.get(key)) for key in CONDITIONS}

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import difflib
+import inspect
 from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from pydantic import (
     AfterValidator,
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Discriminator,
     Field,
+    PlainValidator,
     Tag,
     ValidationInfo,
+    WithJsonSchema,
     model_validator,
 )
 
@@ -24,8 +26,9 @@ from stickiness.units import si
 T = TypeVar("T")
 
 
-def _add_choices(schema, section):
-    """Put groups of keys that exclude each other into the JSON schema of a section."""
+def _complete_schema(schema, section):
+    """Add an inherited docstring, and groups of keys that exclude each other, to a JSON schema."""
+    schema["description"] = inspect.getdoc(section)
     for group in section.one_of:
         choices = [{"required": choice.split(" and ")} for choice in group]
         schema.setdefault("allOf", []).append({"oneOf": choices})
@@ -42,34 +45,30 @@ class Section(BaseModel):
     that were checked. The docstring of a model introduces its table in docs/configuration.md.
     """
 
-    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_add_choices)
+    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_complete_schema)
     #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    #: Keys of earlier versions, and what to do about them.
-    old: ClassVar[Mapping[str, str]] = {}
+    #: Keys that stand elsewhere, and where.
+    elsewhere: ClassVar[Mapping[str, str]] = {}
 
     @model_validator(mode="before")
     @classmethod
     def _check_keys(cls, given):
-        for problem in cls._key_problems(given) if isinstance(given, dict) else ():
-            raise Refusal(f": {problem}")
-        return given
-
-    @classmethod
-    def _key_problems(cls, given):
+        if not isinstance(given, dict):
+            return given
         fields = cls.model_fields
-        for key in given:
-            if key in cls.old:
-                yield f"the key {key!r} {cls.old[key]}"
+        for key in given if cls.model_config["extra"] == "forbid" else ():
+            if key in cls.elsewhere:
+                raise Refusal(f": the key {key!r} {cls.elsewhere[key]}")
             if key not in fields:
-                yield f"unknown key {key!r}; {suggest(key, fields)}"
+                raise Refusal(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():
             if field.is_required() and key not in given:
-                yield f"the key {key!r} is missing ({field.description})"
-        for choices in cls.one_of:
-            met = [all(key in given for key in choice.split(" and ")) for choice in choices]
-            if sum(met) != 1:
-                yield f"give exactly one of: {'; '.join(choices)}"
+                raise Refusal(f": the key {key!r} is missing ({field.description})")
+        for group in cls.one_of:
+            if sum(given.keys() >= {*choice.split(" and ")} for choice in group) != 1:
+                raise Refusal(f": give exactly one of: {'; '.join(group)}")
+        return given
 
     @model_validator(mode="after")
     def _check_together(self, info: ValidationInfo):
@@ -80,6 +79,25 @@ class Section(BaseModel):
     def _problems(self, context):
         """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
         return ()
+
+
+class Quantity(float):
+    """A value in SI units, written as it was given: ``'50 um'``."""
+
+    def __new__(cls, text: str, unit: str) -> Quantity:
+        """Read a text; a `Refusal` says what is wrong with it."""
+        try:
+            value = super().__new__(cls, si(text, unit))
+        except ValueError as error:
+            raise Refusal(f" = {error}") from None
+        value.text = text
+        return value
+
+    def __repr__(self) -> str:
+        return repr(self.text)
+
+    def __str__(self) -> str:
+        return self.text
 
 
 def unknown(key: str, value: str, known: Iterable[str]) -> str:
@@ -102,6 +120,17 @@ def optional(text: str) -> Any:
     return Field(None, description=text)
 
 
+def demand(test: Callable[[Any], bool], text: str) -> AfterValidator:
+    """Return the check of a value by a test; `text` says what the value must be."""
+
+    def check(value: Any) -> Any:
+        if not test(value):
+            raise Refusal(f" = {value!r} {text}")
+        return value
+
+    return AfterValidator(check)
+
+
 def choose(test: Callable[[Any], bool], met: Any, otherwise: Any) -> Any:
     """Return the type of a value that is `met` if it passes the test, else `otherwise`."""
     return Annotated[
@@ -115,44 +144,45 @@ def by_type(kind: type, of_kind: Any, otherwise: Any) -> Any:
     return choose(lambda value: isinstance(value, kind), of_kind, otherwise)
 
 
-def both(first: Any, second: Any) -> Any:
-    """Return the type of a list of two values of different types."""
-    return Annotated[tuple[first, second], Field(strict=False)]
-
-
-def quantity(word: str, unit: str, *limits: str) -> Any:
-    """Return the type of a text with a unit, positive and within `limits` if these are given."""
-
-    def check(value: Any) -> str:
-        try:
-            found = si(value, unit)
-        except ValueError as error:
-            raise Refusal(f" = {error}") from None
-        if not found > 0:
-            raise Refusal(f" = {value!r} must be positive")
-        if limits and not si(limits[0], unit) <= found <= si(limits[1], unit):
-            raise Refusal(f" = {value!r} must be in {' … '.join(limits)}; no solid is beyond")
-        return value
-
-    return Annotated[str, BeforeValidator(check), Field(json_schema_extra={"quantity": word})]
-
-
 def one_or_two(kind: Any) -> Any:
     """Return the type of a value or of a list of two of them."""
     return by_type(list, Pair[kind], kind)
 
 
-def _refuse_repeated(values):
-    if len({str(value) for value in values}) < len(values):
-        raise Refusal(f" = {values!r} must not repeat a value")
-    return values
+def both(first: Any, second: Any) -> Any:
+    """Return the type of a list of two values of different types."""
+    return Annotated[tuple[first, second], Field(strict=False)]
+
+
+def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
+    """Return the type of a text with a unit, positive and within limits if these are given."""
+
+    def read(given: Any) -> Quantity:
+        value = Quantity(given, unit)
+        if not value > 0:
+            raise Refusal(f" = {given!r} must be positive")
+        if low and not si(low, unit) <= value <= si(high, unit):
+            raise Refusal(f" = {given!r} must be in {low} … {high}; no solid is beyond")
+        return value
+
+    schema = WithJsonSchema({"type": "string", "quantity": word})
+    return Annotated[Quantity, PlainValidator(read), schema]
+
+
+def _differ(values):
+    # Pressures in various units are equal within rounding.
+    texts = {f"{value:.9e}" if isinstance(value, float) else str(value) for value in values}
+    return len(texts) == len(values)
 
 
 Text = Annotated[str, Field(min_length=1)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 Names = Annotated[dict[Name, T], Field(min_length=1)]
-Several = Annotated[list[T], Field(min_length=1), AfterValidator(_refuse_repeated)]
+Several = Annotated[list[T], Field(min_length=1), demand(_differ, "must not repeat a value")]
 Pair = Annotated[list[T], Field(min_length=2, max_length=2)]
+Interval = Annotated[
+    Pair[T], demand(lambda pair: pair[0] < pair[1], "must be [low, high] with low < high")
+]
 
 Positive = Annotated[float, Field(gt=0)]
 Share = Annotated[float, Field(gt=0, le=1)]

@@ -1,32 +1,51 @@
-"""Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one."""
+"""Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one.
+
+Of the other campaigns, which users do not edit, they check surfaces and what must agree with the
+user's files.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from operator import attrgetter
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import ConfigDict, Field
 
 from common.config import fields as f
+from common.config.experiments import Experiments
 from common.config.fields import Section, needed, optional
-from common.config.surfaces import Direction
+from common.config.materials import Materials
+from common.config.surfaces import Direction, Surfaces
 from stickiness.accuracy.quantities import QUANTITIES
 
 # What the figures and the claims read; may be edited but not removed.
-PAPER_CASES = ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide")
-PAPER_SWEEPS = ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d")
-PAPER_SETS = ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error")
+PAPER = {
+    "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"),
+    "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
+    "adhesion": ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error"),
+    "loops": ("fig4a",),
+}
+# Keys of criteria that must lie within an axis of the table of a_V.
+WITHIN_TABLE = {
+    "pressure": ("a_v.pressure",),
+    "hurst": ("map.hurst", "compared.hurst"),
+    "magnification": (
+        *("compared.magnification.minimum", "compared.magnification.maximum"),
+        "compared.quoted_magnification",
+    ),
+    "range, inverted:": (
+        *("compared.h_rms_over_range.minimum", "compared.h_rms_over_range.maximum"),
+        "compared.quoted_h_rms_over_range",
+    ),
+}
 
 AtMost = Annotated[int, Field(ge=2, le=128)]
 Estimator = Literal["multilevel", "plain"]
-
-
-def _ascend(values):
-    if values != sorted(values):
-        raise f.Refusal(f" = {values!r} must be in increasing order")
-    return values
-
-
-Axis = Annotated[f.Values, Field(min_length=4), AfterValidator(_ascend)]
+Axis = Annotated[
+    f.Values,
+    Field(min_length=4),
+    f.demand(lambda values: values == sorted(values), "must be in increasing order"),
+]
 
 
 class Fidelity(Section):
@@ -88,8 +107,6 @@ class ModelSurface(BandWithPlateau, Direction):
 
 class Case(Section):
     """A contact simulation."""
-
-    old = {"carry_to": "is gone: simulate the broad spectrum, or give model: theory"}
 
     surface: str = needed("name in model_surfaces")
     pressures: f.Loads
@@ -153,29 +170,23 @@ class Sweep(Section):
 class Theory(Section):
     """Persson's theory."""
 
-    variants: f.Several[Literal["afferrante2018", "almqvist2011"]] = needed(
-        "afferrante2018 is quoted and must be there; others show the spread"
-    )
+    variants: Annotated[
+        f.Several[Literal["afferrante2018", "almqvist2011"]],
+        f.demand(
+            lambda variants: "afferrante2018" in variants, "lacks 'afferrante2018', which is quoted"
+        ),
+    ] = needed("afferrante2018 is quoted and must be there; others show the spread")
     gamma: f.Share = needed("gamma of Yang & Persson's correction; 1 switches the correction off")
     table: Table = needed("points at which a_V is tabulated")
     sweeps: f.Names[Sweep] = needed("computations on continuous spectra, by name")
-
-    def _problems(self, context):
-        if "afferrante2018" not in self.variants:
-            yield f"variants = {self.variants!r} lacks 'afferrante2018', which is quoted"
 
 
 class FitIntervals(Section):
     """Fit of a_V to attractive areas."""
 
-    windows: f.Several[f.Pair[f.Positive]] = needed(
+    windows: f.Several[f.Interval[f.Positive]] = needed(
         "fit intervals [low, high] of range/h_rms; the first is quoted, others show its influence"
     )
-
-    def _problems(self, context):
-        for index, (low, high) in enumerate(self.windows):
-            if not low < high:
-                yield f"windows[{index}] = {[low, high]!r} must be [low, high] with low < high"
 
 
 class Adhesive(Section):
@@ -236,8 +247,6 @@ class Loop(Adhesive):
 class ReferenceCase(Section):
     """Where the a_V of the paper's criterion is simulated; theory extrapolates it."""
 
-    old = {"measured": "is gone: a_V now comes from the run itself"}
-
     case: str = needed("name in cases")
     pressure: f.Positive = needed("one of the pressures of that case, over E* q0 h_rms")
 
@@ -267,8 +276,6 @@ class Compared(Section):
 class Criteria(Section):
     """Criteria of stickiness."""
 
-    old = {"ranges": "is gone: theory on real surfaces is evaluated at fixed ranges"}
-
     a_v: ReferenceCase = needed("where the a_V of the paper's criterion is simulated")
     frequencies: f.Grid = needed("frequencies [Hz] at which pairs are judged, beside 1 Hz")
     map: CriterionMap = needed("map of the paper's criterion, Figure 5")
@@ -278,10 +285,9 @@ class Criteria(Section):
 class Configuration(Section):
     """The user's configuration, together with that of the paper's figures."""
 
-    old = {
-        "tradeoff": "is gone: config/campaigns/tradeoff.yaml holds that campaign",
-        "remaining": "is gone: config/campaigns/remaining.yaml holds that campaign",
-        "dmt_error": "is gone: the file is always config/dmt_error.csv",
+    elsewhere = {
+        name: f"is gone: config/campaigns/{name}.yaml holds that campaign"
+        for name in ("tradeoff", "remaining")
     }
 
     results: f.Text = needed("folder for everything that is computed, with one for each fidelity")
@@ -303,51 +309,33 @@ class Configuration(Section):
     criteria: Criteria = needed("criteria of stickiness")
 
     def _problems(self, context):
-        yield from self._paper_problems()
-        for key, name, known in self._references():
-            if name not in known:
-                yield f.unknown(key, name, known)
-        for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
-            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
-        a_v = self.criteria.a_v
-        loads = [
-            (f"adhesion.{key}.pressures", asked.case, pressure)
-            for key, asked in self.adhesion.items()
-            for pressure in asked.pressures
-        ]
-        for key, case, pressure in (*loads, ("criteria.a_v.pressure", a_v.case, a_v.pressure)):
-            if pressure not in self.cases[case].pressures:
-                yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
-        for key, value, axis, low, high in self._limits():
-            if not low <= value <= high:
-                yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
-
-    def _paper_problems(self):
-        """Require what the figures and the claims read."""
-        for table, present, names in (
-            ("cases", self.cases, PAPER_CASES),
-            ("theory.sweeps", self.theory.sweeps, PAPER_SWEEPS),
-            ("adhesion", self.adhesion, PAPER_SETS),
-            ("loops", self.loops, ["fig4a"]),
-        ):
+        for table, names in PAPER.items():
             for name in names:
-                if name not in present:
+                if name not in attrgetter(table)(self):
                     yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
         if self.adhesion["fig2"].maps is None:
             yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
         if self.adhesion["dmt_error"].model != "full":
             yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured"
-        users = dict.fromkeys(PAPER_CASES, "the paper's figures and claims")
-        users |= {asked.case: f"adhesion.{key}" for key, asked in self.adhesion.items()}
-        users[self.criteria.a_v.case] = "criteria.a_v"
-        for name, user in users.items():
+        for key, name, known in self._references():
+            if name not in known:
+                yield f.unknown(key, name, known)
+        for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
+            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+        for name, user in self._simulated().items():
             for key in ("quantities", "model"):
-                value = getattr(self.cases.get(name), key, None)
+                value = getattr(self.cases[name], key)
                 if value not in (None, "simulation"):
                     yield (
                         f"cases.{name}.{key} = {value!r}: leave it out, {user} needs every "
                         "quantity by simulation; or add a case"
                     )
+        for key, pressure, case in self._loads():
+            if pressure not in self.cases[case].pressures:
+                yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
+        for key, value, axis, low, high in self._limits():
+            if not low <= value <= high:
+                yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
 
     def _references(self):
         """Yield keys that name entries: key, name, and the entries that there are."""
@@ -355,13 +343,25 @@ class Configuration(Section):
         for key, fidelity in self.fidelities.items():
             for name in fidelity.comparisons or []:
                 yield f"fidelities.{key}.comparisons", name, self.comparisons.surfaces
-        for key, case in self.cases.items():
-            yield f"cases.{key}.surface", case.surface, self.model_surfaces
-        for key, loop in self.loops.items():
-            yield f"loops.{key}.surface", loop.surface, self.model_surfaces
+        for table in ("cases", "loops"):
+            for key, entry in getattr(self, table).items():
+                yield f"{table}.{key}.surface", entry.surface, self.model_surfaces
         for key, asked in self.adhesion.items():
             yield f"adhesion.{key}.case", asked.case, self.cases
         yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
+
+    def _simulated(self):
+        """Return what needs every quantity of a case, by names of cases."""
+        users = dict.fromkeys(PAPER["cases"], "the paper's figures and claims")
+        users |= {asked.case: f"adhesion.{key}" for key, asked in self.adhesion.items()}
+        return users | {self.criteria.a_v.case: "criteria.a_v"}
+
+    def _loads(self):
+        """Yield keys of loads at which a case must be solved: key, load, and case."""
+        for key, asked in self.adhesion.items():
+            for pressure in asked.pressures:
+                yield f"adhesion.{key}.pressures", pressure, asked.case
+        yield "criteria.a_v.pressure", self.criteria.a_v.pressure, self.criteria.a_v.case
 
     def _limits(self):
         """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
@@ -372,18 +372,71 @@ class Configuration(Section):
         for key, asked in self.adhesion.items():
             for value in asked.range_over_h_rms:
                 yield f"adhesion.{key}.range_over_h_rms", value, *gaps
-        table, criteria = self.theory.table, self.criteria
-        hurst, pressure, broad = (
-            (f"theory.table.{axis}", getattr(table, axis)[0], getattr(table, axis)[-1])
-            for axis in ("hurst", "pressure", "magnification")
-        )
-        rough = "theory.table.range, inverted:", 1 / table.range.maximum, 1 / table.range.minimum
-        yield "criteria.a_v.pressure", criteria.a_v.pressure, *pressure
-        yield "criteria.map.hurst", criteria.map.hurst, *hurst
-        compared = criteria.compared
-        yield "criteria.compared.hurst", compared.hurst, *hurst
-        for key, limits in (("magnification", broad), ("h_rms_over_range", rough)):
-            grid, quoted = getattr(compared, key), getattr(compared, f"quoted_{key}")
-            yield f"criteria.compared.{key}.minimum", grid.minimum, *limits
-            yield f"criteria.compared.{key}.maximum", grid.maximum, *limits
-            yield f"criteria.compared.quoted_{key}", quoted, *limits
+        table = self.theory.table
+        axes = dict(table)
+        axes["range, inverted:"] = 1 / table.range.maximum, 1 / table.range.minimum
+        for axis, keys in WITHIN_TABLE.items():
+            limits = f"theory.table.{axis}", axes[axis][0], axes[axis][-1]
+            for key in keys:
+                yield f"criteria.{key}", attrgetter(key)(self.criteria), *limits
+
+
+class Campaign(Section):
+    """Keys of which only some are checked."""
+
+    model_config = ConfigDict(extra="allow")
+
+
+class MeasuredSurfaces(Campaign):
+    """Surfaces on which settings are measured."""
+
+    surfaces: f.Names[ModelSurface]
+
+
+class Tradeoff(Campaign):
+    """What accuracy costs, as `snakemake tradeoff` measures it, and the rule of the presets."""
+
+    presets: dict[str, Any]
+    adhesion: MeasuredSurfaces
+    cases: MeasuredSurfaces
+    finer: MeasuredSurfaces
+    validation: MeasuredSurfaces
+
+    def _problems(self, context):
+        rule, user = self.presets, context["config"]
+        if rule["surface"] not in user["model_surfaces"]:
+            yield f.unknown("presets.surface", rule["surface"], user["model_surfaces"])
+        for name in rule["accuracy"]:
+            for table in (user["fidelities"], rule["adhesive"]["accuracy"]):
+                if name not in table:
+                    yield f.unknown("presets.accuracy", name, table)
+
+
+class RemainingSet(BandWithPlateau, Campaign):
+    """A surface on which adhesion is simulated."""
+
+    one_of = (("zones", "ranges"),)
+
+    points: Annotated[int, Field(ge=32, multiple_of=2)]
+
+    def _problems(self, context):
+        yield from super()._problems(context)
+        least = 2 * self.magnification * (self.window or 1)
+        if self.points < least:
+            yield f"points = {self.points} must be at least {least:g}, two per shortest wavelength"
+
+
+class Remaining(Campaign):
+    """How much adhesion remains, as `snakemake remaining_measured` simulates it."""
+
+    sets: f.Names[RemainingSet]
+
+
+MODELS = {
+    "config": Configuration,
+    "materials": Materials,
+    "surfaces": Surfaces,
+    "experiments": Experiments,
+    "tradeoff": Tradeoff,
+    "remaining": Remaining,
+}

@@ -6,15 +6,14 @@ import math
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from common.config import fields as f
-from common.config.entries import has_units, measurements
+from common.config.entries import measurements
 from common.config.fields import Section, needed, optional
 from common.config.materials import ElasticPair
 from stickiness import plausibility
 from stickiness.measured import readers
-from stickiness.units import si
 
 _BUILTIN = "builtin:jacksboro"
 
@@ -51,25 +50,26 @@ class SelfAffine(RealSurface, Direction):
     C0: f.one_or_two(str) = optional('prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"')
 
     def _problems(self, context):
-        longest = _wavelength(self.longest_wavelength, self.q0)
-        shortest = _wavelength(self.shortest_wavelength, self.q1)
+        longest = self.longest_wavelength or 2 * math.pi / self.q0
+        shortest = self.shortest_wavelength or 2 * math.pi / self.q1
         if not shortest < longest:
             yield f"shortest_wavelength = {shortest:g} m must be below the longest, {longest:g} m"
-        if self.rolloff_wavelength is not None:
-            rolloff = si(self.rolloff_wavelength, "m")
-            if not shortest < rolloff < longest:
-                yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
-        unit_of_c0 = f"m^{2 - 2 * self.hurst:g}"
-        for key, given, unit in (("C0", self.C0, unit_of_c0), ("h_rms", self.h_rms, "m")):
-            try:
-                values = [si(value, unit) for value in _as_list(given or [])]
-            except ValueError as error:
-                yield f"{key} = {error}"
-                return
+        rolloff = self.rolloff_wavelength
+        if rolloff is not None and not shortest < rolloff < longest:
+            yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
+        try:
+            prefactors = [f.Quantity(one, f"m^{2 - 2 * self.hurst:g}") for one in _listed(self.C0)]
+        except f.Refusal as error:
+            yield f"C0{error}"
+        for key, values in (("C0", prefactors), ("h_rms", _listed(self.h_rms))):
             if not all(value > 0 for value in values):
-                yield f"{key} = {given!r} must be positive"
+                yield f"{key} = {getattr(self, key)!r} must be positive"
             if values != sorted(values):
-                yield f"{key} = {given!r} must be [low, high]"
+                yield f"{key} = {values!r} must be [low, high]"
+
+
+# Unit of a length, here as a length.
+LengthUnit = Annotated[str, AfterValidator(lambda unit: f.Quantity(f"1 {unit}", "m"))]
 
 
 class Reading(Section):
@@ -85,8 +85,8 @@ class Reading(Section):
     variable: str = optional("NetCDF variable or npz key")
     length: f.one_or_two(f.Length) = optional("side, or sides along x and y, of what was measured")
     pixel_size: f.one_or_two(f.Length) = optional("grid step, instead of length")
-    height_unit: str = optional('unit of the heights, e.g. "nm"')
-    position_unit: str = optional('unit of the positions of a line profile, e.g. "um"')
+    height_unit: LengthUnit = optional('unit of the heights, e.g. "nm"')
+    position_unit: LengthUnit = optional('unit of the positions of a line profile, e.g. "um"')
     missing_value: float = optional("number that marks missing points besides NaN")
     missing: Literal["fill", "crop", "refuse"] = optional(
         "interpolate missing points, cut to the largest rectangle without any, or stop"
@@ -133,17 +133,14 @@ class Contact(Section):
     )
 
     def _problems(self, context):
-        if not has_units(self.pressures):
-            return
-        for index, pressure in enumerate(self.pressures):
+        with_unit = [isinstance(pressure, f.Quantity) for pressure in self.pressures]
+        for index, pressure in enumerate(self.pressures if any(with_unit) else []):
             key = f"pressures[{index}] = {pressure!r}"
-            if not isinstance(pressure, str):
+            if not with_unit[index]:
                 yield f"{key} has no unit, while others have; give all of them one kind"
             elif self.adhesion is None:
                 remedy = "or give it over E* q0 h_rms, without a unit"
                 yield f"{key} needs bem.adhesion, which gives the modulus; {remedy}"
-        if len({f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures}) < len(self.pressures):
-            yield f"pressures = {self.pressures!r} must not repeat a value"
 
 
 class Measured(RealSurface, Reading):
@@ -154,7 +151,7 @@ class Measured(RealSurface, Reading):
 
     one_of = (("file", "measurements"),)
 
-    file: f.Text = None
+    file: f.Text = optional("path of the file, as below")
     measurements: Annotated[list[Reading], Field(min_length=2)] = optional(
         "several files of one surface, averaged into one spectrum"
     )
@@ -201,12 +198,6 @@ class Surfaces(Section):
 def _file_problems(measurement, made):
     """Yield what is wrong with a measurement, as far as is known before its file is read."""
     file = measurement["file"]
-    for key in ("height_unit", "position_unit"):
-        if key in measurement:
-            try:
-                si(f"1 {measurement[key]}", "m")
-            except ValueError as error:
-                yield f"{key} = {error}"
     if file.startswith("builtin:"):
         if file != _BUILTIN:
             yield f"file = {file!r} is unknown; built in: {_BUILTIN}"
@@ -215,11 +206,11 @@ def _file_problems(measurement, made):
         if not made:
             yield f"file = {file!r}: no such file; give a path from the working directory"
         return
-    sides = _as_list(measurement.get("length", []))
+    sides = _listed(measurement.get("length"))
     for side in [] if measurement.get("plausibility") == "ignore" else sides:
-        if si(side, "m") > plausibility.LONGEST_SIDE:
+        if side > plausibility.LONGEST_SIDE:
             yield f"length = {side!r} {plausibility.REFUSED_SIDE}"
-        if si(side, "m") < plausibility.SHORTEST_SIDE:
+        if side < plausibility.SHORTEST_SIDE:
             yield (
                 f"length = {side!r} is shorter than {plausibility.SHORTEST_SIDE:g} m, a few atoms; "
                 "correct it, or give plausibility: ignore if it is so"
@@ -237,13 +228,9 @@ def _file_problems(measurement, made):
     if kind not in ("netcdf", "numpy") and "variable" in measurement:
         yield f"variable = {measurement['variable']!r} is for NetCDF and npz, this file is neither"
     fit_from, fit_to = (measurement.get(key) for key in ("fit_from", "fit_to"))
-    if fit_from and fit_to and not si(fit_to, "m") < si(fit_from, "m"):
+    if fit_from and fit_to and not fit_to < fit_from:
         yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
 
 
-def _wavelength(wavelength, wave_number):
-    return 2 * math.pi / si(wave_number, "1/m") if wavelength is None else si(wavelength, "m")
-
-
-def _as_list(value):
-    return value if isinstance(value, list) else [value]
+def _listed(given):
+    return given if isinstance(given, list) else [] if given is None else [given]
