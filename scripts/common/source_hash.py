@@ -15,12 +15,8 @@ CACHE = Path(".snakemake/source_hashes.json")  # below the folder of the run
 def source_hash(script: str) -> str:
     """Return a hash of a script and of all modules below ``scripts/`` that it imports.
 
-    A rule has it among its parameters, so that a job runs again when its code changes.
-
-    Parameters
-    ----------
-    script : str
-        Path below ``scripts/``, such as ``"adhesion/solve_adhesive.py"``.
+    A rule has it among its parameters, so that a job runs again when its code changes. A script is
+    given by its path below ``scripts/``, such as ``"adhesion/solve_adhesive.py"``.
     """
     digests, queue = {}, [SCRIPTS / script]
     while queue:

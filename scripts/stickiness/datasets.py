@@ -57,15 +57,9 @@ def write(
 ) -> None:
     """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
-    Variables that are texts are written without units.
-
-    Raises
-    ------
-    DatasetError
-        If a variable lacks `long_name`, `units` though it holds numbers, or `nan_means` though it
-        holds values that are not finite.
-    WriteError
-        If the disk is full, may not be written to, or fails; an old file is left as it was.
+    Variables that are texts are written without units. A `DatasetError` names a variable that lacks
+    `long_name`, `units` though it holds numbers, or `nan_means` though it holds values that are not
+    finite; with a `WriteError` the old file is left as it was.
     """
     path = Path(path)
     for name in dataset.variables:
@@ -96,13 +90,7 @@ def write(
 
 
 def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
-    """Read a dataset into memory, check that it is the one of this name and holds `variables`.
-
-    Raises
-    ------
-    DatasetError
-        Naming the file and, if one is missing, the variable.
-    """
+    """Read a dataset into memory, check that it is the one of this name and holds `variables`."""
     path = Path(path)
     try:
         with xr.open_dataset(path, engine="netcdf4") as opened:

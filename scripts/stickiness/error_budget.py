@@ -39,22 +39,12 @@ def unknown_error(why: str) -> ErrorComponent:
     return ErrorComponent(np.nan, f"not known, {why}")
 
 
-def with_budget(
-    dataset: xr.Dataset,
-    name: str,
-    *,
-    discretisation: ErrorComponent,
-    solver: ErrorComponent,
-    sampling: ErrorComponent,
-    bandwidth: ErrorComponent,
-    model: ErrorComponent,
-) -> xr.Dataset:
-    """Add the budget of a variable that has `units` and `long_name`.
+def with_budget(dataset: xr.Dataset, name: str, **components: ErrorComponent) -> xr.Dataset:
+    """Add the budget of a variable that has `units` and `long_name`: a component by each source.
 
-    Parts are of the shape of the variable, or of one that broadcasts to it.
+    Components are of the shape of the variable, or of one that broadcasts to it.
     """
-    value = dataset[name]
-    parts = (discretisation, solver, sampling, bandwidth, model)
+    value, parts = dataset[name], [components[source] for source in SOURCES]
     whole = xr.zeros_like(value, dtype=float).where(value.notnull())
     errors = [
         (whole + abs(part.error)).transpose(*value.dims).reset_coords(drop=True) for part in parts
