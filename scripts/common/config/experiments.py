@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 from typing import Annotated, Any, Generic, Literal
 
-from pydantic import Field, WithJsonSchema, model_validator
+from pydantic import WithJsonSchema, model_validator
 
 from common.config import fields as f
 from common.config.entries import OBSERVED_UNITS, conditions_of
@@ -56,11 +56,6 @@ class KnownValue(Section, Generic[f.T]):
             )
         return given
 
-    @property
-    def ends(self) -> tuple[Any, Any]:
-        """The value twice, or both ends of what is plausible."""
-        return (self.value, self.value) if self.between is None else tuple(self.between)
-
 
 KnownLength, KnownModulus = KnownValue[f.Length], KnownValue[f.Modulus]
 
@@ -74,7 +69,7 @@ class Conditions(Section):
     poisson_ratio: KnownValue[f.Poisson] = optional("Poisson's ratio of the soft solid")
     work_of_adhesion: KnownValue[f.Energy] = optional("work of adhesion on a smooth surface")
     range: KnownLength = optional("range of the attraction")
-    hurst: KnownValue[Annotated[float, Field(ge=0.01, le=1)]] = optional("Hurst exponent in (0, 1]")
+    hurst: KnownValue[f.number(ge=0.01, le=1)] = optional("Hurst exponent in (0, 1]")
     longest_wavelength: KnownLength = optional("longest wavelength of the roughness")
     rolloff_wavelength: KnownLength = optional("wavelength above which the spectrum is flat")
     shortest_wavelength: KnownLength = optional("shortest wavelength of the roughness")
@@ -101,7 +96,7 @@ class Observed(KnownValue[Any]):
     between: f.Pair[Any] = optional("what is plausible, [low, high]")
     quantity: Literal[(*OBSERVED_UNITS, "sticks")] = needed("what was observed")
     relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
-    level: Annotated[float, Field(gt=0, lt=1)] = optional(
+    level: f.number(gt=0, lt=1) = optional(
         "share of the adhesion that is left at the limiting roughness; default 0.1"
     )
     silent: f.Several[Criterion] = optional("criteria in whose terms the observation was stated")
@@ -112,7 +107,7 @@ class Observed(KnownValue[Any]):
 
     def _problems(self, context):
         field = "value" if self.between is None else "between"
-        low, high = self.ends
+        low, high = _ends(dict(self))
         if self.relation is not None:
             quantity = _RELATIONS[self.relation]
             if self.quantity != quantity:
@@ -159,11 +154,10 @@ class Experiment(Conditions):
     cases: f.Names[ObservedCase] = needed("what was observed, by name")
 
     def _problems(self, context):
-        for name, case in self.cases.items():
-            given = [
-                {key: known for key, known in each if known is not None} for each in (self, case)
-            ]
-            for problem in _condition_problems(conditions_of(*given), case.observed.quantity):
+        experiment = self.model_dump(exclude_unset=True)
+        for name, case in experiment["cases"].items():
+            conditions = conditions_of(experiment, case)
+            for problem in _condition_problems(conditions, case["observed"]["quantity"]):
                 yield f"cases.{name}{problem}"
 
 
@@ -171,6 +165,11 @@ class Experiments(Section):
     """The file of experiments."""
 
     experiments: f.Names[Experiment] = needed("published experiments by name")
+
+
+def _ends(known):
+    """Return both ends of what is plausible, or the value twice."""
+    return known.get("between") or (known["value"], known["value"])
 
 
 def _condition_problems(conditions, quantity):
@@ -187,6 +186,6 @@ def _condition_problems(conditions, quantity):
     # The longest of the shorter waves must be below the shortest of the longer ones.
     waves = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
     for shorter, longer in pairwise(key for key in waves if key in conditions):
-        most, least = conditions[shorter].ends[1], conditions[longer].ends[0]
+        most, least = _ends(conditions[shorter])[1], _ends(conditions[longer])[0]
         if not most < least:
             yield f".{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"

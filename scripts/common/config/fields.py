@@ -144,6 +144,14 @@ def by_type(kind: type, of_kind: Any, otherwise: Any) -> Any:
     return choose(lambda value: isinstance(value, kind), of_kind, otherwise)
 
 
+def number(**limits: float) -> Any:
+    return Annotated[float, Field(**limits)]
+
+
+def whole(**limits: int) -> Any:
+    return Annotated[int, Field(**limits)]
+
+
 def one_or_two(kind: Any) -> Any:
     """Return the type of a value or of a list of two of them."""
     return by_type(list, Pair[kind], kind)
@@ -179,18 +187,19 @@ Text = Annotated[str, Field(min_length=1)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 Names = Annotated[dict[Name, T], Field(min_length=1)]
 Several = Annotated[list[T], Field(min_length=1), demand(_differ, "must not repeat a value")]
+AtLeastTwo = Annotated[list[T], Field(min_length=2)]
 Pair = Annotated[list[T], Field(min_length=2, max_length=2)]
 Interval = Annotated[
     Pair[T], demand(lambda pair: pair[0] < pair[1], "must be [low, high] with low < high")
 ]
 
-Positive = Annotated[float, Field(gt=0)]
-Share = Annotated[float, Field(gt=0, le=1)]
-Poisson = Annotated[float, Field(ge=0, le=0.5)]
-Count = Annotated[int, Field(ge=1, le=10000)]
-CoarseCount = Annotated[int, Field(ge=32, le=10000)]
-Index = Annotated[int, Field(ge=0)]
-Pixels = Annotated[int, Field(ge=4, multiple_of=2)]
+Positive = number(gt=0)
+Share = number(gt=0, le=1)
+Poisson = number(ge=0, le=0.5)
+Count = whole(ge=1, le=10000)
+CoarseCount = whole(ge=32, le=10000)
+Index = whole(ge=0)
+Pixels = whole(ge=4, multiple_of=2)
 Values = Several[Positive]
 Loads = Annotated[Values, Field(description="mean pressures over E* q0 h_rms")]
 Hurst = Annotated[float, Field(gt=0, le=1, description="Hurst exponent in (0, 1]")]
@@ -223,7 +232,7 @@ class Grid(Section):
 
     minimum: Positive = needed("smallest value")
     maximum: Positive = needed("largest value")
-    per_decade: Annotated[int, Field(ge=1, le=200)] = needed("values per decade")
+    per_decade: whole(ge=1, le=200) = needed("values per decade")
 
     def _problems(self, context):
         if not self.minimum < self.maximum:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Literal
-
-from pydantic import Field
+from typing import Literal
 
 from common.config import fields as f
 from common.config.fields import Section, needed, optional
@@ -20,7 +18,7 @@ class ElasticPair(Section):
 
     plane_strain_modulus: f.Modulus = optional('E* of the pair, e.g. "2 MPa"')
     youngs_modulus: f.Modulus = optional('Young\'s modulus, e.g. "3 GPa"')
-    poisson_ratio: Annotated[float, Field(gt=-1, le=0.5)] = optional("Poisson's ratio")
+    poisson_ratio: f.number(gt=-1, le=0.5) = optional("Poisson's ratio")
     work_of_adhesion: f.Energy = needed('work of adhesion of the pair, e.g. "50 mJ/m^2"')
     range: f.Range = needed('range of the attraction, e.g. "0.2 nm"')
 
@@ -47,8 +45,8 @@ class Material(ElasticPair, f.Labelled):
         (*_MODULI, *(f"youngs_modulus_{kind} and poisson_ratio" for kind in ("table", "prony"))),
     )
 
-    youngs_modulus_table: Annotated[list[f.both(f.Frequency, f.Modulus)], Field(min_length=2)] = (
-        optional('pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]')
+    youngs_modulus_table: f.AtLeastTwo[f.both(f.Frequency, f.Modulus)] = optional(
+        'pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]'
     )
     youngs_modulus_prony: Prony = optional("Prony series of Young's modulus")
     thickness: f.Thickness = optional("thickness of a layer; without it infinitely deep")

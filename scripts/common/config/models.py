@@ -39,7 +39,7 @@ WITHIN_TABLE = {
     ),
 }
 
-AtMost = Annotated[int, Field(ge=2, le=128)]
+AtMost = f.whole(ge=2, le=128)
 Estimator = Literal["multilevel", "plain"]
 Axis = Annotated[
     f.Values,
@@ -57,7 +57,7 @@ class Fidelity(Section):
     """
 
     pixels_per_wavelength: f.Pixels = needed("grid points per shortest wavelength")
-    tolerance: Annotated[float, Field(gt=0, le=1e-3)] = needed("residual of the solver over h_rms")
+    tolerance: f.number(gt=0, le=1e-3) = needed("residual of the solver over h_rms")
     seeds: f.Count = needed("realisations of a case")
     coarse_seeds: f.CoarseCount = optional("realisations on the coarse grid only; default 64")
     comparisons: f.Several[str] = optional("which of comparisons.surfaces to compute; default all")
@@ -71,7 +71,7 @@ class Sampling(Section):
     """
 
     method: Estimator = needed("how the mean is estimated")
-    descriptor_seeds: Annotated[int, Field(ge=100, le=100000)] = needed(
+    descriptor_seeds: f.whole(ge=100, le=100000) = needed(
         "realisations of which only the long waves are used"
     )
     at_most: AtMost = optional("largest number of seeds chosen for an accuracy; default 128")
@@ -82,7 +82,7 @@ class Band(Section):
 
     hurst: f.Hurst
     magnification: f.Magnification
-    window: Annotated[float, Field(ge=1)] = optional("side of the cell over 2 pi/q0; default 1")
+    window: f.number(ge=1) = optional("side of the cell over 2 pi/q0; default 1")
 
 
 class BandWithPlateau(Band):
@@ -135,7 +135,7 @@ class Case(Section):
 class Comparison(Band):
     """A surface on which theory is compared with simulation."""
 
-    seeds: Annotated[int, Field(ge=2, le=10000)] = needed("realisations")
+    seeds: f.whole(ge=2, le=10000) = needed("realisations")
     coarse_seeds: f.CoarseCount = optional("realisations on the coarse grid only; default none")
     pixels_per_wavelength: f.Pixels = optional("upper limit of the number of the fidelity")
 
@@ -417,7 +417,7 @@ class RemainingSet(BandWithPlateau, Campaign):
 
     one_of = (("zones", "ranges"),)
 
-    points: Annotated[int, Field(ge=32, multiple_of=2)]
+    points: f.whole(ge=32, multiple_of=2)
 
     def _problems(self, context):
         yield from super()._problems(context)

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator
 
 from common.config import fields as f
 from common.config.entries import measurements
@@ -21,25 +21,16 @@ _BUILTIN = "builtin:jacksboro"
 class Direction(Section):
     """Direction of a rough surface."""
 
-    anisotropy: Annotated[float, Field(ge=1, le=100)] = optional(
-        "ratio of the long to the short correlation length; default 1"
-    )
-    angle: Annotated[float, Field(ge=-180, le=180)] = optional(
-        "direction of the long correlation length from x, in degrees"
-    )
+    anisotropy: f.number(ge=1, le=100) = optional("long over short correlation length; default 1")
+    angle: f.number(ge=-180, le=180) = optional("of the long correlation length from x, in degrees")
 
 
-class RealSurface(f.Labelled):
-    """What every real surface has."""
-
-    kind: Literal["self_affine", "measured"] = needed("parameters of a spectrum, or a measurement")
-
-
-class SelfAffine(RealSurface, Direction):
+class SelfAffine(f.Labelled, Direction):
     """A surface of `kind: self_affine`."""
 
     one_of = (("longest_wavelength", "q0"), ("shortest_wavelength", "q1"), ("h_rms", "C0"))
 
+    kind: Literal["self_affine", "measured"] = needed("parameters of a spectrum, or a measurement")
     hurst: f.Hurst
     longest_wavelength: f.Length = optional('longest wavelength, e.g. "6 mm"; or give q0')
     shortest_wavelength: f.Length = optional('shortest wavelength, e.g. "1 um"; or give q1')
@@ -75,9 +66,7 @@ LengthUnit = Annotated[str, AfterValidator(lambda unit: f.Quantity(f"1 {unit}", 
 class Reading(Section):
     """How a measured file is read and analysed."""
 
-    file: f.Text = needed(
-        'path of a file of any instrument, .nc, .npz, .npy or text, or "builtin:jacksboro"'
-    )
+    file: f.Text = needed('file of any instrument, .nc, .npz, .npy, text or "builtin:jacksboro"')
     format: f.Text = optional(
         "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
     )
@@ -91,19 +80,15 @@ class Reading(Section):
     missing: Literal["fill", "crop", "refuse"] = optional(
         "interpolate missing points, cut to the largest rectangle without any, or stop"
     )
-    max_missing: Annotated[float, Field(ge=0, lt=1)] = optional("largest share that is filled")
+    max_missing: f.number(ge=0, lt=1) = optional("largest share that is filled")
     missing_rim: f.by_type(str, Literal["detect"], f.Index) = optional(
         "points dropped around missing ones; default detect: as far as they stand out"
     )
     spikes: Literal["mask", "keep"] = optional(
         "treat single points far off all their neighbours as missing (default), or keep them"
     )
-    detrend: Literal["mean", "plane", "quadratic"] = optional(
-        "what to subtract from the heights; quadratic for curved specimens"
-    )
-    window: Literal["none", "hann", "hann_radial"] = optional(
-        "taper of the heights; none only for periodic heights"
-    )
+    detrend: Literal["mean", "plane", "quadratic"] = optional("what to subtract from the heights")
+    window: Literal["none", "hann", "hann_radial"] = optional("taper; none for periodic heights")
     fit_from: f.Length = optional("longest wavelength of the fit; default a quarter of the side")
     fit_to: f.Length = optional("shortest wavelength of the fit; overrides the next three")
     resolution: f.Length = optional("shortest wavelength that the instrument resolves")
@@ -125,12 +110,8 @@ class Contact(Section):
     shortest_wavelength: f.Length = optional("shortest wavelength to keep")
     measurement: f.Index = optional("which of `measurements`, counted from 0; default the first")
     periodic: bool = optional("true: the heights are periodic and pressed on the grid of the file")
-    most_points: Annotated[int, Field(ge=64, le=8192)] = optional(
-        "largest grid along a side; default 2048"
-    )
-    adhesion: ElasticPair = optional(
-        "contact with full adhesion on approach, attraction that decays exponentially, as well"
-    )
+    most_points: f.whole(ge=64, le=8192) = optional("largest grid along a side; default 2048")
+    adhesion: ElasticPair = optional("contact on approach with exponential attraction as well")
 
     def _problems(self, context):
         with_unit = [isinstance(pressure, f.Quantity) for pressure in self.pressures]
@@ -143,7 +124,7 @@ class Contact(Section):
                 yield f"{key} needs bem.adhesion, which gives the modulus; {remedy}"
 
 
-class Measured(RealSurface, Reading):
+class Measured(f.Labelled, Reading):
     """A surface of `kind: measured`.
 
     Keys of reading apply to every measurement that does not give its own.
@@ -151,16 +132,13 @@ class Measured(RealSurface, Reading):
 
     one_of = (("file", "measurements"),)
 
-    file: f.Text = optional("path of the file, as below")
-    measurements: Annotated[list[Reading], Field(min_length=2)] = optional(
-        "several files of one surface, averaged into one spectrum"
-    )
+    kind: Literal["measured"] = needed("a measurement")
+    file: f.Text = optional("as in a measurement")
+    measurements: f.AtLeastTwo[Reading] = optional("several files, averaged into one spectrum")
     plausibility: Literal["check", "ignore"] = optional(
         "check (default): no verdict on data that no surface has; ignore: a verdict all the same"
     )
-    extend_to: f.Length = optional(
-        "shortest wavelength to which the fitted law is extended beyond the instrument"
-    )
+    extend_to: f.Length = optional("wavelength to which the fit is extended beyond the instrument")
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
     def _problems(self, context):
@@ -182,11 +160,9 @@ class Measured(RealSurface, Reading):
             yield f"missing = 'crop' {breaks} missing: fill or refuse"
 
 
-def _is_measured(given):
-    return isinstance(given, dict) and given.get("kind") == "measured"
-
-
-Surface = f.choose(_is_measured, Measured, SelfAffine)
+Surface = f.choose(
+    lambda given: isinstance(given, dict) and given.get("kind") == "measured", Measured, SelfAffine
+)
 
 
 class Surfaces(Section):
