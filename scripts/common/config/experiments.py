@@ -10,6 +10,7 @@ from pydantic import WithJsonSchema, model_validator
 from common.config import fields as f
 from common.config.entries import OBSERVED_UNITS, conditions_of
 from common.config.fields import Section, needed, optional
+from stickiness.criteria.registry import CRITERIA
 
 _NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
 # Quantity that a relation gives.
@@ -18,10 +19,6 @@ _RELATIONS = {
     "cycle_loss": "work_of_separation",
     "energy_ratio": "limiting_roughness",
 }
-Criterion = Literal[
-    *("remaining_adhesion", "edge_adhesion", "violano", "violano_constant", "violano_printed"),
-    *("pastewka_robbins", "fuller_tabor", "bearing_area", "persson_tosatti", "dahlquist"),
-]
 
 
 class KnownValue(Section, Generic[f.T]):
@@ -50,7 +47,7 @@ class KnownValue(Section, Generic[f.T]):
     def _require_its_source(cls, given):
         if not isinstance(given, dict):
             plain = f'"{given}"' if isinstance(given, str) else given
-            raise f.Refusal(
+            raise ValueError(
                 f" = {given!r} must say how it is known: write {{value: {plain}, known: "
                 "measured}, or read, recalled, assumed instead of measured"
             )
@@ -99,7 +96,9 @@ class Observed(KnownValue[Any]):
     level: f.number(gt=0, lt=1) = optional(
         "share of the adhesion that is left at the limiting roughness; default 0.1"
     )
-    silent: f.Several[Criterion] = optional("criteria in whose terms the observation was stated")
+    silent: f.Several[Literal[tuple(CRITERIA)]] = optional(
+        "criteria in whose terms the observation was stated"
+    )
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
     factor: f.Interval[f.Positive] = optional(
         "limits of true over nominal area or of the energy ratio"
@@ -120,7 +119,7 @@ class Observed(KnownValue[Any]):
         elif (unit := OBSERVED_UNITS[self.quantity]) is not None:
             try:
                 low, high = f.Quantity(low, unit), f.Quantity(high, unit)
-            except f.Refusal as error:
+            except ValueError as error:
                 yield f"{field}{error}"
             if not low > 0:
                 yield f"{field} = {getattr(self, field)!r} must be positive"

@@ -34,15 +34,12 @@ def _complete_schema(schema, section):
         schema.setdefault("allOf", []).append({"oneOf": choices})
 
 
-class Refusal(ValueError):
-    """What is wrong, in words that go on where the path of the key ends."""
-
-
 class Section(BaseModel):
     """Keys that stand together.
 
     Models check a configuration and document it; rules and scripts receive the plain dictionaries
     that were checked. The docstring of a model introduces its table in docs/configuration.md.
+    Errors are words that go on where the path of the key ends.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_complete_schema)
@@ -59,21 +56,21 @@ class Section(BaseModel):
         fields = cls.model_fields
         for key in given if cls.model_config["extra"] == "forbid" else ():
             if key in cls.elsewhere:
-                raise Refusal(f": the key {key!r} {cls.elsewhere[key]}")
+                raise ValueError(f": the key {key!r} {cls.elsewhere[key]}")
             if key not in fields:
-                raise Refusal(f": unknown key {key!r}; {suggest(key, fields)}")
+                raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():
             if field.is_required() and key not in given:
-                raise Refusal(f": the key {key!r} is missing ({field.description})")
+                raise ValueError(f": the key {key!r} is missing ({field.description})")
         for group in cls.one_of:
             if sum(given.keys() >= {*choice.split(" and ")} for choice in group) != 1:
-                raise Refusal(f": give exactly one of: {'; '.join(group)}")
+                raise ValueError(f": give exactly one of: {'; '.join(group)}")
         return given
 
     @model_validator(mode="after")
     def _check_together(self, info: ValidationInfo):
         for problem in self._problems(info.context or {}):
-            raise Refusal(problem if problem.startswith(":") else f".{problem}")
+            raise ValueError(problem if problem.startswith(":") else f".{problem}")
         return self
 
     def _problems(self, context):
@@ -85,11 +82,11 @@ class Quantity(float):
     """A value in SI units, written as it was given: ``'50 um'``."""
 
     def __new__(cls, text: str, unit: str) -> Quantity:
-        """Read a text; a `Refusal` says what is wrong with it."""
+        """Read a text; a ValueError says what is wrong with it."""
         try:
             value = super().__new__(cls, si(text, unit))
         except ValueError as error:
-            raise Refusal(f" = {error}") from None
+            raise ValueError(f" = {error}") from None
         value.text = text
         return value
 
@@ -125,7 +122,7 @@ def demand(test: Callable[[Any], bool], text: str) -> AfterValidator:
 
     def check(value: Any) -> Any:
         if not test(value):
-            raise Refusal(f" = {value!r} {text}")
+            raise ValueError(f" = {value!r} {text}")
         return value
 
     return AfterValidator(check)
@@ -168,9 +165,9 @@ def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
     def read(given: Any) -> Quantity:
         value = Quantity(given, unit)
         if not value > 0:
-            raise Refusal(f" = {given!r} must be positive")
+            raise ValueError(f" = {given!r} must be positive")
         if low and not si(low, unit) <= value <= si(high, unit):
-            raise Refusal(f" = {given!r} must be in {low} … {high}; no solid is beyond")
+            raise ValueError(f" = {given!r} must be in {low} … {high}; no solid is beyond")
         return value
 
     schema = WithJsonSchema({"type": "string", "quantity": word})

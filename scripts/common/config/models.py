@@ -25,19 +25,18 @@ PAPER = {
     "adhesion": ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error"),
     "loops": ("fig4a",),
 }
-# Keys of criteria that must lie within an axis of the table of a_V.
-WITHIN_TABLE = {
-    "pressure": ("a_v.pressure",),
-    "hurst": ("map.hurst", "compared.hurst"),
-    "magnification": (
-        *("compared.magnification.minimum", "compared.magnification.maximum"),
-        "compared.quoted_magnification",
-    ),
-    "range, inverted:": (
-        *("compared.h_rms_over_range.minimum", "compared.h_rms_over_range.maximum"),
-        "compared.quoted_h_rms_over_range",
-    ),
-}
+# Keys of criteria, and axes of the table of a_V within which they must lie.
+WITHIN_TABLE = (
+    ("a_v.pressure", "pressure"),
+    ("map.hurst", "hurst"),
+    ("compared.hurst", "hurst"),
+    ("compared.magnification.minimum", "magnification"),
+    ("compared.magnification.maximum", "magnification"),
+    ("compared.quoted_magnification", "magnification"),
+    ("compared.h_rms_over_range.minimum", "range, inverted:"),
+    ("compared.h_rms_over_range.maximum", "range, inverted:"),
+    ("compared.quoted_h_rms_over_range", "range, inverted:"),
+)
 
 AtMost = f.whole(ge=2, le=128)
 Estimator = Literal["multilevel", "plain"]
@@ -322,17 +321,17 @@ class Configuration(Section):
                 yield f.unknown(key, name, known)
         for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
             yield f"comparisons.surfaces.{name} has the name of a case; give it another"
-        for name, user in self._simulated().items():
-            for key in ("quantities", "model"):
-                value = getattr(self.cases[name], key)
+        for user, key, case, loads in self._uses():
+            for key_of_case in ("quantities", "model"):
+                value = getattr(self.cases[case], key_of_case)
                 if value not in (None, "simulation"):
                     yield (
-                        f"cases.{name}.{key} = {value!r}: leave it out, {user} needs every "
+                        f"cases.{case}.{key_of_case} = {value!r}: leave it out, {user} needs every "
                         "quantity by simulation; or add a case"
                     )
-        for key, pressure, case in self._loads():
-            if pressure not in self.cases[case].pressures:
-                yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
+            for load in loads:
+                if load not in self.cases[case].pressures:
+                    yield f"{key} = {load:g} is not among the pressures of cases.{case}"
         for key, value, axis, low, high in self._limits():
             if not low <= value <= high:
                 yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
@@ -350,18 +349,15 @@ class Configuration(Section):
             yield f"adhesion.{key}.case", asked.case, self.cases
         yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
 
-    def _simulated(self):
-        """Return what needs every quantity of a case, by names of cases."""
-        users = dict.fromkeys(PAPER["cases"], "the paper's figures and claims")
-        users |= {asked.case: f"adhesion.{key}" for key, asked in self.adhesion.items()}
-        return users | {self.criteria.a_v.case: "criteria.a_v"}
-
-    def _loads(self):
-        """Yield keys of loads at which a case must be solved: key, load, and case."""
-        for key, asked in self.adhesion.items():
-            for pressure in asked.pressures:
-                yield f"adhesion.{key}.pressures", pressure, asked.case
-        yield "criteria.a_v.pressure", self.criteria.a_v.pressure, self.criteria.a_v.case
+    def _uses(self):
+        """Yield what needs every quantity of a case: who does, and key, case and loads."""
+        a_v = self.criteria.a_v
+        yield "criteria.a_v", "criteria.a_v.pressure", a_v.case, [a_v.pressure]
+        for name, asked in reversed(self.adhesion.items()):
+            user = f"adhesion.{name}"
+            yield user, f"{user}.pressures", asked.case, asked.pressures
+        for case in PAPER["cases"]:
+            yield "the paper's figures and claims", "", case, []
 
     def _limits(self):
         """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
@@ -375,10 +371,9 @@ class Configuration(Section):
         table = self.theory.table
         axes = dict(table)
         axes["range, inverted:"] = 1 / table.range.maximum, 1 / table.range.minimum
-        for axis, keys in WITHIN_TABLE.items():
+        for key, axis in WITHIN_TABLE:
             limits = f"theory.table.{axis}", axes[axis][0], axes[axis][-1]
-            for key in keys:
-                yield f"criteria.{key}", attrgetter(key)(self.criteria), *limits
+            yield f"criteria.{key}", attrgetter(key)(self.criteria), *limits
 
 
 class Campaign(Section):

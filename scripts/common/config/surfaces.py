@@ -50,7 +50,7 @@ class SelfAffine(f.Labelled, Direction):
             yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
         try:
             prefactors = [f.Quantity(one, f"m^{2 - 2 * self.hurst:g}") for one in _listed(self.C0)]
-        except f.Refusal as error:
+        except ValueError as error:
             yield f"C0{error}"
         for key, values in (("C0", prefactors), ("h_rms", _listed(self.h_rms))):
             if not all(value > 0 for value in values):
