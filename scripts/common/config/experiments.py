@@ -28,9 +28,7 @@ class KnownValue(Section, Generic[f.T]):
 
     # The reference shows one table for the values of all keys.
     value: Annotated[f.T, WithJsonSchema({})] = optional("the value, with its unit if it has one")
-    between: Annotated[f.Interval[f.T], WithJsonSchema({})] = optional(
-        "what is plausible, [low, high]; swept"
-    )
+    between: Annotated[f.Interval[f.T], WithJsonSchema({})] = optional("[low, high]; swept")
     known: Literal["measured", "read", "recalled", "assumed"] = needed(
         "measured: by you; read: stands in a public text that was read; recalled: known from the "
         "literature, not checked; assumed: chosen or inferred here"
@@ -48,7 +46,7 @@ class KnownValue(Section, Generic[f.T]):
         if not isinstance(given, dict):
             plain = f'"{given}"' if isinstance(given, str) else given
             raise ValueError(
-                f" = {given!r} must say how it is known: write {{value: {plain}, known: "
+                f"{given!r} must say how it is known: write {{value: {plain}, known: "
                 "measured}, or read, recalled, assumed instead of measured"
             )
         return given
@@ -93,16 +91,12 @@ class Observed(KnownValue[Any]):
     between: f.Pair[Any] = optional("what is plausible, [low, high]")
     quantity: Literal[(*OBSERVED_UNITS, "sticks")] = needed("what was observed")
     relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
-    level: f.number(gt=0, lt=1) = optional(
-        "share of the adhesion that is left at the limiting roughness; default 0.1"
-    )
+    level: f.number(gt=0, lt=1) = optional("share left at the limiting roughness; default 0.1")
     silent: f.Several[Literal[tuple(CRITERIA)]] = optional(
         "criteria in whose terms the observation was stated"
     )
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
-    factor: f.Interval[f.Positive] = optional(
-        "limits of true over nominal area or of the energy ratio"
-    )
+    factor: f.Interval[f.Positive] = optional("limits of the ratio of areas or of energies")
 
     def _problems(self, context):
         field = "value" if self.between is None else "between"
@@ -120,7 +114,7 @@ class Observed(KnownValue[Any]):
             try:
                 low, high = f.Quantity(low, unit), f.Quantity(high, unit)
             except ValueError as error:
-                yield f"{field}{error}"
+                yield f"{field} = {error}"
             if not low > 0:
                 yield f"{field} = {getattr(self, field)!r} must be positive"
         else:

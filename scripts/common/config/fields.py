@@ -39,7 +39,8 @@ class Section(BaseModel):
 
     Models check a configuration and document it; rules and scripts receive the plain dictionaries
     that were checked. The docstring of a model introduces its table in docs/configuration.md.
-    Errors are words that go on where the path of the key ends.
+    An error goes on behind the path of the key: with a colon, a dot and a further key, or else with
+    its value.
     """
 
     model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_complete_schema)
@@ -74,7 +75,7 @@ class Section(BaseModel):
         return self
 
     def _problems(self, context):
-        """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
+        """Yield what is wrong with several keys together: ``: …`` or ``key = value …``."""
         return ()
 
 
@@ -83,18 +84,12 @@ class Quantity(float):
 
     def __new__(cls, text: str, unit: str) -> Quantity:
         """Read a text; a ValueError says what is wrong with it."""
-        try:
-            value = super().__new__(cls, si(text, unit))
-        except ValueError as error:
-            raise ValueError(f" = {error}") from None
+        value = super().__new__(cls, si(text, unit))
         value.text = text
         return value
 
     def __repr__(self) -> str:
         return repr(self.text)
-
-    def __str__(self) -> str:
-        return self.text
 
 
 def unknown(key: str, value: str, known: Iterable[str]) -> str:
@@ -122,7 +117,7 @@ def demand(test: Callable[[Any], bool], text: str) -> AfterValidator:
 
     def check(value: Any) -> Any:
         if not test(value):
-            raise ValueError(f" = {value!r} {text}")
+            raise ValueError(f"{value!r} {text}")
         return value
 
     return AfterValidator(check)
@@ -165,9 +160,9 @@ def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
     def read(given: Any) -> Quantity:
         value = Quantity(given, unit)
         if not value > 0:
-            raise ValueError(f" = {given!r} must be positive")
+            raise ValueError(f"{given!r} must be positive")
         if low and not si(low, unit) <= value <= si(high, unit):
-            raise ValueError(f" = {given!r} must be in {low} … {high}; no solid is beyond")
+            raise ValueError(f"{given!r} must be in {low} … {high}; no solid is beyond")
         return value
 
     schema = WithJsonSchema({"type": "string", "quantity": word})

@@ -133,7 +133,8 @@ def one_line(error: Mapping[str, Any]) -> str:
     path = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)[1:]
     value, details = error["input"], error.get("ctx", {})
     if error["type"] == "value_error":
-        return f"{path}{details['error']}".lstrip(":. ")
+        text = str(details["error"])
+        return f"{path}{text}".lstrip(":. ") if text[0] in ":." else f"{path} = {text}"
     if error["type"] == "literal_error":
         choices = (word for word in re.findall(r"[\w.]+", details["expected"]) if word != "or")
         return unknown(path, value, choices)

@@ -58,12 +58,12 @@ class Material(ElasticPair, f.Labelled):
     def _problems(self, context):
         frequencies = [frequency for frequency, _ in self.youngs_modulus_table or []]
         if any(b <= a for a, b in pairwise(frequencies)):
-            listed = ", ".join(map(str, frequencies))
+            listed = ", ".join(frequency.text for frequency in frequencies)
             yield f"youngs_modulus_table = {listed}: frequencies must ascend"
         if frequencies and not frequencies[0] <= 1 <= frequencies[-1]:
             yield (
-                f"youngs_modulus_table runs from {frequencies[0]} to {frequencies[-1]} and must "
-                "cover 1 Hz, at which the verdict is quoted"
+                f"youngs_modulus_table runs from {frequencies[0].text} to {frequencies[-1].text} "
+                "and must cover 1 Hz, at which the verdict is quoted"
             )
         if self.surface is not None and self.surface not in context["surfaces"]:
             yield f.unknown("surface", self.surface, context["surfaces"])

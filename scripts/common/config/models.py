@@ -70,9 +70,7 @@ class Sampling(Section):
     """
 
     method: Estimator = needed("how the mean is estimated")
-    descriptor_seeds: f.whole(ge=100, le=100000) = needed(
-        "realisations of which only the long waves are used"
-    )
+    descriptor_seeds: f.whole(ge=100, le=100000) = needed("realisations for long waves alone")
     at_most: AtMost = optional("largest number of seeds chosen for an accuracy; default 128")
 
 
@@ -84,24 +82,19 @@ class Band(Section):
     window: f.number(ge=1) = optional("side of the cell over 2 pi/q0; default 1")
 
 
-class BandWithPlateau(Band):
-    """A spectrum that may be flat at long waves."""
-
-    rolloff: f.Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
-
-    def _problems(self, context):
-        if self.rolloff is not None and self.rolloff >= self.magnification:
-            limit = f"magnification = {self.magnification:g}"
-            yield f"rolloff = {self.rolloff:g} must be below {limit}"
-
-
-class ModelSurface(BandWithPlateau, Direction):
+class ModelSurface(Band, Direction):
     """A random periodic surface.
 
     Error models were measured with gaussian amplitudes (the default) and without a roll-off.
     """
 
+    rolloff: f.Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
     amplitudes: Literal["gaussian", "fixed"] = optional("amplitudes of the modes")
+
+    def _problems(self, context):
+        if self.rolloff is not None and self.rolloff >= self.magnification:
+            limit = f"magnification = {self.magnification:g}"
+            yield f"rolloff = {self.rolloff:g} must be below {limit}"
 
 
 class Case(Section):
@@ -181,11 +174,9 @@ class Theory(Section):
 
 
 class FitIntervals(Section):
-    """Fit of a_V to attractive areas."""
+    """Intervals of the fit of a_V; others than the first show their influence."""
 
-    windows: f.Several[f.Interval[f.Positive]] = needed(
-        "fit intervals [low, high] of range/h_rms; the first is quoted, others show its influence"
-    )
+    windows: f.Several[f.Interval[f.Positive]] = needed("of range/h_rms; the first is quoted")
 
 
 class Adhesive(Section):
@@ -407,7 +398,7 @@ class Tradeoff(Campaign):
                     yield f.unknown("presets.accuracy", name, table)
 
 
-class RemainingSet(BandWithPlateau, Campaign):
+class RemainingSet(ModelSurface, Campaign):
     """A surface on which adhesion is simulated."""
 
     one_of = (("zones", "ranges"),)

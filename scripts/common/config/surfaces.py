@@ -51,7 +51,7 @@ class SelfAffine(f.Labelled, Direction):
         try:
             prefactors = [f.Quantity(one, f"m^{2 - 2 * self.hurst:g}") for one in _listed(self.C0)]
         except ValueError as error:
-            yield f"C0{error}"
+            yield f"C0 = {error}"
         for key, values in (("C0", prefactors), ("h_rms", _listed(self.h_rms))):
             if not all(value > 0 for value in values):
                 yield f"{key} = {getattr(self, key)!r} must be positive"
