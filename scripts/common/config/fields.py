@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import inspect
+import re
 from collections.abc import Callable, Iterable, Mapping
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
@@ -27,7 +28,8 @@ T = TypeVar("T")
 
 
 def _complete_schema(schema, section):
-    """Add an inherited docstring, and groups of keys that exclude each other, to a JSON schema."""
+    """Give a JSON schema a title, a docstring, and groups of keys that exclude each other."""
+    schema["title"] = re.sub("(?<=[a-z])(?=[A-Z])", " ", section.__name__).capitalize()
     schema["description"] = inspect.getdoc(section)
     for group in section.one_of:
         choices = [{"required": choice.split(" and ")} for choice in group]
