@@ -61,17 +61,16 @@ def read_modulus(entry):
         return Constant(si(entry["plane_strain_modulus"], "Pa"))
     factor = 1 / (1 - entry["poisson_ratio"] ** 2)
     if "youngs_modulus_table" in entry:
-        frequencies, moduli = zip(*entry["youngs_modulus_table"], strict=True)
-        return Table(
-            tuple(si(frequency, "Hz") for frequency in frequencies),
-            tuple(factor * si(modulus, "Pa") for modulus in moduli),
-        )
+        pairs = [
+            (si(hertz, "Hz"), factor * si(e, "Pa")) for hertz, e in entry["youngs_modulus_table"]
+        ]
+        return Table(*zip(*pairs, strict=True))
     if "youngs_modulus_prony" in entry:
         series = entry["youngs_modulus_prony"]
-        return Prony(
-            factor * si(series["equilibrium"], "Pa"),
-            tuple((factor * si(modulus, "Pa"), si(time, "s")) for modulus, time in series["terms"]),
+        terms = tuple(
+            (factor * si(modulus, "Pa"), si(time, "s")) for modulus, time in series["terms"]
         )
+        return Prony(factor * si(series["equilibrium"], "Pa"), terms)
     return Constant(factor * si(entry["youngs_modulus"], "Pa"))
 
 

@@ -10,13 +10,12 @@ from stickiness.criteria.pair import WORDS
 def summary(results, since, answers=()):
     """Where the report is, how claims and pairs came out, and which cases missed their accuracy.
 
-    `results` is the folder, `answers` those files of cases that ask for an accuracy. Files are left
-    out that were written before `since` [s since the epoch], which are of an earlier run.
+    `answers` are the files of cases with an accuracy. Files that were written before `since` [s
+    since the epoch] are left out.
     """
 
     def find(pattern):
-        paths = sorted(Path(results).glob(pattern))
-        return [path for path in paths if path.stat().st_mtime >= since]
+        return [path for path in Path(results).glob(pattern) if path.stat().st_mtime >= since]
 
     lines = [("results", results)]
     lines += [("report", path) for path in find("report/report.html")]
@@ -28,7 +27,7 @@ def summary(results, since, answers=()):
     found = [datasets.read(path) for path in answers if Path(path).exists()]
     lines += [("missed", one.attrs["missed"]) for one in found if "missed" in one.attrs]
     if pages := find("report/surfaces/*.html"):
-        lines.append(("pages", ", ".join(map(str, pages))))
+        lines.append(("pages", ", ".join(sorted(map(str, pages)))))
     return "\n".join(f"  {what:<9} {text}" for what, text in lines)
 
 

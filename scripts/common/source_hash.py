@@ -54,10 +54,9 @@ def imported_names(tree: ast.Module) -> set[str]:
     """Dotted names of everything imported, and of the packages on the way to it."""
     names = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            package = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+            names |= {package + alias.name for alias in node.names}
     parts = (name.split(".") for name in names)
     return {".".join(each[: end + 1]) for each in parts for end in range(len(each))}
 

@@ -13,10 +13,7 @@ _FREEDOMS = {"reassoc", "contract", "nsz"}
 
 
 def compiled(function):
-    """Compile a function of arrays and numbers at its first call.
-
-    Imports numba then: most programs of a workflow solve nothing and start faster without it.
-    """
+    """Compile a function of arrays and numbers at its first call."""
     made = None
 
     @wraps(function)
@@ -34,7 +31,7 @@ def compiled(function):
 
 
 def _compile(function, *, cache):
-    import numba  # noqa: PLC0415 - see `compiled`
+    import numba  # noqa: PLC0415 - most programs of a workflow solve nothing, and start faster
 
     options = {"fastmath": _FREEDOMS, "error_model": "numpy", "nogil": True}
     try:

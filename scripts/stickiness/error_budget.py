@@ -30,12 +30,10 @@ class ErrorComponent:
 
 
 def not_applicable(why: str) -> ErrorComponent:
-    """ErrorComponent of a source that does not apply."""
     return ErrorComponent(0.0, f"none, {why}")
 
 
 def unknown_error(why: str) -> ErrorComponent:
-    """ErrorComponent of a source that contributes, by an amount that is not known."""
     return ErrorComponent(np.nan, f"not known, {why}")
 
 

@@ -32,15 +32,13 @@ _ASKED_BACK = {
 }
 
 
-CACHE = "STICKINESS_UNITS"  #: environment variable: folder in which pint keeps units, ready made
-
-
 @cache
 def _registry() -> pint.UnitRegistry:
     import pint
 
+    # Folder in which pint keeps units, ready made.
     with contextlib.suppress(Exception):  # no such variable, a folder or file that is of no use
-        return pint.UnitRegistry(cache_folder=os.environ[CACHE])
+        return pint.UnitRegistry(cache_folder=os.environ["STICKINESS_UNITS"])
     return pint.UnitRegistry()
 
 

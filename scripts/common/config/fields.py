@@ -5,7 +5,7 @@ from __future__ import annotations
 import difflib
 import inspect
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from pydantic import (
@@ -48,8 +48,6 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_complete_schema)
     #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    #: Keys that stand elsewhere, and where.
-    elsewhere: ClassVar[Mapping[str, str]] = {}
 
     @model_validator(mode="before")
     @classmethod
@@ -58,8 +56,6 @@ class Section(BaseModel):
             return given
         fields = cls.model_fields
         for key in given if cls.model_config["extra"] == "forbid" else ():
-            if key in cls.elsewhere:
-                raise ValueError(f": the key {key!r} {cls.elsewhere[key]}")
             if key not in fields:
                 raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():

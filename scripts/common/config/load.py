@@ -118,6 +118,8 @@ def check(model: type, content: Mapping[str, Any], file: str, **context: Any) ->
     """Check the content of a file against its model; a ConfigError says what is wrong first."""
     from pydantic import ValidationError
 
+    for key in CAMPAIGNS.keys() & content.keys():
+        raise ConfigError(f"{file}: the key {key!r} is gone: {CAMPAIGNS[key]} holds that campaign")
     try:
         model.model_validate(content, context=context)
     except ValidationError as error:

@@ -275,11 +275,6 @@ class Criteria(Section):
 class Configuration(Section):
     """The user's configuration, together with that of the paper's figures."""
 
-    elsewhere = {
-        name: f"is gone: config/campaigns/{name}.yaml holds that campaign"
-        for name in ("tradeoff", "remaining")
-    }
-
     results: f.Text = needed("folder for everything that is computed, with one for each fidelity")
     fidelity: str = needed("preset to use: draft, standard, fine or one of your own")
     seeds: f.Count = optional("number of realisations; overrides the preset's")
