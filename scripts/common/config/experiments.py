@@ -13,12 +13,19 @@ from common.config.fields import Section, needed, optional
 from stickiness.criteria.registry import CRITERIA
 
 _NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
+_OF_ONE_SOLID = {"youngs_modulus", "poisson_ratio"}
+_WAVES = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
 # Quantity that a relation gives.
 _RELATIONS = {
     "conformal_contact": "work_of_approach",
     "cycle_loss": "work_of_separation",
     "energy_ratio": "limiting_roughness",
 }
+
+
+def _ends(known):
+    """Return both ends of what is plausible, or the value twice."""
+    return known.get("between") or (known["value"], known["value"])
 
 
 class KnownValue(Section, Generic[f.T]):
@@ -149,36 +156,24 @@ class Experiment(Conditions):
     def _problems(self, context):
         experiment = self.model_dump(exclude_unset=True)
         for name, case in experiment["cases"].items():
-            conditions = conditions_of(experiment, case)
-            for problem in _condition_problems(conditions, case["observed"]["quantity"]):
-                yield f"cases.{name}{problem}"
+            given, path = conditions_of(experiment, case), f"cases.{name}"
+            is_limit = case["observed"]["quantity"] == "limiting_roughness"
+            for key in _NEEDED if is_limit else (*_NEEDED, "h_rms"):
+                if key not in given:
+                    yield f"{path}: the key {key!r} is missing, here and in the experiment"
+            if {"plane_strain_modulus", "youngs_modulus"} <= given.keys():
+                yield f"{path}: give one of plane_strain_modulus and youngs_modulus"
+            if not ("plane_strain_modulus" in given or given.keys() >= _OF_ONE_SOLID):
+                yield f"{path}: give plane_strain_modulus, or youngs_modulus and poisson_ratio"
+            # The longest of the shorter waves must be below the shortest of the longer ones.
+            for shorter, longer in pairwise(key for key in _WAVES if key in given):
+                most, least = _ends(given[shorter])[1], _ends(given[longer])[0]
+                if not most < least:
+                    text = f"{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"
+                    yield f"{path}.{text}"
 
 
 class Experiments(Section):
     """The file of experiments."""
 
     experiments: f.Names[Experiment] = needed("published experiments by name")
-
-
-def _ends(known):
-    """Return both ends of what is plausible, or the value twice."""
-    return known.get("between") or (known["value"], known["value"])
-
-
-def _condition_problems(conditions, quantity):
-    for key in _NEEDED if quantity == "limiting_roughness" else (*_NEEDED, "h_rms"):
-        if key not in conditions:
-            yield f": the key {key!r} is missing, here and in the experiment"
-            return
-    if {"plane_strain_modulus", "youngs_modulus"} <= conditions.keys():
-        yield ": give one of plane_strain_modulus and youngs_modulus"
-    elif "plane_strain_modulus" not in conditions and not (
-        {"youngs_modulus", "poisson_ratio"} <= conditions.keys()
-    ):
-        yield ": give plane_strain_modulus, or youngs_modulus and poisson_ratio"
-    # The longest of the shorter waves must be below the shortest of the longer ones.
-    waves = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
-    for shorter, longer in pairwise(key for key in waves if key in conditions):
-        most, least = _ends(conditions[shorter])[1], _ends(conditions[longer])[0]
-        if not most < least:
-            yield f".{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"

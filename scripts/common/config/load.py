@@ -1,7 +1,7 @@
 """Reading the configuration, and checking it before any job starts.
 
 An error is one line that names file, key and value and says what would be right. The models are
-imported only where they are used, since jobs read a configuration that was checked before.
+imported where they are used, since jobs read a configuration that was checked before.
 """
 
 from __future__ import annotations

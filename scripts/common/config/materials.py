@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from typing import Literal
 
 from common.config import fields as f
@@ -57,7 +56,7 @@ class Material(ElasticPair, f.Labelled):
 
     def _problems(self, context):
         frequencies = [frequency for frequency, _ in self.youngs_modulus_table or []]
-        if any(b <= a for a, b in pairwise(frequencies)):
+        if frequencies != sorted(set(frequencies)):
             listed = ", ".join(frequency.text for frequency in frequencies)
             yield f"youngs_modulus_table = {listed}: frequencies must ascend"
         if frequencies and not frequencies[0] <= 1 <= frequencies[-1]:
