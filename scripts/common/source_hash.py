@@ -13,10 +13,9 @@ CACHE = Path(".snakemake/source_hashes.json")  # below the folder of the run
 
 
 def source_hash(script: str) -> str:
-    """Return a hash of a script and of all modules below ``scripts/`` that it imports.
+    """Return a hash of a script, given by its path below ``scripts/``, and of its imports there.
 
-    A rule has it among its parameters, so that a job runs again when its code changes. A script is
-    given by its path below ``scripts/``, such as ``"adhesion/solve_adhesive.py"``.
+    A rule has it among its parameters, so that a job runs again when its code changes.
     """
     digests, queue = {}, [SCRIPTS / script]
     while queue:

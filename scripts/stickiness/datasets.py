@@ -57,9 +57,7 @@ def write(
 ) -> None:
     """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
-    Variables that are texts are written without units. A `DatasetError` names a variable that lacks
-    `long_name`, `units` though it holds numbers, or `nan_means` though it holds values that are not
-    finite; with a `WriteError` the old file is left as it was.
+    Every variable needs `long_name`, numbers need `units`, and `nan_means` if some are not finite.
     """
     path = Path(path)
     # Last parts of a path tell a result from others, wherever all of them are moved.

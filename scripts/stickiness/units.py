@@ -51,13 +51,7 @@ def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
     A ValueError says which kind of quantity the value is and which is wanted. It suggests a unit
-    for one that does not exist, and asks back for units that are nearly always typing errors, such
-    as mPa.
-
-    Examples
-    --------
-    >>> si("50 mJ/m^2", "J/m^2")
-    0.05
+    for one that does not exist, and asks back for units that are nearly always typing errors.
     """
     import pint
 
@@ -78,7 +72,10 @@ def si(value: str, unit: str) -> float:
         quantity = _parsed(value)
         magnitude = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(f"{value!r} {_kind(quantity)}; {wanted}") from None
+        found = _known(quantity.dimensionality)
+        kind = f"is {found[1]}" if found else f"is in {quantity.units:~P}"
+        kind = "has no unit" if quantity.dimensionless else kind
+        raise ValueError(f"{value!r} {kind}; {wanted}") from None
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
         raise ValueError(f"{value!r} cannot be read: {_meant(value, units) or wanted}") from None
     if not math.isfinite(magnitude):
@@ -91,14 +88,6 @@ def _known(dimension: Any) -> tuple[str, str, str, str] | None:
     """Return what messages say of quantities of a dimension."""
     units = _registry().Unit
     return next((q for q in _QUANTITIES if units(q[0]).dimensionality == dimension), None)
-
-
-def _kind(quantity: pint.Quantity) -> str:
-    """Say which kind of quantity a value is, in words."""
-    if quantity.dimensionless:
-        return "has no unit"
-    known = _known(quantity.dimensionality)
-    return f"is {known[1]}" if known else f"is in {quantity.units:~P}"
 
 
 def _meant(value: str, units: str) -> str | None:

@@ -7,8 +7,7 @@ from typing import Any
 
 MOST_POINTS = 2048  #: along a side of the grid that measured heights are pressed on, by default
 
-#: Conditions that a case of an experiment takes from the experiment unless it gives its own, and
-#: their units.
+#: Conditions of an experiment and of its cases, and their units.
 CONDITIONS = {
     "radius": "m",
     "plane_strain_modulus": "Pa",

@@ -13,7 +13,6 @@ from common.config.fields import Section, needed, optional
 from stickiness.criteria.registry import CRITERIA
 
 _NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
-_OF_ONE_SOLID = {"youngs_modulus", "poisson_ratio"}
 _WAVES = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
 # Quantity that a relation gives.
 _RELATIONS = {
@@ -99,9 +98,7 @@ class Observed(KnownValue[Any]):
     quantity: Literal[(*OBSERVED_UNITS, "sticks")] = needed("what was observed")
     relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
     level: f.number(gt=0, lt=1) = optional("share left at the limiting roughness; default 0.1")
-    silent: f.Several[Literal[tuple(CRITERIA)]] = optional(
-        "criteria in whose terms the observation was stated"
-    )
+    silent: f.Several[Literal[tuple(CRITERIA)]] = optional("criteria in whose terms it is stated")
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
     factor: f.Interval[f.Positive] = optional("limits of the ratio of areas or of energies")
 
@@ -161,9 +158,10 @@ class Experiment(Conditions):
             for key in _NEEDED if is_limit else (*_NEEDED, "h_rms"):
                 if key not in given:
                     yield f"{path}: the key {key!r} is missing, here and in the experiment"
-            if {"plane_strain_modulus", "youngs_modulus"} <= given.keys():
+            if given.keys() >= {"plane_strain_modulus", "youngs_modulus"}:
                 yield f"{path}: give one of plane_strain_modulus and youngs_modulus"
-            if not ("plane_strain_modulus" in given or given.keys() >= _OF_ONE_SOLID):
+            of_one_solid = given.keys() >= {"youngs_modulus", "poisson_ratio"}
+            if not ("plane_strain_modulus" in given or of_one_solid):
                 yield f"{path}: give plane_strain_modulus, or youngs_modulus and poisson_ratio"
             # The longest of the shorter waves must be below the shortest of the longer ones.
             for shorter, longer in pairwise(key for key in _WAVES if key in given):

@@ -84,9 +84,7 @@ class Reading(Section):
     missing_rim: f.by_type(str, Literal["detect"], f.Index) = optional(
         "points dropped around missing ones; default detect: as far as they stand out"
     )
-    spikes: Literal["mask", "keep"] = optional(
-        "treat single points far off all their neighbours as missing (default), or keep them"
-    )
+    spikes: Literal["mask", "keep"] = optional("mask (default) points far off their neighbours")
     detrend: Literal["mean", "plane", "quadratic"] = optional("what to subtract from the heights")
     window: Literal["none", "hann", "hann_radial"] = optional("taper; none for periodic heights")
     fit_from: f.Length = optional("longest wavelength of the fit; default a quarter of the side")
@@ -136,7 +134,7 @@ class Measured(f.Labelled, Reading):
     file: f.Text = optional("as in a measurement")
     measurements: f.AtLeastTwo[Reading] = optional("several files, averaged into one spectrum")
     plausibility: Literal["check", "ignore"] = optional(
-        "check (default): no verdict on data that no surface has; ignore: a verdict all the same"
+        "ignore: a verdict on implausible data, too"
     )
     extend_to: f.Length = optional("wavelength to which the fit is extended beyond the instrument")
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
