@@ -31,11 +31,10 @@ class WriteError(DatasetError, OSError):
 
 def provenance() -> dict[str, str]:
     """Versions of this package and of the codes that its numbers depend on."""
-    codes = {f"version_{name.lower()}": version(name) for name in _CODES}
     import pyfftw  # here, not above: figures and reports need no FFTW
 
-    fftw = str(pyfftw.fftw_version)
-    return {"version_stickiness": __version__, **codes, "version_fftw": fftw}
+    codes = {f"version_{name.lower()}": version(name) for name in _CODES}
+    return {"version_stickiness": __version__} | codes | {"version_fftw": str(pyfftw.fftw_version)}
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
@@ -116,10 +115,7 @@ def parameters(dataset: xr.Dataset) -> dict[str, Any]:
 
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
-    """Give a temporary path that replaces `path` on success and vanishes on failure.
-
-    What the operating system refuses is raised as a `WriteError` that names `path`.
-    """
+    """Give a temporary path that replaces `path` on success and vanishes on failure."""
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{uuid4().hex[:8]}{path.suffix}")
     try:

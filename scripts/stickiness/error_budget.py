@@ -2,8 +2,7 @@
 
 A quoted variable ``q`` has three more beside it: ``q_error`` along `SOURCES`, each covering 90 % (0
 where a source does not apply, NaN where it is not known; ``comment`` says why), ``q_total_error``
-in quadrature, and ``q_dominant``, a flag of the largest. One that is not known counts as the
-largest.
+in quadrature, and ``q_dominant``, a flag of the largest, which is one that is not known if any is.
 """
 
 from __future__ import annotations

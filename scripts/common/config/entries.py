@@ -38,8 +38,7 @@ def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]
     if "measurements" not in surface:
         return [("", dict(surface))]
     shared = {key: value for key, value in surface.items() if key != "measurements"}
-    several = enumerate(surface["measurements"])
-    return [(f"measurements[{index}].", shared | dict(one)) for index, one in several]
+    return [(f"measurements[{i}].", shared | one) for i, one in enumerate(surface["measurements"])]
 
 
 def conditions_of(experiment: Mapping[str, Any], case: Mapping[str, Any]) -> dict[str, Any]:
