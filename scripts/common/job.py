@@ -12,8 +12,8 @@ from typing import Any
 def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     """Return the job's `snakemake` object, open its log and report errors to it.
 
-    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. A script
-    that is run by hand, from the project's top folder, looks its job up in the workflow.
+    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. Run by
+    hand, from the project's top folder, a script looks its job up in the workflow.
     """
     job = names.get("snakemake")
     if job is None:
