@@ -61,7 +61,7 @@ TARGETS = {
     "remaining_measured": f"{REMAINING}/remaining.csv",
     "tradeoff": expand(
         f"{TRADEOFF}/{{file}}",
-        file=["tradeoff.md", "presets.md", "validation.md", "tradeoff.png"],
+        file=["tradeoff.md", "tradeoff.png"],
     ),
 }
 

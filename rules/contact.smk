@@ -29,7 +29,7 @@ def fine_paths(wildcards):
 
 def coarse_paths(wildcards):
     """Solutions in a file of coarse seeds."""
-    return len(plan.coarse_range(wildcards.part)) * len(pressures_of(wildcards.case))
+    return len(plan.seeds_in(wildcards.part)) * len(pressures_of(wildcards.case))
 
 
 def gaps_of(wildcards):
@@ -94,8 +94,8 @@ rule solve_coarse:
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         gaps=gaps_of,
         measured=measured_of,
-        after=lambda wildcards: plan.coarse_range(wildcards.part).start,
-        seeds=lambda wildcards: plan.coarse_range(wildcards.part).stop,
+        after=lambda wildcards: plan.seeds_in(wildcards.part)[0] - 1,
+        seeds=lambda wildcards: plan.seeds_in(wildcards.part)[-1],
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
         code=source_hash("contact/solve_coarse.py"),
     script:

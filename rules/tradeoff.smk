@@ -86,8 +86,6 @@ rule tabulate_tradeoff:
         laws=f"{TRADEOFF}/accuracy.csv",
         summary=f"{TRADEOFF}/tradeoff.csv",
         table=f"{TRADEOFF}/tradeoff.md",
-        presets=f"{TRADEOFF}/presets.md",
-        validation=f"{TRADEOFF}/validation.md",
     log:
         f"{TRADEOFF}/logs/tabulate_tradeoff/tradeoff.log",
     benchmark:
@@ -95,7 +93,7 @@ rule tabulate_tradeoff:
     conda:
         "../envs/environment.yaml"
     params:
-        presets=PRESETS,
+        **PRESETS,
         accuracies=TRADE["validation"]["accuracies"],
         code=source_hash("tradeoff/tabulate_tradeoff.py"),
     script:

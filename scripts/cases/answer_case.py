@@ -7,7 +7,7 @@ import xarray as xr
 
 from common import conventions
 from common.conventions import VARIANT
-from common.error_budgets import BY_THEORY, NOT_MEASURED, QUADRATURE, SIMULATED
+from common.error_budgets import Simulation, theory_parts
 from common.job import start
 from common.quantities import derive, quote, statistics
 from stickiness import datasets
@@ -17,26 +17,13 @@ from stickiness.accuracy.error_models import (
     extrapolated,
     grid_error,
     read_models,
-    single_error,
 )
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
-from stickiness.accuracy.settings import Problem, covering_factor, joint_error, seeds_enough
-from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, part, with_budget
-from stickiness.statistics import students_t
+from stickiness.accuracy.settings import Problem, joint_error, seeds_enough
+from stickiness.error_budget import SOURCES, ErrorComponent, part, with_budget
 
 DIMS = ("column", "pressure")
-BY_SIMULATION = {
-    "discretisation": "as in the ensemble's file, or as measured if that is less",
-    "solver": "by the tolerance, as measured",
-    "sampling": "Student's t of the standard error",
-    "model": SIMULATED["model"].text,
-}
-THEORY_ALONE = {
-    "discretisation": "of the quadrature, as tested",
-    "solver": BY_THEORY["solver"].text,
-    "sampling": BY_THEORY["sampling"].text,
-    "model": "of theory in place of simulation, as measured",
-}
+GRID = "as in the ensemble's file, or as measured if that is less"
 OUTSIDE = "1 where surface, load, grid or tolerance is outside what the laws were measured on"
 NO_SEEDS = (
     "no number of seeds is predicted to be enough; ask for less accuracy, or for more than is "
@@ -57,18 +44,20 @@ def main(job):
         for name in ("a_v", "kappa"):
             if job.input.get(name):
                 files[name] = datasets.read(job.input[name], [f"{name}_standard_error"])
-        found = [simulate(problem, settings, column, files) for column in columns]
-        texts = dict(BY_SIMULATION)
+        made = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
+        simulation = Simulation(models, made)
+        found = [simulate(simulation, column, files) for column in columns]
     else:
         state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
         state = derive(state.sel(variant=VARIANT), job.params.fit_interval)
-        found, texts = [by_theory(problem, column, state) for column in columns], dict(THEORY_ALONE)
-    if lacking := [column for column in columns if not has_error_model(column)]:
-        texts["solver"] += f"; of {', '.join(lacking)} not known: {NOT_MEASURED}"
+        found = [by_theory(models, column, state, plan["surface"]) for column in columns]
 
     outside = np.array([extrapolated(surface, load, **knobs) for load in loads], np.int8)
     dataset = xr.Dataset(
-        {"value": (DIMS, [value for value, _ in found]), "extrapolated": ("pressure", outside)},
+        {
+            "value": (DIMS, [value.values for value, _ in found]),
+            "extrapolated": ("pressure", outside),
+        },
         coords={"column": columns, "pressure": loads},
     )
     dataset = conventions.annotate(
@@ -78,12 +67,12 @@ def main(job):
         extrapolated=OUTSIDE,
     )
     parts = {}
-    for source in (one for one in SOURCES if one in texts):
-        errors = [np.abs(by_source.get(source, np.zeros(len(loads)))) for _, by_source in found]
-        parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), texts[source])
-    dataset = with_budget(
-        dataset, "value", bandwidth=not_applicable("the case's own spectrum"), **parts
-    )
+    for source in SOURCES:
+        components = [by_source[source] for _, by_source in found]
+        errors = [np.broadcast_to(one.error, len(loads)) for one in components]
+        text = "; ".join(dict.fromkeys(one.text for one in components))
+        parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), text)
+    dataset = with_budget(dataset, "value", **parts)
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
         dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
@@ -91,32 +80,28 @@ def main(job):
     datasets.write(dataset, job.output[0], title=title, parameters={**plan, "case": case})
 
 
-def simulate(problem, settings, column, files):
-    """Return the values of a column at every load, and its errors by source, covering 90 %."""
-    mean, standard_error, left = (part.values for part in statistics(column, **files))
-    if not has_error_model(column):
-        return mean, {
-            "discretisation": left,
-            "solver": np.full_like(mean, np.nan),
-            "sampling": students_t(settings.seeds) * standard_error,
-        }
-    models, surface, size = problem.models, problem.surface, np.abs(mean)
-    pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
-    grid, solver, factor = [], [], []
-    for load, found in zip(problem.pressures, np.abs(left) / size, strict=True):
-        grid.append(grid_error(models, column, surface, load, pixels, found))
-        solver.append(single_error(models, "solver", column, surface, load, tolerance=tolerance))
-        factor.append(covering_factor(problem, settings, load, column))
-    sampling = factor * standard_error
-    return mean, {"discretisation": size * grid, "solver": size * solver, "sampling": sampling}
+def simulate(simulation, column, files):
+    """Return the values of a column at every load, and their errors by source."""
+    mean, standard_error, left = statistics(column, **files)
+    parts = simulation.parts(column, mean, standard_error, left)
+    if has_error_model(column):
+        problem, size = simulation.problem, abs(mean)
+        at, pixels = (
+            (problem.models, column, problem.surface),
+            simulation.settings.pixels_per_wavelength,
+        )
+        error = [
+            grid_error(*at, load, pixels, found)
+            for load, found in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
+        ]
+        parts["discretisation"] = ErrorComponent(size * error, GRID)
+    return mean, parts
 
 
-def by_theory(problem, column, state):
+def by_theory(models, column, state, surface):
     """Return the same by Persson's theory on the lattice spectrum."""
-    values = quote(column, state).values
-    at = problem.models, "theory", column, problem.surface
-    model = [single_error(*at, load) for load in problem.pressures]
-    return values, {"discretisation": QUADRATURE["gap_density"] * values, "model": values * model}
+    value = quote(column, state)
+    return value, theory_parts(models, column, value, surface, "gap_density")
 
 
 def describe_miss(dataset, problem, settings, plan, case):

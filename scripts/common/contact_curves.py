@@ -46,7 +46,7 @@ def load_curves(heights, length, steps, *path):
 
 
 def load_curve(heights, length, pressures, ranges, tolerance, names=()):
-    """Contact quantities at every pressure, each load started from the one before.
+    """Contact quantities at every pressure.
 
     `names` are further quantities to measure, which a case wants.
     """

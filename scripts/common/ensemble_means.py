@@ -23,25 +23,18 @@ PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and 
 
 @dataclass(frozen=True)
 class Coarse:
-    """A quantity of seeds that are solved on the coarsest grid alone, and their long waves.
-
-    `twin` is the same quantity for the seeds of the mean, by default their values on the coarsest
-    grid. It may come from another model that is not proportional to the values; its coefficient is
-    then a slope, and needs `FEWEST` seeds.
-    """
+    """A quantity of seeds that are solved on the coarsest grid alone, and their long waves."""
 
     values: xr.DataArray  # along `seed`, without `resolution`
     controls: xr.DataArray  # long waves of these seeds
     elsewhere: xr.DataArray  # and of many more
+    # For the seeds of the mean, by default their values on the coarsest grid. From another model
+    # it is not proportional to the values: its coefficient is a slope, and needs `FEWEST` seeds.
     twin: xr.DataArray | None = None
 
 
 def coarse(ensemble, quantity):
-    """A quantity of the coarse solutions of an ensemble; None if it has none.
-
-    `quantity` reads variables of fine solutions, say ``area_fraction``; here it is passed the
-    coarse ones under the same names.
-    """
+    """A quantity of the coarse solutions of an ensemble, under names of fine ones; None without."""
     if f"{PREFIX}seed" not in ensemble.dims:
         return None
     names = {n: n.removeprefix(PREFIX) for n in ensemble.variables if n.startswith(PREFIX)}
@@ -62,9 +55,9 @@ def standard_error(values):
 def discretisation_error(values):
     """Discretisation error of the mean, from the change between the two finest grids.
 
-    The mean change and its standard error in quadrature, so that changes of either sign do not
-    cancel. It bounds an error that falls at least in proportion to the pixel size.
+    It bounds an error that falls at least in proportion to the pixel size.
     """
+    # In quadrature with the standard error, changes of either sign do not cancel.
     change = fine(values.diff("resolution"))
     return np.hypot(change.mean("seed"), scatter(change).fillna(0))
 
@@ -78,14 +71,13 @@ def ensemble_mean(values, more=None):
     if more is None or count == 1 or (more.twin is not None and count < FEWEST):
         return plain
     few = fine(values).transpose("seed", ...)
-    proportional = more.twin is None
-    twin = values.isel(resolution=0, drop=True) if proportional else more.twin
-    twin = twin.transpose(*few.dims)
-    many = more.values.transpose(*few.dims)
-    finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
-    solved = (np.where(finite, part.values, 0.0) for part in (few, twin, many))
+    twin, slopes = more.twin, {"fewest": FEWEST}
+    if twin is None:
+        twin, slopes = values.isel(resolution=0, drop=True), {}
+    solved = [part.transpose(*few.dims) for part in (few, twin, more.values)]
+    finite = np.all([np.isfinite(part).all("seed").values for part in solved], axis=0)
+    solved = [np.where(finite, part.values, 0.0) for part in solved]
     waves = more.controls.values, more.elsewhere.values
-    slopes = {} if proportional else {"fewest": FEWEST}
     found = multilevel.multilevel_mean(*solved, *waves, **slopes)
     best, error = (part.transpose(*few.dims[1:]) for part in plain)
     return (
@@ -95,12 +87,10 @@ def ensemble_mean(values, more=None):
 
 
 def add_errors(dataset, name, values, more=None, plain=False, limit=None):
-    """Add mean, standard error and discretisation error of `values` to a dataset.
+    """Add ``NAME_mean`` (`plain`: ``NAME``) of `values` to a dataset, and its `SUFFIXES`.
 
-    They are called ``NAME_mean``, ``NAME_standard_error`` and ``NAME_discretisation_error``; with
-    `plain` the mean is just ``NAME``. `more` is the same of coarse solutions, see `coarse`. A
-    `grid_limits.Limit` takes mean and discretisation error to the limit of fine grids; without
-    it, the error is the change from half the resolution.
+    `more` is the same of coarse solutions, see `coarse`. A `grid_limits.Limit` takes mean and
+    discretisation error to the limit of fine grids; else that is the change from half of it.
     """
     best, error = ensemble_mean(values, more)
     best = best if limit is None else best + limit.shift

@@ -38,10 +38,7 @@ QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, 
 
 
 class Simulation:
-    """Errors of a mean over realisations, beside its standard error.
-
-    `made` are the parameters of an ensemble's file, or of one that derives from it.
-    """
+    """Errors of a mean over realisations; `made` are the parameters of an ensemble's file."""
 
     def __init__(self, models, made):
         knobs = made["pixels_per_wavelength"], made["tolerance"], len(made["seeds"])
@@ -67,23 +64,20 @@ class Simulation:
         return along(single, name, like, widened=False)
 
     def parts(self, name, value, standard_error, discretisation, text=LEFT):
-        """Parts of the budget of a mean along `pressure`, and `range` or `gap`.
-
-        `name` is a variable of an ensemble's file without the ``_mean``, or a column;
-        `text` says what the discretisation error is.
-        """
+        """Parts of the budget of a mean; `name` is a variable without ``_mean``, or a column."""
         if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
             error, factor = self.solver(name, value), self.factors(name, value)
             solver = ErrorComponent(error * abs(value), "by the tolerance, as measured")
-            sampling = ErrorComponent(factor * standard_error, "Student's t of the standard error")
+            basis = "Student's t of the standard error"
         else:
             factor, solver = students_t(self.settings.seeds), unknown_error(NOT_MEASURED)
-            sampling = ErrorComponent(
-                factor * standard_error, "Student's t by the fine seeds alone"
-            )
-        discretisation = ErrorComponent(discretisation, text)
-        parts = {"discretisation": discretisation, "solver": solver, "sampling": sampling}
-        return parts | SIMULATED
+            basis = "Student's t by the fine seeds alone"
+        return {
+            "discretisation": ErrorComponent(discretisation, text),
+            "solver": solver,
+            "sampling": ErrorComponent(factor * standard_error, basis),
+            **SIMULATED,
+        }
 
 
 def along(model, name, like, at=(), widened=True):
@@ -114,8 +108,7 @@ def interpolate_ranges(ends, ranges, widened=True):
 def theory_error(models, name, like, surface=None):
     """Relative error of theory against simulation; NaN for variants not measured.
 
-    `name` is a variable or a column. The variable `like` has a coordinate `pressure`;
-    without a `surface` also `hurst` and `magnification`, of spectra without a periodic cell.
+    Without a `surface` the variable `like` has coordinates `hurst` and `magnification`.
     """
     kind = Surface.of(surface) if surface else Surface(0.8, 1.0, ENDLESS)
 

@@ -27,33 +27,24 @@ class Limit:
     error: xr.DataArray
 
 
-def estimate_limits(realisations, quantities):
-    """Limits of means over seeds, for quantities by the names of the rules of `richardson`."""
-    fine = realisations.isel(resolution=-1, drop=True)
-    edge_gap = fine.edge_gap.mean("seed")
-    limits = {}
-    for name, quantity in quantities.items():
-        climbs = np.inf
-        if name == "attractive_area":
-            # Nothing is below the gap next to an edge where there is no edge.
-            climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
-        values = quantity(realisations)
-        found = richardson.estimate(
-            name,
-            [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)],
-            subpixel_part(name, fine, quantity(fine)).mean("seed"),
-            fine.edges.sum("seed"),
-            climbs,
-        )
-        limits[name] = Limit(found.value - values.isel(resolution=-1).mean("seed"), found.error)
-    return limits
+def estimate(name, realisations, quantity):
+    """Limit of the mean over seeds of a quantity, by the name of its rule in `richardson`."""
+    fine, values = realisations.isel(resolution=-1, drop=True), quantity(realisations)
+    climbs = np.inf
+    if name == "attractive_area":
+        edge_gap = fine.edge_gap.mean("seed")
+        # Nothing is below the gap next to an edge where there is no edge.
+        climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
+    means = [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)]
+    part = subpixel_part(name, fine, quantity(fine)).mean("seed")
+    found = richardson.estimate(name, means, part, fine.edges.sum("seed"), climbs)
+    return Limit(found.value - means[-1], found.error)
 
 
 def estimate_first_order(values):
     """Limit of the mean of a quantity that counts whole pixels at the edge: no shift, a wide error.
 
-    What a grid leaves out is then as much as its last change. Twice that covers single surfaces,
-    whose changes scatter.
+    A grid then leaves out as much as its last change: twice that covers single surfaces.
     """
     fine, half = (values.isel(resolution=k, drop=True).mean("seed") for k in (-1, -2))
     return Limit(xr.zeros_like(fine), 2 * abs(fine - half))

@@ -29,7 +29,6 @@ KAPPA_VARIABLES = describe_errors(
 )
 A_V_VARIABLES = {
     "a_v": "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)",
-    "a_v_fit_error": "standard error of the fit of a_V within its window",
     "window_low": "low end of the fit window of range/h_rms",
     "window_high": "high end of the fit window of range/h_rms",
     "exponent": (
@@ -42,11 +41,7 @@ A_V_VARIABLES = {
 
 
 def statistics(column, **files):
-    """Mean, standard error and discretisation error of a column, along the pressure.
-
-    `files` are ``ensemble`` and, for their columns, ``a_v`` and ``kappa``, as the rules
-    `average_ensemble` and `fit_a_v` make them.
-    """
+    """Mean, standard error and discretisation error of a column, from files by `Column.file`."""
     known = COLUMNS[column]
     found, name = files[known.file], known.variable
     found = found.isel(window=0) if known.file == "a_v" else at_point(found, known)
@@ -69,8 +64,8 @@ def derive(contact, fit_interval):
 
     `fit_interval` is for a_V, in ranges over h_rms.
     """
-    a_v = fit_a_v(contact, fit_interval).isel(result=0)
-    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))
+    a_v, kappa = fit_a_v(contact, fit_interval), slope_of_area(contact)
+    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=kappa)
 
 
 def gap_density(solutions):
@@ -94,28 +89,24 @@ def fit_slope(ensemble):
 
 
 def fit_a_v(areas, fit_interval):
-    """a_V and the standard error of its fit, along the dimension `result`."""
-    ranges = areas["range"].values
+    """a_V along every dimension but the range's."""
+    ranges, window = areas["range"].values, tuple(fit_interval)
 
     def fit(area, pressure):
-        found = a_v_fit.fit_a_v(ranges, area, float(pressure), window=tuple(fit_interval))
-        return np.array([found.value, found.standard_error])
+        return a_v_fit.fit_a_v(ranges, area, float(pressure), window=window).value
 
-    dims = {"input_core_dims": [["range"], []], "output_core_dims": [["result"]]}
-    return xr.apply_ufunc(fit, areas.attractive_area, areas.pressure, **dims, vectorize=True)
+    dims = [["range"], []]
+    return xr.apply_ufunc(
+        fit, areas.attractive_area, areas.pressure, input_core_dims=dims, vectorize=True
+    )
 
 
 def fit_intervals(areas, windows):
-    """a_V and the standard error of its fit along every dimension but the range's."""
-    both = xr.concat([fit_a_v(areas, window) for window in windows], "window")
-    return xr.Dataset(
-        {
-            "a_v": both.isel(result=0),
-            "a_v_fit_error": both.isel(result=1),
-            "window_low": ("window", [float(low) for low, _ in windows]),
-            "window_high": ("window", [float(high) for _, high in windows]),
-        }
-    )
+    """a_V in every fit interval."""
+    a_v = xr.concat([fit_a_v(areas, window) for window in windows], "window")
+    low, high = np.transpose(np.array(windows, float))
+    ends = {"window_low": ("window", low), "window_high": ("window", high)}
+    return xr.Dataset({"a_v": a_v, **ends})
 
 
 def local_exponent(areas):
@@ -133,19 +124,21 @@ def local_exponent(areas):
 
 def fit_kappa(ensemble, models):
     """Kappa of an ensemble at every load and fitted, and the mean area, with their errors."""
-    dataset = xr.Dataset({"area_fraction": ensemble.area_fraction_mean})
-    for name, quantity in {"kappa": slope_of_area, "kappa_fit": fit_slope}.items():
+    area = ensemble.area_fraction_mean
+    dataset = xr.Dataset({"area_fraction": area})
+    # The errors of the fit are those at the largest of its loads.
+    largest = ensemble.pressure.where(area <= LINEAR_UP_TO).max()
+    simulation = Simulation(models, datasets.parameters(ensemble))
+    for name, quantity, load in (
+        ("kappa", slope_of_area, ensemble.pressure),
+        ("kappa_fit", fit_slope, largest),
+    ):
         limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
         dataset = add_errors(dataset, name, values, more, plain=True, limit=limit)
-    dataset = annotate(dataset, **KAPPA_VARIABLES)
-    # The errors of the fit are those at the largest of its loads.
-    inside = dataset.area_fraction <= LINEAR_UP_TO
-    loads = {"kappa": dataset.pressure, "kappa_fit": dataset.pressure.where(inside).max()}
-    simulation = Simulation(models, datasets.parameters(ensemble))
-    for name, pressure in loads.items():
+        dataset = annotate(dataset, **KAPPA_VARIABLES)
         errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
-        value = dataset[name].assign_coords(pressure=pressure)
+        value = dataset[name].assign_coords(pressure=load)
         parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
         dataset = with_budget(dataset, name, **parts)
     for ending in ENDINGS:

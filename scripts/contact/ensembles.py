@@ -9,11 +9,10 @@ from common.contact_curves import MEASURED_TEXTS
 from common.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
-from common.model_surfaces import read_all
 from common.quantities import gap_density
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
-from stickiness.accuracy.quantities import MEASURED, QUANTITIES
+from stickiness.accuracy.quantities import MEASURED, means_of
 from stickiness.error_budget import with_budget
 
 # Variables of realisations that an ensemble's file keeps seed by seed, all that are read of them,
@@ -43,27 +42,9 @@ VARIABLES = {
 }
 
 
-def average_files(inputs, seeds, loads, averaged):
-    """Means and errors from files of realisations and coarse solutions, with their parameters.
-
-    The files may be those of another case with more seeds and loads.
-    """
-    optional = [name for name in OPTIONAL if name in averaged]
-    realisations = read_all(inputs.realisations, (*NEEDED, *optional))
-    realisations = realisations.sel(seed=seeds, pressure=loads)
-    kept = (*COARSE, *optional)
-    others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
-    more = join_coarse(others, kept) if others else xr.Dataset()
-    dataset = add_statistics(realisations, more, averaged)
-    largest = float(realisations.residual.max())
-    parameters = datasets.parameters(realisations) | {"seeds": seeds, "largest_residual": largest}
-    return dataset, {**parameters, **describe_sampling(parameters, dataset)}
-
-
 def choose_means(quantities):
     """What to average for the quantities wanted of a case; areas and mean gaps come for free."""
-    needed = {mean for quantity in quantities for mean in QUANTITIES[quantity].means}
-    needed |= {"area_fraction", "mean_gap"}
+    needed = means_of(quantities) | {"area_fraction", "mean_gap"}
     measured = {name: itemgetter(name) for name in MEASURED}
     return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
 
@@ -93,15 +74,15 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     optional = [name for name in OPTIONAL if name in averaged]
     dataset = realisations[[*KEPT, *optional]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
-    ruled = {name: quantity for name, quantity in averaged.items() if name not in MEASURED}
-    limits = grid_limits.estimate_limits(realisations, ruled)
     for name, quantity in averaged.items():
         values, more = quantity(realisations), coarse(dataset, quantity)
         if name in MEASURED:
-            limits[name] = grid_limits.estimate_first_order(values)
-        dataset = add_errors(dataset, name, values, more, limit=limits.get(name))
-    if "attractive_area" in averaged:  # the one quantity that is extrapolated
-        dataset[f"attractive_area_{EXTRAPOLATION}"] = limits["attractive_area"].shift
+            limit = grid_limits.estimate_first_order(values)
+        else:
+            limit = grid_limits.estimate(name, realisations, quantity)
+        dataset = add_errors(dataset, name, values, more, limit=limit)
+        if name == "attractive_area":  # the one quantity that is extrapolated
+            dataset[f"{name}_{EXTRAPOLATION}"] = limit.shift
     return dataset
 
 

@@ -14,7 +14,7 @@ from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.verdict import surface_a_v
 from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
 from stickiness.solids import HALF_SPACE, Film
-from stickiness.spectrum import sums
+from stickiness.spectrum import combine as add_roughness
 
 ENDS = ("smooth", "rough")
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
@@ -80,7 +80,7 @@ def find_spectra(surface, second=None):
     """Spectra of both ends."""
     if second is None:
         return [real_spectrum(surface, end) for end in ENDS]
-    return [sums.combine(real_spectrum(surface, end), real_spectrum(second, end)) for end in ENDS]
+    return [add_roughness(real_spectrum(surface, end), real_spectrum(second, end)) for end in ENDS]
 
 
 def half_space_pair(surface):

@@ -104,9 +104,8 @@ def add_budgets(dataset, models):
     """Add the errors of a_V, as large as for the attractive area, and of the edges' estimate."""
     limit = dataset.a_v_limit.assign_coords(magnification=np.inf)
     for name, value in {"a_v": dataset.a_v, "a_v_limit": limit}.items():
-        quadrature = ErrorComponent(
-            dataset.quadrature_error * value, "of the quadrature, the largest"
-        )
+        error = dataset.quadrature_error * value
+        quadrature = ErrorComponent(error, "of the quadrature, the largest")
         parts = theory_parts(models, "attractive_area", value) | {"discretisation": quadrature}
         dataset = with_budget(dataset, name, **parts)
     parts = dict.fromkeys(("discretisation", "solver", "sampling"), not_applicable("a closed form"))

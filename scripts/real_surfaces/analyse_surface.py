@@ -9,14 +9,15 @@ import logging
 import numpy as np
 import xarray as xr
 
+from common import conventions
 from common.config.entries import measurements
 from common.formatting import amount, percent
 from common.job import start
 from common.real_spectra import configured_spectrum
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
-from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
-from stickiness.measured import plausibility, self_affine_fit, stitching
+from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
+from stickiness.measured import plausibility, stitching
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
 from stickiness.units import si
@@ -27,8 +28,9 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-# Spikes beyond which a remark tells what they change: share of the points, relative rms height.
-MANY_SPIKES, LARGE_CHANGE = 1e-3, 0.1
+DRAWN = ("h_rms", "elastic_energy")  # of which verdicts take every draw
+LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
+LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
 VARIABLE_TEXTS = {
@@ -47,8 +49,6 @@ VARIABLE_TEXTS = {
     "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
     "h_rms_draws": ("m", "rms height of every draw"),
-    "rms_slope_draws": ("1", "rms gradient of every draw"),
-    "rms_curvature_draws": ("1/m", "rms Laplacian of every draw"),
     "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
@@ -71,19 +71,15 @@ VARIABLE_TEXTS = {
     "measurement": ("1", "measurement of the surface, as listed"),
     "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
-    "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
-    "scatter": ("1", "standard deviation of the offsets", "no two measurements overlap"),
+    "scatter": ("1", "standard deviation between measurements in ln C", "no two overlap"),
 }
-
-# Quoted numbers, and the standard errors of those that were fitted.
-STANDARD_ERRORS = {n: f"{n}_standard_error" for n in ("hurst", "C0_reference", "q_rolloff")}
 
 
 def main(job):
     entry = job.params.surface
     dataset = analyse(entry) if entry["kind"] == "measured" else self_affine(entry)
     datasets.write(
-        annotate(dataset),
+        dataset,
         job.output[0],
         title=f"spectrum of a real surface: {entry['label']}",
         parameters={"surface": job.wildcards.real_surface, **entry},
@@ -97,8 +93,8 @@ def self_affine(entry):
     points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
     q = np.geomspace(smooth.q0, smooth.q1, points)
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
-    data = {
-        **{name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS},
+    data = {name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS}
+    data |= {
         "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
         "psd": (("end", "wave_number"), [s.psd(q) for s in spectra]),
         "C0": ("end", [s.C0 for s in spectra]),
@@ -109,7 +105,7 @@ def self_affine(entry):
     }
     if "anisotropy" in entry:
         data["axis_ratio"] = entry["anisotropy"]
-    return xr.Dataset(data, coords={"end": ENDS, "wave_number": q})
+    return annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
 
 
 def analyse(entry):
@@ -117,18 +113,17 @@ def analyse(entry):
     entries = [one for _, one in measurements(entry)]
     heights = [read_levelled(one) for one in entries]
     spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
-    stitched = stitching.stitch(spectra) if len(spectra) > 1 else None
-    spectrum = stitched.spectrum if stitched else spectra[0]
+    spectrum = stitching.stitch(spectra)
+    fit, cutoff = spectrum.fit, spectrum.cutoff
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
-    drawn = stitching.draw(spectrum, DRAWS, SEED, stitched=stitched, extend_to=extend_to)
+    drawn = stitching.draw(spectrum, DRAWS, SEED, extend_to=extend_to)
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = self_affine_fit.remarks(spectrum.fit, np.nan_to_num(spectrum.anisotropy))
+    remarks = [*remark_on_spectrum(spectrum, extend_to)]
     for one, before in zip(heights, as_read, strict=True):
-        remarks += remarks_on_file(one, before)
-    remarks += remarks_on_spectrum(spectrum, stitched, extend_to)
+        remarks += remark_on_file(one, before)
     doubts = [doubt for one in heights for doubt in one.doubts]
-    doubts += plausibility.doubt_fit(spectrum.fit)
+    doubts += plausibility.doubt_fit(fit)
     if entry.get("plausibility", "check") == "ignore":
         remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
         doubts = []
@@ -137,40 +132,55 @@ def analyse(entry):
     for remark in remarks:
         logging.info(remark)
 
-    dataset = describe_spectrum(spectrum, extend_to)
-    # Both ends of every moment, and the draws themselves for what depends on several.
-    for name, values in drawn.moments.items():
-        dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
-        dataset[f"{name}_draws"] = "draw", values
-    dataset["q0_draws"] = "draw", drawn.q0
-    dataset = dataset.assign_coords(draw=np.arange(DRAWS)).merge(picture_of(heights[0]))
-    if stitched:
-        places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
-        dataset = dataset.assign_coords(places)
-        dataset["psd_measurement"] = tuple(places), stitched.levels
-        dataset["offset"] = "measurement", stitched.offsets
-        dataset["scatter"] = stitched.scatter
-    return dataset.assign(
+    line, line_se, upper = fit.c0_at_hurst(REFERENCE_HURST)
+    errors = {"hurst": fit.hurst_se, "C0_reference": line_se}
+    dataset = xr.merge([tabulate_spectrum(spectrum, extend_to), picture_of(heights[0])]).assign(
+        C0=("end", fit.c0 * np.ones(2)),
+        C0_relative_error=fit.c0_se / fit.c0,
+        C0_reference=line,
+        C0_reference_upper=("end", [upper, upper]),
+        hurst=fit.hurst,
+        misfit=fit.misfit,
+        q0=fit.q_rolloff or spectrum.lowest,
+        q1=cutoff.q if extend_to is None else extend_to,
+        q_cutoff=cutoff.q,
+        cutoff_detected=int(cutoff.detected),
         h_rms_measured=heights[0].h_rms,
         h_rms_as_read=as_read[0],
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
         masked_spikes=sum(h.spikes for h in heights),
         cropped_fraction=max(h.cropped for h in heights),
-    ).assign_attrs(
+        q0_draws=("draw", drawn.q0),
+        draw=np.arange(DRAWS),
+    )
+    # Both ends of every moment, and the draws themselves for what depends on several.
+    for name, values in drawn.moments.items():
+        dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
+        if name in DRAWN:
+            dataset[f"{name}_draws"] = "draw", values
+    if np.isfinite(spectrum.anisotropy):
+        dataset["anisotropy"] = spectrum.anisotropy
+        dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
+    if fit.q_rolloff is not None:
+        dataset["q_rolloff"], errors["q_rolloff"] = fit.q_rolloff, fit.q_rolloff_se
+    if isinstance(spectrum, stitching.Stitched):
+        places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
+        dataset = dataset.assign_coords(places)
+        dataset["psd_measurement"] = tuple(places), spectrum.levels
+        dataset["scatter"] = spectrum.scatter
+    return annotate(dataset, **errors).assign_attrs(
         remarks="; ".join(remarks),
-        cutoff=spectrum.cutoff.reason,
+        cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
         not_judged="\n".join(doubts),
     )
 
 
-def describe_spectrum(spectrum, extend_to):
-    """Spectrum, fit and the line at the paper's exponent; extrapolated by the fit if configured."""
-    fit, rings = spectrum.fit, spectrum.rings
-    line = fit.c0_at_hurst(REFERENCE_HURST)
-    q, psd, error = rings.q, rings.psd, rings.standard_error
-    psd, top = [psd, psd], spectrum.cutoff.q
+def tabulate_spectrum(spectrum, extend_to):
+    """Measured and fitted spectrum; extrapolated by the fit to `extend_to` [1/m] if configured."""
+    fit, rings, top = spectrum.fit, spectrum.rings, spectrum.cutoff.q
+    q, psd, error = rings.q, [rings.psd, rings.psd], rings.standard_error
     if extend_to is not None:
         inside = q <= top * (1 + 1e-9)
         count = int(np.ceil(np.log10(extend_to / top) * POINTS_PER_DECADE)) + 1
@@ -182,133 +192,104 @@ def describe_spectrum(spectrum, extend_to):
         psd = [np.append(rings.psd[inside], fit.psd(more) * np.exp(s * spread)) for s in (-1, 1)]
         error = np.append(error[inside], fit.psd(more) * spread)
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
-    dataset = xr.Dataset(
-        {
-            "psd": (("end", "wave_number"), psd),
-            "psd_standard_error": ("wave_number", error),
-            "psd_fit": ("wave_number", fit.psd(q)),
-            "fitted": ("wave_number", fitted.astype("i1")),
-            "C0": ("end", fit.c0 * np.ones(2)),
-            "C0_relative_error": fit.c0_se / fit.c0,
-            "C0_reference": line.c0,
-            "C0_reference_standard_error": line.c0_se,
-            "C0_reference_upper": ("end", [line.upper, line.upper]),
-            "hurst": fit.hurst,
-            "hurst_standard_error": fit.hurst_se,
-            "misfit": fit.misfit,
-            "q0": fit.q_rolloff or spectrum.lowest,
-            "q1": top if extend_to is None else extend_to,
-            "q_cutoff": top,
-            "cutoff_detected": int(spectrum.cutoff.detected),
-        },
-        coords={"end": ENDS, "wave_number": q},
-    )
-    if np.isfinite(spectrum.anisotropy):
-        dataset["anisotropy"] = spectrum.anisotropy
-        dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
-    if fit.q_rolloff is not None:
-        dataset["q_rolloff"] = fit.q_rolloff
-        dataset["q_rolloff_standard_error"] = fit.q_rolloff_se
-    return dataset
+    data = {
+        "psd": (("end", "wave_number"), psd),
+        "psd_standard_error": ("wave_number", error),
+        "psd_fit": ("wave_number", fit.psd(q)),
+        "fitted": ("wave_number", fitted.astype("i1")),
+    }
+    return xr.Dataset(data, coords={"end": ENDS, "wave_number": q})
 
 
 def picture_of(heights):
     """Levelled heights, thinned to what a picture shows."""
-    if heights.heights.ndim == 1:
-        x = np.arange(len(heights.heights)) * heights.dx
-        return xr.Dataset({"profile": ("x", heights.heights)}, coords={"x": x})
-    thin = max(1, *(n // PICTURE_POINTS for n in heights.heights.shape))
-    picture = heights.heights[::thin, ::thin]
-    x, y = map(np.arange, picture.shape)
-    x, y = x * thin * heights.dx, y * thin * heights.dy
-    return xr.Dataset({"heights": (("x", "y"), picture.astype("f4"))}, coords={"x": x, "y": y})
+    picture = heights.to_xarray()
+    if picture.ndim == 1:
+        return picture.rename("profile")
+    thin = max(1, *(n // PICTURE_POINTS for n in picture.shape))
+    return picture[::thin, ::thin].astype("f4").rename("heights")
 
 
-def remarks_on_file(heights, with_spikes):
+def remark_on_file(heights, with_spikes):
     """Remarks on points that were not used; `with_spikes` is the rms height with all points."""
-    source, found = heights.source, []
+    source = heights.source
     if heights.spikes:
-        found.append(
-            f"points of {source} far off all their neighbours, spikes, which are not used: "
-            f"{heights.spikes} (spikes: keep uses them)"
+        yield (
+            f"{heights.spikes} points of {source} are spikes, far off all their neighbours; the "
+            f"rms height is {amount(with_spikes, 'm')} with all points, "
+            f"{amount(heights.h_rms, 'm')} without those not used: if they are part of the "
+            "surface, give spikes: keep"
         )
-        share, change = heights.spikes / heights.heights.size, abs(with_spikes - heights.h_rms)
-        if share > MANY_SPIKES or change > LARGE_CHANGE * heights.h_rms:
-            found.append(
-                f"{share:.2g} of the points of {source} are spikes, and the rms height is "
-                f"{amount(with_spikes, 'm')} with all points, {amount(heights.h_rms, 'm')} "
-                "without those not used: if they are part of the surface, give spikes: keep"
-            )
     if heights.cropped:
-        found.append(f"{percent(heights.cropped)} of {source} cut off to leave no missing points")
+        yield f"{percent(heights.cropped)} of {source} cut off to leave no missing points"
     if heights.dropped:
-        found.append(
+        yield (
             f"{heights.dropped} points of {source} beside missing ones were measured and are "
             "not used (missing_rim)"
         )
     if heights.missing > heights.spikes:
-        found.append(
+        yield (
             f"{percent(heights.missing_fraction)} of the points of {source} were missing and "
             "are interpolated, smoother than the surface"
         )
     if heights.heights.ndim == 1:
-        found.append(f"{source} is a line profile: isotropy is assumed, not seen")
-    return found
+        yield f"{source} is a line profile: isotropy is assumed, not seen"
 
 
-def remarks_on_spectrum(spectrum, stitched, extend_to):
-    """Remarks on the ends of the spectrum, and on how well several measurements agree."""
-
-    def wavelength(q):
-        return amount(2 * np.pi / q, "m")
-
-    found, fit = [], spectrum.fit
+def remark_on_spectrum(spectrum, extend_to):
+    """Remarks on what is not isotropic or self-affine, and on both ends of the spectrum."""
+    fit = spectrum.fit
+    if not fit.is_self_affine:
+        yield (
+            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
+            "or the instrument's blur (H too high)"
+        )
+    if fit.misfit > LARGE_MISFIT:
+        yield f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)"
+    if spectrum.anisotropy > LARGE_ANISOTROPY:
+        yield (
+            f"C depends on direction (amplitude {spectrum.anisotropy:.2f} of cos 2 phi): theory "
+            "for isotropic surfaces applies to its average at best"
+        )
+    longest, shortest = (amount(2 * np.pi / q, "m") for q in (fit.q_min, spectrum.cutoff.q))
     if fit.q_rolloff is None:
-        found.append(
-            f"no roll-off was found below wavelengths of {wavelength(fit.q_min)}, and longer "
+        yield (
+            f"no roll-off was found below wavelengths of {longest}, and longer "
             "ones cannot show one: q0 is the lowest wave number of the scan, not of the surface"
         )
-    shorter = f"waves shorter than {wavelength(spectrum.cutoff.q)} ({spectrum.cutoff.reason})"
-    if extend_to is None:
-        found.append(f"{shorter} are not part of slope, curvature and a_V")
+    left_out = "are not part of slope, curvature and a_V"
+    if extend_to is not None:
+        end = amount(2 * np.pi / extend_to, "m")
+        left_out = f"follow the fitted law down to {end}: extrapolated, not measured"
+    yield f"waves shorter than {shortest} ({spectrum.cutoff.reason}) {left_out}"
+    if not isinstance(spectrum, stitching.Stitched):
+        return
+    if np.isnan(spectrum.scatter):
+        yield "no two measurements overlap: whether they agree in height cannot be told"
     else:
-        end = wavelength(extend_to)
-        found.append(f"{shorter} follow the fitted law down to {end}: extrapolated, not measured")
-    if stitched is not None and np.isnan(stitched.scatter):
-        found.append("no two measurements overlap: whether they agree in height cannot be told")
-    elif stitched is not None:
-        found.append(
-            f"{len(stitched.offsets)} measurements stitched, which differ by a factor of "
-            f"{np.exp(stitched.scatter):.2f} in C (standard deviation)"
+        yield (
+            f"{len(spectrum.levels)} measurements stitched, which differ by a factor of "
+            f"{np.exp(spectrum.scatter):.2f} in C (standard deviation)"
         )
-    return found
 
 
-def annotate(dataset):
-    """Add units and texts, and the errors of quoted parameters; moments have both their ends."""
-    errors = {name: dataset[name] for name in STANDARD_ERRORS.values() if name in dataset}
-    dataset = dataset.drop_vars(errors)
+def annotate(dataset, **errors):
+    """Add units and texts, and budgets from the standard errors of what was fitted."""
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
     texts = VARIABLE_TEXTS | {
         "C0": (f"m^{2 - 2 * float(dataset.hurst):.4g}", "prefactor of C = C0 q^(-2(H+1))"),
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
-    present = {name: text for name, text in texts.items() if name in dataset.variables}
-    dataset = datasets.annotate(dataset, **present)
+    dataset = conventions.annotate(dataset, **texts)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
-    given, band = (
-        not_applicable("given in the configuration"),
-        not_applicable("of the band that was fitted"),
-    )
-    for name, error in STANDARD_ERRORS.items():
-        if name not in dataset:
-            continue
-        parts = dict.fromkeys(("discretisation", "solver", "bandwidth", "sampling", "model"), given)
-        if error in errors:
-            parts |= dict.fromkeys(("discretisation", "solver", "bandwidth"), band)
-            parts["sampling"] = ErrorComponent(COVERS * errors[error], "of the spectrum measured")
-            parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
+    if not errors:
+        given = dict.fromkeys(SOURCES, not_applicable("given in the configuration"))
+        return with_budget(dataset, "hurst", **given)
+    parts = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
+    parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
+    for name, error in errors.items():
+        parts["sampling"] = ErrorComponent(COVERS * error, "of the spectrum measured")
         dataset = with_budget(dataset, name, **parts)
     return dataset
 

@@ -1,12 +1,12 @@
 """Measured surfaces as configured: levelled heights, and the spectrum of one measurement."""
 
-from dataclasses import fields
 from inspect import signature
 
 from common.config.entries import measurements
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.units import si
 
+LENGTHS = ("fit_from", "fit_to", "resolution", "tip_radius")  # of `Limits`
 FEWEST_POINTS, FEWEST_ON_LINE = 64, 256  # about so many are needed for a fit
 # Of a measurement in the configuration, what `topography.read` takes.
 READ_KEYS = set(signature(topography.read).parameters) - {"path"}
@@ -23,10 +23,7 @@ def read_levelled(measurement):
 
 
 def find_cutoff(entry, index, heights, finest):
-    """Cutoff [1/m] of one of a surface's measurements, whose levelled heights these are.
-
-    `finest` is the cutoff of the surface: of its finest measurement.
-    """
+    """Cutoff [1/m] of a measurement with these levelled heights; `finest` is the surface's."""
     listed = measurements(entry)
     if len(listed) == 1:
         return finest
@@ -35,8 +32,7 @@ def find_cutoff(entry, index, heights, finest):
 
 def find_spectrum(heights, measurement):
     """Spectrum of one measurement; an error names the file and what helps."""
-    names = [field.name for field in fields(instrument_spectrum.Limits) if field.name != "detect"]
-    lengths = {name: si(measurement[name], "m") for name in names if name in measurement}
+    lengths = {name: si(measurement[name], "m") for name in LENGTHS if name in measurement}
     detect = measurement.get("cutoff", "detect") == "detect"
     limits = instrument_spectrum.Limits(**lengths, detect=detect)
     try:

@@ -43,27 +43,21 @@ PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
 PULL_OFF_TOLERANCE = 1e-3
-OPEN, ATTRACTED, TOUCHING = range(3)
-SIMULATED = {"left_out": "", "measurement": ""}  # attributes of a dataset that is not empty
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
 CONTACT_TEXTS = {
     "x": ("m", "position along x"),
     "y": ("m", "position along y"),
     "pressure": ("1", "mean pressure over E* q0 h_rms"),
-    "heights": ("m", "heights pressed: periodic, without waves that the grid does not hold"),
     "contact": ("1", "share of a block of two by two points in contact"),
     "gap": ("m", "mean gap of a block"),
-    "contact_pressure": ("1", "mean pressure of a block over E*"),
     "mean_pressure": ("1", "mean pressure over E*"),
     "area_fraction": ("1", "contact area over nominal area, edges of contact between pixels"),
     "area_fraction_discretisation_error": ("1", f"area times {RELATIVE_CHANGE}"),
     "mean_gap": ("m", "mean gap"),
     "mean_gap_discretisation_error": ("m", f"mean gap times {RELATIVE_CHANGE}"),
     "residual": ("1", "complementarity residual over the rms height"),
-    "q0": ("1/m", "lowest wave number of the self-affine range of the surface"),
     "h_rms": ("m", "rms height of the heights pressed"),
-    "rms_slope": ("1", "rms gradient of the heights pressed"),
     "shortest_wavelength": ("m", "shortest wave of the heights pressed"),
     "cutoff_wavelength": ("m", "shortest wave that the instrument resolves"),
     "change": ("1", "rms change that made the heights periodic, over the rms height"),
@@ -81,13 +75,9 @@ PULL_OFF_TEXTS = {
     "separating": ("1", "1 on the way back"),
     "contact_area": ("1", "area at a gap of zero over nominal area, by pixels"),
     "attracted_area": ("1", "area with gaps up to the range over nominal area, by pixels"),
-    "zone": ("1", "state of a pixel"),
-    "jumps": ("1", "jumps on the way there and back"),
     "range": ("m", "range of the attraction simulated"),
     "material_range": ("m", "range of the attraction of the material"),
-    "zone_width": ("1", "width of the cohesive zone, range^2/(adhesion length), times q0"),
     "energy_ratio": ("1", "work of adhesion over elastic energy of full contact"),
-    "h_rms": ("m", "rms height of the heights simulated"),
     "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
     "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
     "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
@@ -100,22 +90,21 @@ class LeftOutError(Exception):
 
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
-    asked, material, params = job.params.surface, read_material(job.params.entry), job.params
-    contact = None
+    asked, entry, params, contact = job.params.surface, job.params.entry, job.params, None
+    band = float(surface.q0), float(surface.q1)
     try:
         heights, q_cutoff = find_heights(surface, asked)
-        source = heights.source if len(measurements(asked)) > 1 else ""
-        contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), float(surface.q0), q_cutoff)
-        contact.attrs["measurement"] = source
-        rough, band = prepare(heights, q_cutoff, PULL_OFF_POINTS), (surface.q0, surface.q1)
-        pull_off = separate(rough, map(float, band), material, params.law, params.squeeze)
-        pull_off.attrs["measurement"] = source
+        contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), band[0], q_cutoff)
+        if len(measurements(asked)) > 1:
+            contact.attrs["measurement"] = heights.source
+        rough, material = prepare(heights, q_cutoff, PULL_OFF_POINTS), read_material(entry)
+        pull_off = separate(rough, band, material, params.law, params.squeeze)
     except LeftOutError as reason:
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
-    name, entry = job.wildcards.real_surface, params.entry
-    title, made = f"where the heights touch: {asked['label']}", {"surface": name, **asked}
+    name, title = job.wildcards.real_surface, f"where the heights touch: {asked['label']}"
+    made = {"surface": name, **asked}
     datasets.write(contact, job.output.contact, title=title, parameters=made)
     made = {"surface": name, "material": params.material, **entry, "source": asked["source"]}
     title = f"pull-off of {entry['label']} from {asked['label']}"
@@ -151,10 +140,7 @@ class PeriodicHeights:
 
 
 def prepare(heights, q_cutoff, points):
-    """`PeriodicHeights` with waves up to the cutoff [1/m], that of the map or that of the grid.
-
-    The grid has at most `points` along the longer side, and fewer where they resolve all waves.
-    """
+    """`PeriodicHeights` on at most `points` along the longer side, fewer if all waves are there."""
     whole = periodic.periodise(heights.heights, PERIODISATION)
     waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
     nyquist = np.pi / max(heights.dx, heights.dy)
@@ -170,35 +156,29 @@ def press(rough, q0, q_cutoff):
     h_rms, slope = float(np.std(rough.heights)), measure_slope(rough.heights, rough.sides)
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
     loads = slope * erfinv(AREAS) / np.sqrt(2)
-    fields, rows = {"contact": [], "gap": [], "contact_pressure": []}, []
+    rows = []
     for state in solver.load_path(rough.heights, rough.sides, loads, tol=CONTACT_TOLERANCE):
-        found = state.gap == 0, state.gap, state.pressure
-        for blocks, field in zip(fields.values(), found, strict=True):
-            blocks.append(halve(field))
-        rows.append(measure(state, ()))
+        fields = {"contact": state.gap == 0, "gap": state.gap}
+        blocks = {name: (("x", "y"), np.float32(halve(f))) for name, f in fields.items()}
+        rows.append(measure(state, ()).assign(blocks))
         logging.info("load %d: area %.4f", len(rows), state.area_fraction)
     fine = xr.concat(rows, "pressure")
     coarse = load_curve(rough.heights[::2, ::2], rough.sides, loads, (), CONTACT_TOLERANCE)
-    data = {name: (("pressure", "x", "y"), np.float32(field)) for name, field in fields.items()}
+    data = fine[["contact", "gap", "area_fraction", "mean_gap", "residual"]]
     for name in ("area_fraction", "mean_gap"):
         error = find_error(fine[name].values, coarse[name].values)
-        data |= {name: fine[name], f"{name}_discretisation_error": ("pressure", error)}
-    data |= {
-        "heights": (("x", "y"), np.float32(halve(rough.heights))),
-        "mean_pressure": ("pressure", loads),
-        "residual": fine.residual,
-        "q0": q0,
-        "h_rms": h_rms,
-        "rms_slope": slope,
-        "shortest_wavelength": rough.shortest_wavelength,
-        "cutoff_wavelength": 2 * np.pi / q_cutoff,
-        "change": rough.change,
-    }
-    coords = {"pressure": loads / (q0 * h_rms), **rough.centres(2)}
-    dataset = xr.Dataset(data, coords=coords, attrs=SIMULATED)
-    for name in (*fields, "heights"):
-        dataset[name].encoding = {"zlib": True}
-    return datasets.annotate(dataset, **CONTACT_TEXTS)
+        data[f"{name}_discretisation_error"] = "pressure", error
+    data = data.assign(
+        mean_pressure=("pressure", loads),
+        h_rms=h_rms,
+        shortest_wavelength=rough.shortest_wavelength,
+        cutoff_wavelength=2 * np.pi / q_cutoff,
+        change=rough.change,
+    )
+    data = data.assign_coords(pressure=loads / (q0 * h_rms), **rough.centres(2))
+    for name in ("contact", "gap"):
+        data[name].encoding = {"zlib": True}
+    return datasets.annotate(data.assign_attrs(left_out="", measurement=""), **CONTACT_TEXTS)
 
 
 def halve(field):
@@ -207,19 +187,13 @@ def halve(field):
 
 
 def find_error(fine, coarse):
-    """Error at every load, from a coarser grid.
-
-    The change passes through zero between loads. The neighbouring loads show how large it is there.
-    """
+    """Error at every load, from a coarser grid."""
+    # The change passes through zero between loads; the neighbouring ones show how large it is.
     return fine * maximum_filter1d(abs(coarse / fine - 1), 3, mode="nearest")
 
 
 def separate(rough, band, material, law, squeeze):
-    """States of approach, squeeze and separation of `PeriodicHeights`, as a dataset.
-
-    `band` are q0 and q1 [1/m] of the spectrum that is judged, `squeeze` is the mean pressure before
-    separation over E* q0 h_rms. What the grid cannot show, or does not converge, is left out.
-    """
+    """States of approach, squeeze and separation of `PeriodicHeights`; `band` is q0 and q1."""
     if material.surface is not None:
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")
     q0, q1 = band
@@ -240,54 +214,43 @@ def separate(rough, band, material, law, squeeze):
             f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
             f"remains, even at a range of {shortest}, the shortest that the grid resolves"
         )
-    squeeze = squeeze * q0 * h_rms
+    squeeze, law = squeeze * q0 * h_rms, LAWS[law](length, range_)
     settings = {"squeeze": squeeze, "tol": PULL_OFF_TOLERANCE, "solid": material.solid}
     try:
         with warnings.catch_warnings():
             # What a coarse grid does to the result is in the limits.
             warnings.simplefilter("ignore", PlausibilityWarning)
-            found = remaining.measure(heights, sides, LAWS[law](length, range_), **settings)
+            found = remaining.measure(heights, sides, law, **settings)
     except ConvergenceError as error:
         raise LeftOutError(f"the simulation did not converge ({error})") from None
-    zones = np.array([find_zones(point.state) for point in found.points])
+    gaps = np.array([point.state.gap for point in found.points])
+    attracted = (gaps > 0) & (gaps <= law.range)
     dataset = xr.Dataset(
         {
-            "zone": (("state", "x", "y"), zones),
             "mean_gap": ("state", found.gap),
             "mean_traction": ("state", -material.modulus * found.pressure),
             "separating": ("state", found.separating.astype("i1")),
-            "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
-            "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
-            "jumps": found.jumps,
+            "contact_area": ("state", (gaps <= 0).mean(axis=(1, 2))),
+            "attracted_area": ("state", attracted.mean(axis=(1, 2))),
             "range": range_,
             "material_range": material.range,
-            "zone_width": q0 * range_**2 / length,
             "energy_ratio": predicted.energy_ratio,
-            "h_rms": h_rms,
             "shortest_wavelength": rough.shortest_wavelength,
             "judged_wavelength": 2 * np.pi / q1,
             "squeeze_pressure": squeeze * material.modulus,
         },
         coords=rough.centres(),
-        attrs=SIMULATED,
+        attrs={"left_out": ""},
     )
-    dataset.zone.encoding = {"zlib": True}
     dataset = datasets.annotate(dataset, **PULL_OFF_TEXTS)
     for name, text in QUOTED.items():
         scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
-        by_model = "predicted_", f"{text}, by the model", predicted
-        for prefix, said, of in (("", text, found), by_model):
+        for prefix, by, of in (("", "", found), ("predicted_", ", by the model", predicted)):
             values = (getattr(of, name), *getattr(of, f"{name}_limits"))
             for end, value in zip(("", "_low", "_high"), values, strict=True):
-                attrs = {"units": unit, "long_name": said + end.replace("_", ", ")}
+                attrs = {"units": unit, "long_name": text + by + end.replace("_", ", ")}
                 dataset[f"{prefix}{name}{end}"] = (), scale * value, attrs
     return dataset
-
-
-def find_zones(state):
-    """Pixels that touch, that are within the range of the attraction, and that are open."""
-    zone = np.where(state.gap <= state.law.range, ATTRACTED, OPEN)
-    return np.where(state.gap <= 0, TOUCHING, zone).astype("u1")
 
 
 if __name__ == "__main__":

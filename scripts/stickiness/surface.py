@@ -50,13 +50,6 @@ class Moments:
         """Root mean square Laplacian."""
         return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
 
-    @property
-    def nayak(self) -> float:
-        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
-        m2 = (self.m20 + self.m02) / 2
-        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
-        return self.m00 * m4 / m2**2
-
 
 def synthesise(
     spectrum: Spectrum, n: int, length: float, seed: int, amplitudes: Amplitudes = "gaussian"
@@ -122,8 +115,8 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     """
     check_window(spectrum, length)
     i, j, variance = spectrum.modes(length)
-    square, shell = np.unique(i**2 + j**2, return_inverse=True)
-    total = 2 * np.bincount(shell, weights=variance)  # each mode and its mirror image
+    square, total = _sum_shells(i, j, variance)
+    total *= 2  # each mode and its mirror image
     if spectrum.prescribed == "h_rms":
         total *= spectrum.h_rms**2 / total.sum()
     return Shells(2 * np.pi / length * np.sqrt(square), total)
@@ -135,8 +128,7 @@ def realised_spectrum(heights: NDArray, length: float) -> Shells:
     if not power.ravel()[1:].any():
         raise ValueError("heights must not be flat: they hold no wave")
     length = number("length", length)
-    square, shell = np.unique(i**2 + j**2, return_inverse=True)
-    total = np.bincount(shell.ravel(), weights=power.ravel())
+    square, total = _sum_shells(i, j, power)
     # Modes that hold nothing but rounding are not part of the surface's band.
     keep = (square > 0) & (total > 1e-24 * total[1:].sum())
     return Shells(2 * np.pi / length * np.sqrt(square[keep]), total[keep])
@@ -206,6 +198,12 @@ def sum_modes(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
     np.add.at(coefficients, (i % n, j % n), modes)
     np.add.at(coefficients, (-i % n, -j % n), modes.conj())
     return fft.ifft2(coefficients).real * n**2
+
+
+def _sum_shells(i: NDArray, j: NDArray, power: NDArray) -> tuple[NDArray, NDArray]:
+    """Distinct i^2 + j^2 and the power summed over the wave vectors of each."""
+    square, shell = np.unique(i**2 + j**2, return_inverse=True)
+    return square, np.bincount(shell.ravel(), weights=power.ravel())
 
 
 def _periodogram(heights: NDArray) -> tuple[NDArray, NDArray, NDArray]:

@@ -1,4 +1,4 @@
-"""Make a few random surfaces and record the spectra and moments that their cells really hold."""
+"""Make a few random surfaces and record the moments that their cells really hold."""
 
 import logging
 
@@ -12,72 +12,46 @@ from stickiness import datasets
 from stickiness import surface as synthesis
 
 SOURCES = ["continuum", "lattice", "heights"]
-MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")
-SPLIT = ("m40", "m22", "m04")
+MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 VARIABLES = {
     "x": "position times q0",
     "y": "position times q0",
     "height": "height over h_rms",
     "window_length": "side of the window times q0",
-    "wave_number": "wave number of the shell over q0",
-    "lattice_variance": "expected height variance on the shell over h_rms^2",
-    "realised_variance": "height variance of this surface on the shell over h_rms^2",
     "source": "what the moments are taken from",
     "h_rms": "rms height over the prescribed one",
-    "nayak": "Nayak's bandwidth parameter m0 m4/m2^2",
-    "m40": "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights",
-    "m22": "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights",
-    "m04": "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights",
 }
 
 
 def main(job):
-    surface, seeds = job.params.surface, job.params.seeds
-    spectrum, length = model_spectrum(surface), cell_size(surface)
-    n = grid_points(surface, job.params.pixels_per_wavelength)
+    surface, seeds, pixels = job.params.surface, job.params.seeds, job.params.pixels_per_wavelength
+    spectrum, length, n = model_spectrum(surface), cell_size(surface), grid_points(surface, pixels)
     lattice = synthesis.lattice_spectrum(spectrum, length)
     logging.info("n = %d, %d shells", n, len(lattice.q))
     heights = np.array([make_heights(surface, n, seed) for seed in seeds])
+    sources = [(spectrum, lattice, synthesis.moments(h, length)) for h in heights]
+    moments = {name: [[getattr(s, name) for s in row] for row in sources] for name in MOMENTS}
+    x = np.arange(n) * (length / n)
+    dataset = xr.Dataset(
+        {
+            "height": (("seed", "x", "y"), heights),
+            "window_length": ((), length),
+            **{name: (("seed", "source"), values) for name, values in moments.items()},
+        },
+        coords={"seed": list(seeds), "x": x, "y": x, "source": SOURCES},
+    )
     datasets.write(
-        to_dataset(heights, list(seeds), length, spectrum, lattice),
+        annotate(dataset, **VARIABLES),
         job.output[0],
         title="random surfaces on a periodic window",
         parameters={
             **surface,
             "seeds": list(seeds),
-            "pixels_per_wavelength": job.params.pixels_per_wavelength,
+            "pixels_per_wavelength": pixels,
             "grid_points": n,
             "prescribed": spectrum.prescribed,
         },
     )
-
-
-def to_dataset(heights, seeds, length, spectrum, lattice):
-    n = heights.shape[-1]
-    x = np.arange(n) * (length / n)
-    # On the lattice's shells, zero where a surface holds nothing.
-    realised = np.zeros((len(heights), len(lattice.q)))
-    for variance, h in zip(realised, heights, strict=True):
-        found = synthesis.realised_spectrum(h, length)
-        index = np.searchsorted(lattice.q * (1 - 1e-9), found.q) - 1
-        np.add.at(variance, index, found.variance)
-    measured = [synthesis.moments(h, length) for h in heights]
-    sources = [(spectrum, lattice, one) for one in measured]
-    dataset = xr.Dataset(
-        {
-            "height": (("seed", "x", "y"), heights),
-            "window_length": ((), length),
-            "lattice_variance": ("wave_number", lattice.variance),
-            "realised_variance": (("seed", "wave_number"), realised),
-            **{
-                name: (("seed", "source"), [[getattr(s, name) for s in row] for row in sources])
-                for name in MOMENTS
-            },
-            **{name: ("seed", [getattr(one, name) for one in measured]) for name in SPLIT},
-        },
-        coords={"seed": seeds, "x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
-    )
-    return annotate(dataset, **VARIABLES)
 
 
 if __name__ == "__main__":

@@ -1,24 +1,163 @@
 """Rows of the table and points of the error models for contact without adhesion."""
 
+from dataclasses import dataclass, field
+from functools import cache
+
 import numpy as np
 
+from common.contact_curves import SOLVED_FROM
+from common.conventions import FIT_MEASURED, GAPS_MEASURED
 from common.model_surfaces import cell_size, model_spectrum
+from common.quantities import derive, quote
 from common.theory import contact_of
 from stickiness import datasets
 from stickiness.accuracy import multilevel
 from stickiness.accuracy.error_models import COARSE, FULL, Settings
+from stickiness.accuracy.quantities import MODELLED, columns_of
+from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.persson.theory import Persson
+from stickiness.repulsive import richardson
 from stickiness.surface import lattice_spectrum
-from tradeoff.measuring import COVERED, derive_columns, select, time_task
-from tradeoff.seed_pool import FEWEST_FINE, Resampling, flatten, make_pool
+from tradeoff.measuring import COVERED, SETTINGS, time_task
 
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
+FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
+DESCRIBED_SEEDS = 2048
+
+
+@dataclass(eq=False)
+class SeedPool:
+    """Solved seeds of one surface, from which means of random seeds are drawn.
+
+    An entry is one load of one column of a quantity.
+    """
+
+    fine: dict  # (seed, entry), by pixels per shortest wavelength, 2 included
+    coarse: np.ndarray  # (seed, entry): more seeds on 2 pixels
+    controls: np.ndarray  # (seed, descriptor): long waves of the coarse seeds
+    elsewhere: np.ndarray  # (seed, descriptor): long waves of seeds that are not solved
+    pressure: np.ndarray  # of the entries
+    quantity: np.ndarray
+    truth: np.ndarray  # best estimate of the mean over all surfaces, on the finest grid
+    truth_error: np.ndarray  # its standard error
+    fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
+    costs: dict = field(default_factory=dict)  # of all loads of a seed, by pixels or kind
+    repetitions: int = 60  # of means that are drawn
+    described: int = DESCRIBED_SEEDS
+
+    def __post_init__(self):
+        # With replacement: means of few seeds then scatter about the mean of all as they would
+        # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
+        rng = np.random.default_rng(1)
+        count = min(len(fine) for fine in self.fine.values() if len(fine) >= FEWEST_FINE)
+        self.chosen = rng.integers(count, size=(SEEDS[-1], self.repetitions))
+        self.many = rng.integers(len(self.coarse), size=(self.repetitions, COARSE_SEEDS[-1]))
+        self.others = rng.integers(len(self.elsewhere), size=(self.repetitions, self.described))
+        self.average_coarse = cache(self._average_coarse)
+
+    def by_quantity(self, errors):
+        """Root mean square over the entries of each quantity at each load; leading axes stay."""
+        keys = dict.fromkeys(zip(self.quantity.tolist(), self.pressure.tolist(), strict=True))
+        found = {}
+        for quantity, load in keys:
+            entries = (self.quantity == quantity) & (self.pressure == load)
+            found[quantity, load] = np.sqrt(np.mean(errors[..., entries] ** 2, axis=-1))
+        return found
+
+    def cost(self, settings):
+        """Measured cost of a mean at all loads, without what a larger tolerance saves."""
+        pixels = settings.pixels_per_wavelength
+        total = settings.seeds * sum(self.costs[p] for p in {pixels, pixels // 2, COARSE})
+        if settings.coarse_seeds:
+            total += settings.coarse_seeds * self.costs["coarse"]
+            total += DESCRIBED_SEEDS * self.costs["described"]
+        return total
+
+    def draw(self, settings):
+        """Relative errors of the means of every repetition, by quantity and load."""
+        chosen = self.chosen[: settings.seeds]
+        fine, truth = self.fine[settings.pixels_per_wavelength][chosen], self.fine_mean
+        mean = fine.mean(0)
+        if settings.coarse_seeds:
+            level, twin = self.average_coarse(settings.coarse_seeds), self.fine[COARSE][chosen]
+            mean, truth = multilevel.corrected_mean(fine, twin, level).mean, self.truth
+        return self.by_quantity(mean / truth - 1)
+
+    def _average_coarse(self, count):
+        means = []
+        for many, others in zip(self.many[:, :count], self.others, strict=True):
+            solved = self.coarse[many], self.controls[many], self.elsewhere[others]
+            means.append(multilevel.controlled_mean(*solved).mean)
+        return multilevel.Estimate(np.array(means), np.zeros(1), np.empty(0))
+
+
+def make_pool(measured):
+    """Make the pool of a file of `measure_contact`; the finest grid, of few seeds, is the truth."""
+    usual, unit = datasets.parameters(measured)["tolerance"], float(measured.pair_time)
+    is_fine = measured.seed < SOLVED_FROM
+    fine_ones, coarse_ones = (measured.isel(solution=k.values) for k in (is_fine, ~is_fine))
+    *_, best, last = pixels = np.unique(measured.pixels).tolist()
+    solved = {p: select(fine_ones, p, usual) for p in pixels}
+    more = select(coarse_ones, COARSE, usual)
+    entries = {p: flatten(derive_columns(extrapolate(solved, p))) for p in pixels}
+    fine = {p: values for p, (values, *_) in entries.items()}
+    coarse, quantity, pressure = flatten(derive_columns(more))
+    waves = measured.long_waves.values, measured.other_long_waves.values
+    ratio = fine[last].sum(0) / fine[best][: len(fine[last])].sum(0)
+    estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, *waves)
+    costs = {p: float(one.seconds.mean()) / unit for p, one in (*solved.items(), ("coarse", more))}
+    return SeedPool(
+        *(fine, coarse, *waves, pressure, quantity),
+        *(estimate.mean * ratio, estimate.standard_error * ratio, fine[best].mean(0) * ratio),
+        costs | {"described": float(measured.describing_seconds) / unit},
+    )
+
+
+def select(measured, pixels, tolerance):
+    """Solutions with one grid and tolerance, along the seed."""
+    chosen = (measured.pixels == pixels) & (measured.tolerance == tolerance)
+    found = measured.isel(solution=chosen.values).swap_dims(solution="seed")
+    return found.drop_vars(SETTINGS[:2])
+
+
+def extrapolate(solved, pixels):
+    """Solutions on one grid, attractive areas in the limit of fine grids, as in ensembles."""
+    one = solved[pixels]
+    if pixels == COARSE:
+        return one
+    edge_gap, half = one.edge_gap.mean("seed"), solved[pixels // 2].sel(seed=one.seed)
+    limit = richardson.estimate(
+        "attractive_area",
+        [half.attractive_area, one.attractive_area],
+        one.attractive_area - one.pixel_attractive_area,
+        one.edges,
+        (one["range"] / edge_gap).where(edge_gap > 0, np.inf),
+    )
+    return one.assign(attractive_area=limit.value)
+
+
+def derive_columns(solved):
+    """Columns of all quantities with error models; P(u) at all gaps that its error covers."""
+    contact = derive(solved, FIT_MEASURED)
+    found = {name: quote(name, contact) for name in columns_of(MODELLED)}
+    return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
+
+
+def flatten(quantities):
+    """Flatten all quantities at all loads to `(seed, entry)`; quantity and load of each entry."""
+    values, names, loads = [], [], []
+    for name, of_seeds in quantities.items():
+        of_seeds = of_seeds.transpose("seed", "pressure", ...)
+        values.append(of_seeds.values.reshape(of_seeds.sizes["seed"], -1))
+        names += [name] * values[-1].shape[1]
+        loads += list(np.repeat(of_seeds.pressure.values, of_seeds[0, 0].size))
+    return np.concatenate(values, axis=1), np.array(names), np.array(loads)
 
 
 def tabulate_contact(measured, records):
     """Add rows and points of one file of `measure_contact`."""
-    pool, grid_errors = make_pool(measured)
-    tabulate_grids(pool, grid_errors, records)
+    pool = make_pool(measured)
+    tabulate_grids(pool, records)
     tabulate_tolerances(measured, records)
     tabulate_seeds(pool, records)
     tabulate_theory(measured, pool, records)
@@ -29,26 +168,35 @@ def cover(errors):
     return {key: np.quantile(np.abs(error), COVERED) for key, error in errors.items()}
 
 
-def tabulate_grids(pool, grid_errors, records):
+def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
-    loads = len(np.unique(pool.pressure))
-    *grids, finest = sorted(pool.fine)
-    exact = pool.fine[finest]
+    loads, fine, costs = len(np.unique(pool.pressure)), pool.fine, pool.costs
+    *grids, last = sorted(fine)
+    exact = fine[last]
     for pixels in grids:
-        errors = cover(pool.by_quantity(pool.fine[pixels][: len(exact)] / exact - 1))
+        errors = cover(pool.by_quantity(fine[pixels][: len(exact)] / exact - 1))
         # Areas are extrapolated from two grids.
-        cost = pool.costs[pixels] + (pool.costs[pixels // 2] if pixels > COARSE else 0.0)
+        cost = costs[pixels] + (costs[pixels // 2] if pixels > COARSE else 0.0)
         records.add("points per wavelength", str(pixels), errors, cost / loads)
-    for pixels, parts in grid_errors.items():
-        if pixels > COARSE:
-            errors, noise = (pool.by_quantity(part) for part in parts)
-            for (quantity, load), error in errors.items():
-                at = {"pressure": load, "pixels": pixels}
-                records.add_point("discretisation", quantity, error, noise[quantity, load], **at)
-    for pixels in pool.fine:
-        records.add_point("fine_cost", "", pool.costs[pixels] / loads, pixels=pixels)
-    records.add_point("coarse_cost", "", pool.costs["coarse"] / loads)
-    records.add_point("described_cost", "", pool.costs["described"])
+    # Up to the `best` grid with many seeds against it, from there on with few against the finest.
+    *coarser, best = grids
+    first, its_noise = compare_means(fine[best][: len(exact)], exact)
+    errors = {best: (first, its_noise)}
+    for pixels in coarser[1:]:
+        off, noise = compare_means(fine[pixels], fine[best])
+        errors[pixels] = (1 + off) * (1 + first) - 1, np.hypot(noise, its_noise)
+    for pixels, parts in errors.items():
+        records.add_points("discretisation", *map(pool.by_quantity, parts), pixels=pixels)
+    for pixels in fine:
+        records.add_point("fine_cost", "", costs[pixels] / loads, pixels=pixels)
+    records.add_point("coarse_cost", "", costs["coarse"] / loads)
+    records.add_point("described_cost", "", costs["described"])
+
+
+def compare_means(coarse, exact):
+    """Relative difference of two means over the same seeds, and its standard error."""
+    noise = (coarse / exact.mean(0) - exact * coarse.mean(0) / exact.mean(0) ** 2).std(0)
+    return coarse.mean(0) / exact.mean(0) - 1, noise / np.sqrt(max(len(exact) - 1, 1))
 
 
 def tabulate_tolerances(measured, records):
@@ -68,36 +216,32 @@ def tabulate_tolerances(measured, records):
             square = (values / exact[quantity] - 1) ** 2
             error = np.sqrt(square.mean([d for d in square.dims if d not in ("seed", "pressure")]))
             for load in error.pressure.values:
-                one = single[quantity, load] = error.sel(pressure=load).values
-                at = {"pressure": load, "tolerance": tolerance}
-                records.add_point("solver", quantity, np.sqrt((one**2).mean()), **at)
+                single[quantity, load] = error.sel(pressure=load).values
+        together = {key: np.sqrt((one**2).mean()) for key, one in single.items()}
+        records.add_points("solver", together, tolerance=tolerance)
         records.add("tolerance", f"{tolerance:g}", cover(single), seconds / loads / unit)
 
 
 def tabulate_seeds(pool, records):
     """Errors of means by the number and kind of seeds, on the finest grid that has many."""
     best = max(p for p, fine in pool.fine.items() if len(fine) >= FEWEST_FINE)
-
-    def add(part, shares, **knob):
-        for (quantity, load), share in pool.by_quantity(shares).items():
-            records.add_point(part, quantity, share, pressure=load, **knob)
-
-    add("scatter", pool.fine[best].std(0, ddof=1) / np.abs(pool.truth))
+    scatter = pool.fine[best].std(0, ddof=1) / np.abs(pool.truth)
+    records.add_points("scatter", pool.by_quantity(scatter))
     for pixels, fine in pool.fine.items():
         if pixels != COARSE:
             twin = pool.fine[COARSE][: len(fine)]
-            left = fine - fine.sum(0) / twin.sum(0) * twin
-            add("fine_share", left.std(0, ddof=1) / fine.std(0, ddof=1), pixels=pixels)
+            left = (fine - fine.sum(0) / twin.sum(0) * twin).std(0, ddof=1) / fine.std(0, ddof=1)
+            records.add_points("fine_share", pool.by_quantity(left), pixels=pixels)
     estimate = multilevel.controlled_mean(pool.coarse, pool.controls, pool.elsewhere)
     slopes = np.std(pool.elsewhere @ estimate.coefficient, axis=0, ddof=1)
-    explained = slopes / pool.coarse.std(0, ddof=1)
-    add("coarse_share", np.sqrt(1 - np.minimum(explained, 1) ** 2))
+    explained = np.minimum(slopes / pool.coarse.std(0, ddof=1), 1)
+    records.add_points("coarse_share", pool.by_quantity(np.sqrt(1 - explained**2)))
 
-    resampling, loads = Resampling(pool), len(np.unique(pool.pressure))
+    loads = len(np.unique(pool.pressure))
     for seeds, more in MEANS:
         settings = Settings(best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
-        records.add("seeds", text, cover(resampling.draw(settings)), pool.cost(settings) / loads)
+        records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / loads)
 
 
 def tabulate_theory(measured, pool, records):
@@ -109,7 +253,5 @@ def tabulate_theory(measured, pool, records):
     )
     values, *_ = flatten(derive_columns(state.expand_dims("seed")))
     errors = pool.by_quantity(values[0] / pool.truth - 1)
-    noise = pool.by_quantity(pool.truth_error / pool.truth)
-    for (quantity, load), error in errors.items():
-        records.add_point("theory", quantity, error, noise[quantity, load], pressure=load)
+    records.add_points("theory", errors, pool.by_quantity(pool.truth_error / pool.truth))
     records.add("model", "theory", errors, seconds / len(loads) / float(measured.pair_time))

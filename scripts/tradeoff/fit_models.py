@@ -1,23 +1,57 @@
-"""Fit the error models of `stickiness.accuracy.error_models` to what was measured."""
+"""Collect what was measured, and fit the error models of `stickiness.accuracy.error_models`."""
 
 import numpy as np
 import pandas as pd
 from scipy import optimize
 
+from common.tradeoff_table import KEYS
 from stickiness.accuracy.error_models import ErrorModel
 from tradeoff.measuring import COVERED
 
+ROWS = [*KEYS, "surface", "pressure", "error", "cost"]
 SIZES = ["magnification", "window", "pressure", "pixels", "tolerance"]
 FEATURES = ["constant", "hurst", *SIZES]
-COLUMNS = ["part", "quantity", *FEATURES[1:], "value", "noise"]
+POINTS = ["part", "quantity", *FEATURES[1:], "value", "noise"]
 FLOOR = 1e-10  # errors below are rounding and do not tell how they depend on anything
 PRIOR = 8.0  # twice the variance of exponents before anything is known of them
 
 
+class Records:
+    """Rows of the table, and the points that error models are fitted to."""
+
+    def __init__(self):
+        self.rows, self.points = [], []
+
+    def start(self, problem, name, surface):
+        """Name the problem and the surface of what is added from now on."""
+        self.problem, self.name, self.surface = problem, name, surface
+
+    def add(self, setting, value, errors, cost):
+        """Add a row for every error, by quantity and load."""
+        for (quantity, load), error in errors.items():
+            if np.isfinite(error):
+                where = self.problem, quantity, setting, value, self.name
+                self.rows.append((*where, float(load), float(error), float(cost)))
+
+    def add_points(self, part, values, noise=None, **knob):
+        """Add a point for every value, by quantity and load."""
+        for (quantity, load), value in values.items():
+            error = noise[quantity, load] if noise else 0.0
+            self.add_point(part, quantity, value, error, pressure=load, **knob)
+
+    def add_point(
+        self, part, quantity, value, noise=0.0, *, pressure=1.0, pixels=1.0, tolerance=1.0
+    ):
+        """Add a value of one part of the error models and its standard error, 0 if known well."""
+        surface = self.surface.hurst, self.surface.magnification, self.surface.window
+        at = pressure, pixels, tolerance
+        self.points.append((part, quantity, *surface, *at, float(value), float(noise)))
+
+
 def fit_models(points):
-    """Fit a model to the points of every part and quantity, rows of `COLUMNS`."""
+    """Fit a model to the points of every part and quantity, rows of `POINTS`."""
     models = {}
-    for key, group in pd.DataFrame(points, columns=COLUMNS).groupby(COLUMNS[:2], sort=False):
+    for key, group in pd.DataFrame(points, columns=POINTS).groupby(POINTS[:2], sort=False):
         features = np.column_stack([np.ones(len(group)), group.hurst, np.log(group[SIZES])])
         values, noise = group.value.to_numpy(), group.noise.to_numpy()
         if noise.any():
@@ -81,5 +115,4 @@ def find_varied(features):
 def make_model(coefficients, ratio):
     """Model with these coefficients; `ratio` holds the measured values over it."""
     spread = float(np.quantile(ratio, COVERED))
-    powers = dict(zip(FEATURES, coefficients.tolist(), strict=True))
-    return ErrorModel(**powers, spread=spread, points=len(ratio))
+    return ErrorModel(*coefficients.tolist(), spread=spread, points=len(ratio))

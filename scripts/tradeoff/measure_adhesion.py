@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 
 from common.adhesion_sets import LEAST, STRONGEST, scaled_law, solve_at_gap
-from common.conventions import VARIABLES
 from common.job import start
 from common.model_surfaces import cell_size, grid_points
 from stickiness import adhesive, dmt
@@ -19,20 +18,18 @@ from tradeoff import measuring
 
 FINEST_TOLERANCE = 1e-10  # the reference of the other tolerances
 DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the pull-off in the DMT limit
+POINT = ("range_over_h_rms", "adhesion_length_over_range")
 CLOSED = "a window closes"
-POINT = {name: VARIABLES[name] for name in ("range_over_h_rms", "adhesion_length_over_range")}
 STATES = {
-    **POINT,
-    "pressure": ("1", "mean pressure without adhesion at the same mean gap over E* q0 h_rms"),
+    "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
     "external_pressure": ("1", "mean pressure over E* q0 h_rms", CLOSED),
     "repulsive_area": ("1", "area at a gap of zero over nominal area, by pixels", CLOSED),
-    "attraction_dmt": ("1", "attraction over the gaps without adhesion over E* q0 h_rms"),
-    "area_alone": ("1", "contact area without adhesion over nominal area, by pixels"),
+    "attraction_dmt": "attraction over the gaps without adhesion over E* q0 h_rms",
+    "area_alone": "contact area without adhesion over nominal area, by pixels",
     "seconds": ("s", "processor time of an adhesive state", CLOSED),
 }
 PULL_OFFS = {
-    **POINT,
-    "pull_off": ("1", "lowest mean pressure over E* q0 h_rms"),
+    "pull_off": "lowest mean pressure over E* q0 h_rms",
     "pull_off_dmt": ("1", "the same in the DMT limit", "not with the usual grid and tolerance"),
     "seconds": ("s", "processor time of the separation"),
 }
@@ -69,8 +66,7 @@ def solve_states(surface, asked, pixels, tolerance, seed):
     """Solve one realisation at every load and point; NaN if a window closes."""
     heights, length = measuring.make_heights(surface, pixels, seed)[0], cell_size(surface)
     loads, (laws, coordinates) = np.array(asked["pressures"]), list_laws(asked)
-    shape = len(loads), len(laws)
-    values = {name: np.full(shape, np.nan) for name in STATES if name not in (*POINT, "pressure")}
+    values = {n: np.full((len(loads), len(laws)), np.nan) for n in STATES if n != "pressure"}
     for i, contact in enumerate(solver.load_path(heights, length, loads, tol=tolerance)):
         values["area_alone"][i] = contact.area_fraction
         for k, law in enumerate(laws):
@@ -79,9 +75,7 @@ def solve_states(surface, asked, pixels, tolerance, seed):
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
             problem = heights, length, law, contact, tolerance
-            (state, _), values["seconds"][i, k] = measuring.time_task(
-                lambda problem=problem: solve_at_gap(*problem)
-            )
+            (state, _), values["seconds"][i, k] = measuring.time_task(solve_at_gap, *problem)
             for name in ("external_pressure", "repulsive_area"):
                 values[name][i, k] = state[name]
     found = {name: (("pressure", "point"), value) for name, value in values.items()}
@@ -99,7 +93,7 @@ def separate(surface, asked, pixels, tolerance, seed):
         path = adhesive.path(heights, length, law, turns, tol=tolerance, **options)
         return min(point.state.mean_pressure for point in path if point.event != "pull-off")
 
-    found = [measuring.time_task(lambda law=law: lowest(law)) for law in laws]
+    found = [measuring.time_task(lowest, law) for law in laws]
     values, seconds = zip(*found, strict=True)
     limit = np.full(len(laws), np.nan)
     if (pixels, tolerance) == (asked["at_pixels"], asked["at_tolerance"]):

@@ -5,11 +5,11 @@ import pandas as pd
 from common import plotting
 from common import tradeoff_table as summary
 from common.job import start
-from common.plotting import COLOURS, MARKERS, make_key, write_ticks
+from common.plotting import make_key, pick_look, write_ticks
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.settings import Problem, predicted_cost, predicted_error
-from tradeoff.presets import adhesive_cost, adhesive_error
+from tradeoff.presets import adhesive_cost, adhesive_error, worst_errors
 
 CONTACT = {
     "area": "contact area",
@@ -28,7 +28,6 @@ SETTINGS = {
     "points per wavelength": "points per shortest wavelength",
     "tolerance": "tolerance of the solver",
     "seeds": "number of random surfaces",
-    "model": "model, presets",
 }
 COST = r"cost [FFT pairs of $1024^2$]"
 ERROR_TICKS = (1e-4, 1e-3, 0.01, 0.1, 1)
@@ -39,10 +38,10 @@ PRESET_MARKS = {"draft": "v", "standard": "o", "fine": "^"}
 
 def main(job):
     medians, params = summary.read(job.input.summary), job.params
-    models, surface = read_models(job.input.laws), Surface.of(params.surface)
     tolerances = pd.to_numeric(medians.value, errors="coerce")
     medians["x"] = medians.cost.where(medians.setting != "tolerance", tolerances)
-    is_contact, pressures = medians.problem == "contact", params.presets["pressures"]
+    is_contact = medians.problem == "contact"
+    given = read_models(job.input.laws), Surface.of(params.surface), params.presets["pressures"]
     presets = {
         name: plan.preset(params.fidelities[name])
         for name in PRESET_MARKS
@@ -50,32 +49,35 @@ def main(job):
     }
     with plotting.open_figure(job.output, "AB;CD;EF;GH", 9.5) as panels:
         for names, title, found, labels, error, cost in (
-            ("ACEG", "contact", medians[is_contact], CONTACT, predicted_error, cost_of_one_load),
+            ("ACEG", "contact", medians[is_contact], CONTACT, predicted_error, cost_of_load),
             ("BDFH", "adhesion", medians[~is_contact], ADHESION, adhesive_error, adhesive_cost),
         ):
-            styles = {
-                quantity: {"color": colour, "marker": marker}
-                for quantity, colour, marker in zip(labels, COLOURS, MARKERS, strict=False)
-            }
-            for name, (setting, text) in zip(names, SETTINGS.items(), strict=True):
+            styles = {quantity: pick_look(index) for index, quantity in enumerate(labels)}
+            found = found[found.quantity.isin(labels)]
+            for name, (setting, text) in zip(names, SETTINGS.items(), strict=False):
                 panels[name].set_title(f"{title}: {text}", loc="right")
-                chosen = found[(found.setting == setting) & found.quantity.isin(labels)]
-                if setting == "model":
-                    draw_models(panels[name], chosen, styles)
-                    problem = Problem(
-                        models, surface, pressures, list(labels), params.descriptor_seeds
-                    )
-                    draw_presets(panels[name], problem, presets, styles, error, cost)
-                else:
-                    draw_setting(panels[name], chosen[chosen.error > SMALLEST], styles, setting)
+                chosen = found[(found.setting == setting) & (found.error > SMALLEST)]
+                draw_setting(panels[name], chosen, styles, setting)
             keys = [make_key(labels[name], **style) for name, style in styles.items()]
             panels[names[1]].legend(handles=keys, loc="upper left")
+            last = panels[names[-1]]
+            last.set_title(f"{title}: model, presets", loc="right")
+            keys = draw_models(last, found[found.setting == "model"], styles)
+            problem = Problem(*given, list(labels), params.descriptor_seeds)
+            for name, settings in presets.items():
+                look = {"linestyle": "", "marker": PRESET_MARKS[name]}
+                keys.append(make_key(f"simulation, {name}", **look))
+                worst = worst_errors(problem, settings, error)
+                for style, largest in zip(styles.values(), worst, strict=True):
+                    last.plot(cost(problem, settings), largest, color=style["color"], **look)
+            finish(last, COST)
+            last.legend(handles=keys, loc="lower left")
         kinds = {"plain mean": "--", "with a control variate": "-"}
         keys = [make_key(text, linestyle=line) for text, line in kinds.items()]
         panels["F"].legend(handles=keys, loc="lower left")
 
 
-def cost_of_one_load(problem, settings):
+def cost_of_load(problem, settings):
     return predicted_cost(problem, settings) / len(problem.pressures)
 
 
@@ -96,27 +98,16 @@ def draw_setting(ax, found, styles, setting):
 
 
 def draw_models(ax, found, styles):
-    """Error and cost of the approximate model; a line where it is free once contact is solved."""
+    """Error and cost of the approximate models; a line where one is free once contact is solved."""
     for one in found.itertuples():
         colour = styles[one.quantity]["color"]
         if one.cost > 0:
             ax.plot(one.cost, one.error, "*", color=colour, markersize=8)
         else:
             ax.axhline(one.error, color=colour, linestyle=":", linewidth=1)
-
-
-def draw_presets(ax, problem, presets, styles, error, cost):
-    """Predicted error and cost of simulations with each preset."""
-    keys = [make_key("theory", linestyle="", marker="*")]
-    if error is adhesive_error:
-        keys = [make_key("DMT limit", linestyle=":")]
-    for name, settings in presets.items():
-        keys.append(make_key(f"simulation, {name}", linestyle="", marker=PRESET_MARKS[name]))
-        for quantity, style in styles.items():
-            worst = max(error(problem, settings, p, quantity) for p in problem.pressures)
-            ax.plot(cost(problem, settings), worst, PRESET_MARKS[name], color=style["color"])
-    finish(ax, COST)
-    ax.legend(handles=keys, loc="lower left")
+    if (found.cost > 0).any():
+        return [make_key("theory", linestyle="", marker="*")]
+    return [make_key("DMT limit", linestyle=":")]
 
 
 def finish(ax, label):

@@ -8,13 +8,10 @@ they are plain. A pull-off is a result of one realisation, not a mean: only its 
 import itertools
 from dataclasses import replace
 
-from common.tradeoff_table import percent
 from stickiness.accuracy.error_models import Settings, Surface, single_error
-from stickiness.accuracy.plan import preset
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import (
     COARSE_SEEDS,
-    LEAST,
     PIXELS,
     SEEDS,
     TOLERANCES,
@@ -49,11 +46,6 @@ def adhesive_error(problem, settings, pressure, column):
     return float(predicted_error(problem, settings, pressure, column))
 
 
-def worst_adhesive_error(problem, settings):
-    """Largest error of full adhesion, its column and pressure."""
-    return max((adhesive_error(problem, settings, *at), *at[::-1]) for at in problem.points)
-
-
 def adhesive_cost(problem, settings):
     """Cost of one adhesive state of every seed on two grids, and of the coarse seeds."""
     models, surface, pixels = problem.models, problem.surface, settings.pixels_per_wavelength
@@ -63,59 +55,47 @@ def adhesive_cost(problem, settings):
 
 def cheapest_adhesive(problem, accuracy):
     """Cheapest settings for an accuracy in all columns of full adhesion."""
-    every = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
-    found = [
-        (adhesive_cost(problem, settings), settings)
-        for settings in itertools.starmap(Settings, every)
-        if worst_adhesive_error(problem, settings)[0] <= accuracy
-    ]
+
+    def worst(settings):
+        return max((adhesive_error(problem, settings, *at), *at[::-1]) for at in problem.points)
+
+    knobs = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
+    every = list(itertools.starmap(Settings, knobs))
+    found = [(adhesive_cost(problem, one), one) for one in every if worst(one)[0] <= accuracy]
     if found:
         return min(found)[1]
-    best = Settings(PIXELS[-1], TOLERANCES[0], SEEDS[-1], COARSE_SEEDS[-1])
-    left, column, pressure = worst_adhesive_error(problem, best)
+    left, column, pressure = worst(every[-1])
     raise UnreachableError(
         f"the best that full adhesion reaches is {left:.2g}, for {column} at pressure {pressure:g}"
     )
 
 
-def preset_by_rule(models, asked, name, surface, descriptor_seeds, free=False):
-    """Cheapest settings for the error of a preset; `free` of the quantities of full adhesion."""
-    where, least = (models, Surface.of(surface), asked["pressures"]), LEAST
-    if not free:
-        wanted = asked["adhesive"]
-        columns = list(itertools.chain(*(ADHESIVE_QUANTITIES[q] for q in wanted["quantities"])))
-        adhesion = Problem(*where, columns, descriptor_seeds)
-        least = cheapest_adhesive(adhesion, wanted["accuracy"][name])
-    problem = Problem(*where, columns_of(MODELLED), descriptor_seeds)
-    return cheapest(problem, asked["accuracy"][name], plain=False, least=least)
-
-
-def list_presets(models, presets, surface, fidelities, descriptor_seeds):
-    """Table of the presets by the rule and of those of the configuration, with their errors."""
-    where = models, Surface.of(surface), presets["pressures"]
+def preset_by_rule(models, presets, name, surface, descriptor_seeds):
+    """Cheapest multilevel settings for the errors of a preset, those of full adhesion included."""
+    where, adhesive = (models, Surface.of(surface), presets["pressures"]), presets["adhesive"]
+    columns = [column for one in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[one]]
+    adhesion = Problem(*where, columns, descriptor_seeds)
+    least = cheapest_adhesive(adhesion, adhesive["accuracy"][name])
+    least = replace(least, coarse_seeds=max(least.coarse_seeds, COARSE_SEEDS[1]))
     contact = Problem(*where, columns_of(MODELLED), descriptor_seeds)
-    adhesion = Problem(*where, ADHESIVE_COLUMNS, descriptor_seeds)
+    return cheapest(contact, presets["accuracy"][name], least=least)
 
-    def describe(text, chosen):
-        errors = [
-            max(error(problem, chosen, p, column) for p in problem.pressures)
-            for error, problem in ((predicted_error, contact), (adhesive_error, adhesion))
-            for column in problem.columns
-        ]
-        costs = predicted_cost(contact, chosen), adhesive_cost(adhesion, chosen)
-        pixels, tolerance, seeds, coarse = vars(chosen).values()
-        settings = [pixels, f"{tolerance:.0e}", seeds, coarse, *(f"{cost:.0f}" for cost in costs)]
-        return [text, *settings, *map(percent, errors)]
 
-    settings = "preset", "pixels", "tolerance", "seeds", "coarse seeds", "cost", "adhesive cost"
-    head, lines = [*settings, *contact.columns, *adhesion.columns], []
-    for name, error in presets["accuracy"].items():
-        for text, free in ((f"{name}: below {error:.0%}", False), ("without full adhesion", True)):
-            by_rule = models, presets, name, surface, descriptor_seeds, free
-            try:
-                lines.append(describe(text, preset_by_rule(*by_rule)))
-            except UnreachableError as refusal:
-                reached = str(refusal).split(";")[0]
-                lines.append([f"{text}: out of reach, {reached}", *[""] * (len(head) - 1)])
-        lines.append(describe("in the configuration", preset(fidelities[name])))
-    return {"asked": presets, "head": head, "lines": lines}
+def worst_errors(problem, settings, error):
+    """Largest error over the loads of every column, by `predicted_error` or `adhesive_error`."""
+    return [max(error(problem, settings, p, c) for p in problem.pressures) for c in problem.columns]
+
+
+def list_presets(models, presets, surface, descriptor_seeds):
+    """Lines of a table of presets: settings, cost of contact and of full adhesion, by the rule."""
+    problem = Problem(models, Surface.of(surface), presets["pressures"], (), descriptor_seeds)
+    lines = []
+    for name in presets["accuracy"]:
+        try:
+            chosen = preset_by_rule(models, presets, name, surface, descriptor_seeds)
+        except UnreachableError as refusal:
+            lines.append([f"{name}: out of reach, {str(refusal).split(';')[0]}"])
+            continue
+        costs = predicted_cost(problem, chosen), adhesive_cost(problem, chosen)
+        lines.append([name, *vars(chosen).values(), *(f"{cost:.0f}" for cost in costs)])
+    return lines

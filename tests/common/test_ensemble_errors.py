@@ -65,7 +65,8 @@ def test_multilevel_mean_of_a_derived_quantity(ensemble):
         for k in (-1, 0)
     )
     many = e.coarse_area.values * e.coarse_rms_slope.values[:, None] / np.array(LOADS)
-    want = multilevel.multilevel_mean(fine, twin, many, e.long_waves, e.other_long_waves)
+    waves = e.long_waves.values, e.other_long_waves.values
+    want = multilevel.multilevel_mean(fine, twin, many, *waves)
     np.testing.assert_allclose(found.k_mean, want.mean, rtol=1e-13)
     np.testing.assert_allclose(found.k_standard_error, want.standard_error, rtol=1e-13)
     assert found.k_mean.dims == ("pressure",)

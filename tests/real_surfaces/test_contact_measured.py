@@ -16,17 +16,11 @@ from stickiness.spectrum import SelfAffine
 RANGES = np.geomspace(0.003, 1, 11)
 
 
-def contact_of(h, q_max=16.0, **changed):
-    setting = {
-        "pressures": np.array([0.03, 0.3]),
-        "ranges": RANGES,
-        "pixels": 4,
-        "tolerance": 1e-6,
-        "gamma": 0.45,
-    } | changed
+def contact_of(h, q_max=16.0, pressures=(0.03, 0.3), pixels=4):
+    setting = {"ranges": RANGES, "pixels": pixels, "tolerance": 1e-6, "gamma": 0.45}
     step = 2 * np.pi / len(h)
-    heights = Topography(h, step, step, "here")
-    return contact_measured.solve(heights, 1.0, q_max, contact_measured.Setting(**setting))
+    heights, bem = Topography(h, step, step, "here"), {"pressures": list(pressures)}
+    return contact_measured.solve(heights, 1.0, q_max, bem, **setting)
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +46,7 @@ def test_contact_of_a_smooth_wave_is_westergaard_s():
     # which the amplitude is sqrt(2) h_rms. A mirror image of whole periods is the wave itself.
     n = 256
     x = (np.arange(n) + 0.5) * 2 * np.pi / n  # mirrored between points: an even wave goes on
-    found = contact_of(np.tile(np.cos(x)[:, None], (1, n)), pressures=np.array([0.2]), pixels=16)
+    found = contact_of(np.tile(np.cos(x)[:, None], (1, n)), pressures=[0.2], pixels=16)
     area = float(found.area_fraction.sel(periodisation="mirror").isel(resolution=-1, pressure=0))
     # pi E* amplitude/L with L = 2 pi and amplitude sqrt(2) in units of h_rms is 1/sqrt(2).
     expected = 2 / np.pi * np.arcsin(np.sqrt(0.2 * np.sqrt(2)))
@@ -158,9 +152,7 @@ def test_adhesion_is_that_of_the_solver_at_the_pressures_given(pressed, periodic
 def test_a_grid_beyond_most_points_is_refused(periodic_file, changed, text):
     asked = asked_of(periodic_file, **changed)
     bem = asked["bem"]
-    setting = contact_measured.read_setting(
-        bem, ranges=RANGES, pixels=8, tolerance=1e-4, gamma=0.45
-    )
+    setting = {"ranges": RANGES, "pixels": 8, "tolerance": 1e-4, "gamma": 0.45}
     q_max = contact_measured.highest_wave_number(bem, 1e9)
     with pytest.raises(ValueError, match=text):
-        contact_measured.solve(contact_measured.read_map(asked), 1.0, q_max, setting)
+        contact_measured.solve(contact_measured.read_map(asked), 1.0, q_max, bem, **setting)

@@ -1,11 +1,13 @@
 """Files and entries of measured surfaces that are wrong: an error, or no verdict, in words."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from real_surfaces import analyse_surface
-from stickiness import surface
+from stickiness import measured, surface
 from stickiness.spectrum import SelfAffine
 
 N = 128
@@ -87,7 +89,7 @@ REFUSED = {
     "ten by ten": (ROUGH[:10, :10], {}, ["10 x 10 points", "64 points along its shorter side"]),
     "a short profile": (ROUGH[0, :30], {}, ["of 30 points", "a profile 256"]),
     "flat": (np.ones((N, N)), {}, ["all heights are 1e-06 m; nothing to analyse"]),
-    "all missing": (np.full((N, N), np.nan), {}, ["16384 points, which are all, are missing"]),
+    "all missing": (np.full((N, N), np.nan), {}, ["16384 of 16384 points (100.0 %) are missing"]),
     "half missing": (np.where(ROUGH > 0, np.nan, ROUGH), {}, ["more than the 10.0 %", "crop"]),
     "three dimensions": (np.ones((3, 4, 5)), {}, ["two-dimensional array or a profile"]),
     "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, ["not a readable numpy file"]),
@@ -179,11 +181,21 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
     assert "give spikes: keep" in found.remarks
 
 
-def test_many_spikes_are_told_with_their_share(tmp_path):
+def test_many_spikes_are_told_with_their_number(tmp_path):
     islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
     many = analyse(tmp_path, changed(*islands, value=9.0))
     assert int(many.masked_spikes) == 25
-    assert "0.0015 of the points of" in many.remarks
-    few = analyse(tmp_path, changed((60, 70), value=9.0))
-    assert int(few.masked_spikes) == 1
-    assert "with all points" not in few.remarks
+    assert "25 points of" in many.remarks
+
+
+def test_remarks_name_what_is_wrong():
+    step = 2e-3 / N
+    found = [
+        measured.analyse(measured.Topography(h, step, step, "here")) for h in (NOISE, ROUGH * 1e-6)
+    ]
+    assert not found[0].fit.is_self_affine
+    lay = replace(found[0], anisotropy=0.8)
+    first, second, *_ = analyse_surface.remark_on_spectrum(lay, None)
+    assert "outside 0 < H <= 1" in first
+    assert "direction" in second
+    assert len(list(analyse_surface.remark_on_spectrum(found[1], None))) == 2  # on its ends

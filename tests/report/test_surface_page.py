@@ -47,7 +47,7 @@ def scan(path, seed=1, spoiled=()):
 def analysed(path, **asked):
     """The file that the rule writes, read back."""
     asked = {"kind": "measured", "label": "plate & co", "source": "own", **asked}
-    dataset = analyse_surface.annotate(analyse_surface.analyse(asked))
+    dataset = analyse_surface.analyse(asked)
     datasets.write(dataset, path, title="a", parameters={"surface": "plate", **asked})
     return datasets.read(path)
 
@@ -177,7 +177,7 @@ def test_profiles_and_parametric_surfaces_have_pages(folder):
     asked = {"kind": "self_affine", "label": "sand", "hurst": 0.8, "source": "own"}
     asked |= {"longest_wavelength": "1 mm", "shortest_wavelength": "1 um"}
     asked |= {"h_rms": ["1 um", "3 um"]}
-    dataset = analyse_surface.annotate(analyse_surface.self_affine(asked))
+    dataset = analyse_surface.self_affine(asked)
     datasets.write(dataset, folder / "sand.nc", title="a", parameters=asked)
     page = write_page(datasets.read(folder / "sand.nc"), folder)
     page.check("rms height 1 … 3 µm")
@@ -193,8 +193,7 @@ def test_page_tells_of_steep_slopes_missing_points_and_contact_of_periodic_heigh
     gel = {"plane_strain_modulus": "25 MPa", "work_of_adhesion": "50 mJ/m^2", "range": "0.2 um"}
     asked = {"periodic": True, "pressures": ["100 kPa"], "adhesion": gel}
     more = {"ranges": np.geomspace(0.01, 1, 9), "pixels": 4, "tolerance": 1e-4, "gamma": 0.45}
-    setting = contact_measured.read_setting(asked, **more)
-    bem = contact_measured.solve(given, float(single.q0), 1.0, setting)
+    bem = contact_measured.solve(given, float(single.q0), 1.0, asked, **more)
     odd = single.assign(
         rms_slope=single.rms_slope.copy(data=[1.9, 2.1]),
         q1=100 * single.q1,

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, units
-from stickiness.accuracy import model_choice, multilevel
 from stickiness.criteria import a_v_table, equivalent_sphere
 from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.persson import Persson
@@ -41,7 +40,6 @@ MISUSES = [
     (lambda: press(pressure="0.1"), "pressure must be a number"),
     (lambda: press(pressure=-0.1), "pressure must be non-negative"),
     (lambda: press(tol=10.0), "tol must be positive and at most"),
-    (lambda: press(start=HEIGHTS), "start must be a Contact"),
     (lambda: surface.synthesise(BAND, 16, SIDE, None), "seed must be an integer"),
     (lambda: surface.synthesise("steel", 16, SIDE, 1), "spectrum must be"),
     (lambda: surface.lattice_spectrum(BAND, SIDE / 3), "window does not hold"),
@@ -57,7 +55,6 @@ MISUSES = [
     (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
-    (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
     (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),
     (
         lambda: dmt.attraction_of_areas([0.3, 0.2, 0.1], [3, 2, 1], LAW),
@@ -74,17 +71,7 @@ MISUSES = [
         "kappa_rep must be positive",
     ),
     (lambda: equivalent_sphere.error_factor(1.0, -1.0), "strength must be positive"),
-    (
-        lambda: model_choice.ErrorTable({("maugis", 0.8): ((), 0, 0)}).relative_error(
-            "maugis", 0.8, 32, 0.0, 0.1, 0.1
-        ),
-        "values must be positive",
-    ),
     (lambda: moduli.Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
-    (
-        lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [2.0, 1.0]),
-        "frequencies must be one increasing",
-    ),
     (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), "heights leave the range of floats"),
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),

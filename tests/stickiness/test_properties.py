@@ -173,7 +173,7 @@ def test_spectra_and_their_stitching_do_not_depend_on_order(seed, hurst):
     one, same, other = (
         stitching.stitch(each) for each in ([wide, close], [wide, close], [close, wide])
     )
-    assert one.spectrum.rings.psd.tobytes() == same.spectrum.rings.psd.tobytes()
-    np.testing.assert_allclose(other.spectrum.rings.psd, one.spectrum.rings.psd, rtol=1e-9)
-    assert other.spectrum.fit.hurst == pytest.approx(one.spectrum.fit.hurst, abs=1e-6)
+    assert one.rings.psd.tobytes() == same.rings.psd.tobytes()
+    np.testing.assert_allclose(other.rings.psd, one.rings.psd, rtol=1e-9)
+    assert other.fit.hurst == pytest.approx(one.fit.hurst, abs=1e-6)
     assert other.scatter == pytest.approx(one.scatter, rel=1e-6)

@@ -22,7 +22,7 @@ from stickiness.accuracy.error_models import (
     single_error,
 )
 from stickiness.accuracy.settings import Problem, UnreachableError
-from tradeoff import fit_models, presets, seed_pool
+from tradeoff import contact_table, fit_models, presets
 from tradeoff.adhesion_table import find_threshold, measure_scatter
 from tradeoff.presets import ADHESIVE_COLUMNS, adhesive_error, cheapest_adhesive, preset_by_rule
 
@@ -32,7 +32,7 @@ LAWS = ROOT / "config/accuracy.csv"
 
 def fit(part, *points):
     """Fit one model to (surface, value, noise, sizes)."""
-    records = summary.Records()
+    records = fit_models.Records()
     for rough, value, noise, sizes in points:
         records.start("contact", "some", rough)
         records.add_point(part, "area", value, noise, **sizes)
@@ -88,17 +88,17 @@ def test_control_variates_of_a_pool_reduce_the_error():
     controls, described = (
         np.stack([one] * 7, axis=1) * np.arange(1, 8) for one in (more, elsewhere)
     )
-    pool = seed_pool.SeedPool(
+    pool = contact_table.SeedPool(
         *(fine, others, controls, described, np.tile([0.01, 0.1], 2)),
         quantity=np.repeat(["area", "mean_gap"], 2),
         truth=fine[4].mean(0) * others.mean(0) / coarse.mean(0),
         truth_error=0.0 * mean,
         fine_mean=fine[4].mean(0),
+        repetitions=400,
+        described=1024,
     )
-    resampling = seed_pool.Resampling(pool, 400, 1024)
     plain, multilevel = (
-        np.sqrt(np.mean(resampling.draw(Settings(4, 1e-8, 4, n))["area", 0.01] ** 2))
-        for n in (0, 256)
+        np.sqrt(np.mean(pool.draw(Settings(4, 1e-8, 4, n))["area", 0.01] ** 2)) for n in (0, 256)
     )
     assert plain == pytest.approx(math.hypot(0.1, 0.05) / 2, rel=0.3)
     assert multilevel < 0.3 * plain

@@ -104,7 +104,7 @@ class Case(Section):
     pressures: f.Loads
     accuracy: f.Share = optional("relative error that covers 90 %, e.g. 0.03")
     at_most: AtMost = optional("largest number of seeds for it; overrides sampling.at_most")
-    quantities: f.Several[Literal[tuple(QUANTITIES)]] = optional(
+    quantities: f.Several[Literal[QUANTITIES]] = optional(
         "what is wanted; default all but contact_slope, which needs seeds instead of accuracy"
     )
     model: Literal["simulation", "theory"] = optional("Persson's theory alone; default simulation")

@@ -106,10 +106,7 @@ ErrorModels = Mapping[tuple[str, str], ErrorModel]
 
 
 def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float, float]:
-    """Return the nearest surface and pressure measured, and the factor that widens errors there.
-
-    The factor is 1 within `MEASURED`, otherwise `OUTSIDE`.
-    """
+    """Return the nearest surface and pressure measured, and the factor that widens errors there."""
     asked = {name: getattr(surface, name, pressure) for name in MEASURED}
     near = {name: min(max(asked[name], low), high) for name, (low, high) in MEASURED.items()}
     factor = 1.0 if near == asked and surface.kind_measured else OUTSIDE
@@ -122,7 +119,7 @@ def single_error(
 ) -> float:
     """Return one part of an error, covering 90 %; widened outside what was measured."""
     model, (surface, pressure, factor) = models[part, column], nearest_measured(surface, pressure)
-    if is_coarse(pixels, tolerance):
+    if _is_coarse(pixels, tolerance):
         factor *= OUTSIDE
     finest = min(pixels, FINEST["pixels"]), max(tolerance, FINEST["tolerance"])
     return factor * model.spread * model(surface, pressure, *finest)
@@ -142,14 +139,13 @@ def grid_error(
     return float(np.fmin(found, by_model))
 
 
-def is_coarse(pixels: float, tolerance: float) -> bool:
-    """Whether a grid or a tolerance is coarser than what was measured."""
-    return pixels < COARSEST["pixels"] or tolerance > COARSEST["tolerance"]
-
-
 def extrapolated(surface, pressure, pixels=FINEST["pixels"], tolerance=FINEST["tolerance"]) -> bool:
     """Whether anything that errors are taken from is outside what was measured."""
-    return nearest_measured(surface, pressure)[-1] > 1 or is_coarse(pixels, tolerance)
+    return nearest_measured(surface, pressure)[-1] > 1 or _is_coarse(pixels, tolerance)
+
+
+def _is_coarse(pixels: float, tolerance: float) -> bool:
+    return pixels < COARSEST["pixels"] or tolerance > COARSEST["tolerance"]
 
 
 def read_models(path: str | Path) -> dict[tuple[str, str], ErrorModel]:
@@ -176,10 +172,9 @@ def read_models(path: str | Path) -> dict[tuple[str, str], ErrorModel]:
 
 def write_models(path: str | Path, models: ErrorModels, comment: str) -> None:
     """Write a table of error models, with lines of comment before it."""
-    names = [field.name for field in fields(ErrorModel)]
     with Path(path).open("w", encoding="utf-8", newline="") as file:
         file.writelines(f"# {line}\n" for line in comment.splitlines())
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["part", "quantity", *names])
-        for (part, column), model in models.items():
-            table.writerow([part, column, *(f"{getattr(model, name):.5g}" for name in names)])
+        table.writerow(["part", "quantity", *(field.name for field in fields(ErrorModel))])
+        for key, model in models.items():
+            table.writerow([*key, *(f"{value:.5g}" for value in vars(model).values())])

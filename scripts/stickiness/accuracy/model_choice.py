@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.accuracy.error_models import Surface
-from stickiness.arguments import positive
 from stickiness.criteria.area_load import jtb_limit
 from stickiness.units import si
 
@@ -27,38 +26,30 @@ AXES = ("magnification", "pressure", "range_over_h_rms", "strength")
 COLUMNS = ("law", "hurst", *AXES, "ratio", "error")
 _ROUNDING = 1e-9  # relative, of the ends of an axis
 
+# By law and Hurst exponent: the logarithms of the values along `AXES`, and the logarithm of the
+# ratio of 1/kappa_ad, full over DMT, and its error on their product, NaN where not measured.
+ErrorTable = Mapping[tuple[str, float], tuple[tuple[NDArray, ...], NDArray, NDArray]]
 
-@dataclass(frozen=True, eq=False)
-class ErrorTable:
-    """Measured 1/kappa_ad, full over DMT, on a lattice of parameters for each law and H.
 
-    `lattices` holds, by law and Hurst exponent, the logarithms of the values along `AXES`, and the
-    logarithm of the ratio and its error on their product, NaN where nothing was measured.
+def relative_error(table: ErrorTable, law: str, hurst: float, *values: float) -> float:
+    """Largest relative error of the DMT limit in 1/kappa_ad, NaN outside the table.
+
+    It is ``|DMT/full - 1|`` with the ratio as far from 1 as its error allows. The values are in the
+    order of `AXES`; between the lattice's points, logarithms are linear.
     """
-
-    lattices: Mapping[tuple[str, float], tuple[tuple[NDArray, ...], NDArray, NDArray]]
-
-    def relative_error(self, law: str, hurst: float, *values: float) -> float:
-        """Largest relative error of the DMT limit in 1/kappa_ad, NaN outside the table.
-
-        It is ``|DMT/full - 1|`` with the ratio as far from 1 as its error allows. The values are in
-        the order of `AXES`, positive and finite (else ValueError); between the lattice's points,
-        logarithms are linear.
-        """
-        if (law, hurst) not in self.lattices:
-            return np.nan
-        positive(values=values)
-        axes, ratio, error = self.lattices[law, hurst]
-        # Without neighbours, outside the table, no corner is left.
-        corners = [_neighbours(axis, np.log(v)) for axis, v in zip(axes, values, strict=True)]
-        if not all(corners):
-            return np.nan
-        mean, spread = 0.0, 0.0
-        for corner in product(*corners):
-            index, share = zip(*corner, strict=True)
-            mean += np.prod(share) * ratio[index]
-            spread += np.prod(share) * error[index]
-        return float(max(abs(np.expm1(-mean - spread)), abs(np.expm1(-mean + spread))))
+    if (law, hurst) not in table:
+        return np.nan
+    axes, ratio, error = table[law, hurst]
+    # Without neighbours, outside the table, no corner is left.
+    corners = [_neighbours(axis, np.log(v)) for axis, v in zip(axes, values, strict=True)]
+    if not all(corners):
+        return np.nan
+    mean, spread = 0.0, 0.0
+    for corner in product(*corners):
+        index, share = zip(*corner, strict=True)
+        mean += np.prod(share) * ratio[index]
+        spread += np.prod(share) * error[index]
+    return float(max(abs(np.expm1(-mean - spread)), abs(np.expm1(-mean + spread))))
 
 
 def _neighbours(axis: NDArray, value: float) -> list[tuple[int, float]]:
@@ -74,10 +65,7 @@ def _neighbours(axis: NDArray, value: float) -> list[tuple[int, float]]:
 
 
 def read_table(path: str | Path) -> ErrorTable:
-    """Read a table of `COLUMNS` from a CSV file.
-
-    ValueError if the file is missing or has other columns, or a value is unusable; names the line.
-    """
+    """Read a table of `COLUMNS` from a CSV file; a ValueError names the file and the line."""
     try:
         lines = Path(path).read_text(encoding="utf-8").splitlines()
     except FileNotFoundError:
@@ -103,7 +91,7 @@ def read_table(path: str | Path) -> ErrorTable:
         lattice = np.full((2, *map(len, axes)), np.nan)
         lattice[:, *places] = ratios, errors
         lattices[group] = axes, *lattice
-    return ErrorTable(lattices)
+    return lattices
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,10 +104,7 @@ class Choice:
 
 
 def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTable) -> Choice:
-    """Choose the model for every point of an entry `adhesion` of the configuration.
-
-    `asked` is the entry, `surface` that of its model surface.
-    """
+    """Choose the model for every point of an entry of `adhesion`, and its model surface."""
     pressures, lengths, ranges = (
         np.sort(np.array(asked[name], dtype=float))
         for name in ("pressures", "adhesion_length_over_range", "range_over_h_rms")
@@ -135,7 +120,7 @@ def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
         for i, j, k in np.ndindex(shape):
             point = pressures[i], ranges[k], lengths[j] / q0_h_rms
             of_surface = asked["law"], kind.hurst, kind.magnification
-            error[i, j, k] = table.relative_error(*of_surface, *point)
+            error[i, j, k] = relative_error(table, *of_surface, *point)
     good = jtb & (error <= asked.get("accuracy", 0.0))
     full = {"dmt": np.zeros(shape, bool), "full": np.ones(shape, bool), "auto": ~good}
     return Choice(full[asked["model"]], error, jtb)

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy import fft
 
 from stickiness.arguments import integer
@@ -40,47 +40,17 @@ class Estimate:
     coefficient: NDArray
 
 
-def plain_mean(values: ArrayLike) -> Estimate:
-    """Mean over axis 0 of at least two finite samples and its standard error, without controls."""
-    values = _check_samples("values", values, 2)
-    return Estimate(values.mean(0), _error(values), np.zeros(values.shape[1:]))
+def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> Estimate:
+    """Mean of expensive samples (N, ...), corrected by controls that are known for many more.
 
-
-def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike) -> Estimate:
-    """Mean of expensive samples, corrected by controls that are known for many more.
-
-    Parameters
-    ----------
-    values : (N, ...) array
-        One sample per seed, for instance A_rep or A_ad at several loads and ranges.
-    controls : (N, k) array
-        Controls of the same seeds, in the same order; they serve every trailing entry of `values`.
-        One without scatter is left out.
-    elsewhere : (M, k) array
-        The same controls of other seeds, none of them among the first N.
-
-    Returns
-    -------
-    Estimate
-        Linear in `values`. ``coefficient`` has the shape ``(k, ...)``. The standard error is that
-        of the residuals, each against coefficients fitted without it, and that of the controls'
-        mean.
-
-    Raises
-    ------
-    ValueError
-        If shapes do not match, values are not finite, or N is below 4 (k + 1): with fewer
-        the coefficients scatter so much that the standard error comes out too small.
+    `controls` (N, k) are of the same seeds, and serve every trailing entry of `values`; one without
+    scatter is left out. `elsewhere` (M, k) are controls of other seeds. The standard error is that
+    of the residuals, each against coefficients fitted without it, and that of the controls' mean.
     """
-    values = _check_samples("values", values, 2)
-    controls = _check_samples("controls", controls, 2)
-    elsewhere = _check_samples("elsewhere", elsewhere, 2)
-    if controls.ndim != 2 or len(controls) != len(values):
-        raise ValueError(f"controls must be of shape ({len(values)}, k), got {controls.shape}")
-    if elsewhere.shape[1:] != controls.shape[1:]:
-        wanted = f"(M, {controls.shape[1]})"
-        raise ValueError(f"elsewhere must be of shape {wanted}, got {elsewhere.shape}")
-    _check_samples("values", values, 4 * (controls.shape[1] + 1))
+    fewest = 4 * (controls.shape[1] + 1)
+    # With fewer the coefficients scatter so much that the standard error comes out too small.
+    if len(values) < fewest:
+        raise ValueError(f"values must hold at least {fewest} samples, got {len(values)}")
     flat = values.reshape(len(values), -1)
     corrected, coefficient = _regress(flat, controls, elsewhere.mean(0))
     variance = _error(corrected) ** 2 + _error(elsewhere @ coefficient) ** 2
@@ -92,54 +62,28 @@ def controlled_mean(values: ArrayLike, controls: ArrayLike, elsewhere: ArrayLike
 
 
 def multilevel_mean(
-    fine: ArrayLike,
-    coarse: ArrayLike,
-    many: ArrayLike,
-    controls: ArrayLike | None = None,
-    elsewhere: ArrayLike | None = None,
+    fine: NDArray,
+    coarse: NDArray,
+    many: NDArray,
+    controls: NDArray,
+    elsewhere: NDArray,
     fewest: int = _FEWEST,
 ) -> Estimate:
-    """Mean of a few fine solutions, corrected by many coarse ones.
+    """Mean of a few fine solutions (n, ...), corrected by many coarse ones.
 
-    Parameters
-    ----------
-    fine : (n, ...) array
-        Fine solutions, one per seed.
-    coarse : (n, ...) array
-        The same quantities of the same seeds on the coarse grid.
-    many : (N, ...) array
-        The same quantities on the coarse grid for other seeds, none of them among the first n.
-    controls, elsewhere : (N, k) and (M, k) array, optional
-        Controls (`descriptors`) of the seeds of `many`, and of seeds of which there is no solution
-        at all; without them the plain mean is taken.
-    fewest : int
-        Fine seeds from which on the coefficient of the coarse solution is the slope of fine against
-        coarse, entry by entry; with fewer it is the ratio of their means.
+    `coarse` (n, ...) are the same quantities of the same seeds on the coarse grid, `many` (N, ...)
+    those of other seeds. `controls` (N, k) and `elsewhere` (M, k) are descriptors of the seeds of
+    `many`, and of seeds that are not solved. From `fewest` fine seeds on, the coefficient of the
+    coarse solution is the slope of fine against coarse, entry by entry; with fewer it is the ratio
+    of their means.
 
-    Raises
-    ------
-    ValueError
-        If shapes do not match or values are not finite, or there are fewer than two samples.
-
-    Notes
-    -----
     A slope fitted to a few seeds scatters too much to help: with four it can double the variance of
     a plain mean. The ratio of means does not, and it suits areas at ranges that the coarse grid
     does not resolve: those are too large, but all in proportion. Where coarse solutions are not all
-    of one sign a ratio means little, and 1 is taken.
-
-    Neither helps where the coarse solutions hold noise of their own, such as P(u) at gaps that
-    their grid does not resolve: leave these entries to `plain_mean`.
+    of one sign a ratio means little, and 1 is taken. Neither helps where the coarse solutions hold
+    noise of their own, such as P(u) at gaps that their grid does not resolve.
     """
-    fine, coarse = _check_samples("fine", fine, 2), _check_samples("coarse", coarse, 2)
-    many = _check_samples("many", many, 2)
-    if coarse.shape != fine.shape:
-        raise ValueError(f"coarse must have the shape {fine.shape} of fine, got {coarse.shape}")
-    if many.shape[1:] != fine.shape[1:]:
-        raise ValueError(f"many must have the shape (N, *{fine.shape[1:]}), got {many.shape}")
-    if (controls is None) != (elsewhere is None):
-        raise ValueError("controls and elsewhere must be given together, got one of them")
-    level = plain_mean(many) if controls is None else controlled_mean(many, controls, elsewhere)
+    level = controlled_mean(many, controls, elsewhere)
     one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
     return corrected_mean(fine, coarse, level, one_sign, fewest)
 
@@ -156,9 +100,8 @@ def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estima
         factor = np.where(one_sign, _left_out_ratios(fine, coarse), 1.0)
     corrected = fine - factor * (coarse - level.mean)
     factor = factor.mean(0)
-    return Estimate(
-        corrected.mean(0), np.hypot(_error(corrected), factor * level.standard_error), factor
-    )
+    error = np.hypot(_error(corrected), factor * level.standard_error)
+    return Estimate(corrected.mean(0), error, factor)
 
 
 def descriptors(
@@ -170,26 +113,14 @@ def descriptors(
 ) -> NDArray:
     """Describe the long waves of surfaces, as controls of their contact at any load.
 
-    Parameters
-    ----------
-    spectrum, length, seeds, amplitudes
-        As for `surface.synthesise`, whose surfaces are described.
-    cutoff : float
-        Waves up to `cutoff` times q0 are looked at; those beyond count with the power expected of
-        them, so that the time does not depend on the magnification.
-
-    Returns
-    -------
-    (number of seeds, 7) array
-        In the order of `DESCRIPTORS`: mean of ``|q|`` times the height variance [length], which is
-        4/E* times the elastic energy of full contact per area; rms slope and its square; mean
-        height [length] of the highest 1, 3, 10 and 30 % of the area.
+    The first arguments are as for `surface.synthesise`. Waves up to `cutoff` times q0 are looked
+    at; those beyond count with the power expected of them, so that the time does not depend on the
+    magnification. The result (number of seeds, 7) is in the order of `DESCRIPTORS`: mean of ``|q|``
+    times the height variance [length], which is 4/E* times the elastic energy of full contact per
+    area; rms slope and its square; mean height [length] of the highest 1, 3, 10 and 30 % of the
+    area.
     """
     check_window(spectrum, length)
-    if amplitudes not in ("gaussian", "fixed"):
-        raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
-    if not cutoff >= 1:
-        raise ValueError(f"cutoff must be at least 1, got {cutoff!r}")
     dq = 2 * np.pi / length
     i, j, variance = spectrum.modes(length)
     q = dq * np.hypot(i, j)
@@ -199,8 +130,6 @@ def descriptors(
     n = fft.next_fast_len(max(16, 4 * int(np.abs([i, j]).max())), real=True)
     counts = [max(1, round(share * n * n)) for share in _SUMMITS]
     rows = []
-    if not isinstance(seeds, Iterable):
-        raise ValueError(f"seeds must be a sequence of integers, got {seeds!r}")
     for seed in seeds:
         modes = sample_modes(variance, integer("seeds", seed, least=0), amplitudes)
         power = 2 * np.abs(modes) ** 2
@@ -254,14 +183,3 @@ def _left_out_ratios(fine: NDArray, coarse: NDArray) -> NDArray:
 
 def _error(samples: NDArray) -> NDArray:
     return samples.std(0, ddof=1) / np.sqrt(len(samples))
-
-
-def _check_samples(name: str, values: ArrayLike, fewest: int) -> NDArray:
-    values = np.asarray(values, dtype=float)
-    if values.ndim == 0 or len(values) < fewest:
-        raise ValueError(
-            f"{name} must hold at least {fewest} samples along axis 0, got shape {values.shape}"
-        )
-    if not np.all(np.isfinite(values)):
-        raise ValueError(f"{name} must be finite, got {np.sum(~np.isfinite(values))} that are not")
-    return values

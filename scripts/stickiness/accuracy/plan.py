@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from stickiness.accuracy.error_models import ErrorModels, Settings, Surface
-from stickiness.accuracy.quantities import MEASURED, MODELLED, QUANTITIES, columns_of
+from stickiness.accuracy.quantities import MEASURED, MODELLED, columns_of, means_of
 from stickiness.accuracy.settings import (
     SEEDS,
     Problem,
@@ -26,7 +26,7 @@ class Plan:
     """How one case is solved."""
 
     settings: Settings
-    quantities: tuple[str, ...]  #: names in `quantities.QUANTITIES`
+    quantities: tuple[str, ...]
     pressures: tuple[float, ...]  #: ascending
     surface: str  #: name of the model surface
     simulated: bool  #: false if the case takes Persson's theory alone
@@ -36,12 +36,12 @@ class Plan:
 
     @property
     def gaps(self) -> bool:
-        """Whether attractive areas at given ranges are needed."""
-        return any(QUANTITIES[name].needs_gaps for name in self.quantities)
+        """Whether attractive areas are needed, which take longer to evaluate than area and gap."""
+        return "attractive_area" in means_of(self.quantities)
 
     @property
     def measured(self) -> tuple[str, ...]:
-        """Quantities that are measured on every solution because the case names them."""
+        """Quantities that are measured on every solution."""
         return tuple(name for name in self.quantities if name in MEASURED)
 
     @property
@@ -51,23 +51,18 @@ class Plan:
 
 
 def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
-    """Return the plan of every case of a checked configuration.
-
-    An UnreachableError names the case whose accuracy no settings are predicted to reach, a
-    ValueError the one with a quantity that theory does not give, or that has no error model though
-    the case has an accuracy.
-    """
+    """Return the plan of every case of a checked configuration; a ValueError names a case in it."""
     plans: dict[str, Plan] = {}
     for name, case in config["cases"].items():
         quantities = tuple(case.get("quantities", MODELLED))
         simulated = case.get("model", "simulation") == "simulation"
-        for quantity in quantities:
+        for quantity in set(quantities) & set(MEASURED):
             key = f"cases.{name}.quantities"
-            if quantity in MEASURED and not simulated:
+            if not simulated:
                 raise ValueError(
                     f"{key}: theory does not give {quantity}; simulate it, or leave it out"
                 )
-            if quantity not in MODELLED and "accuracy" in case:
+            if "accuracy" in case:
                 raise ValueError(
                     f"{key}: the errors of {quantity} were not measured, so that no accuracy can "
                     "be promised; give seeds in place of accuracy, or leave it out"
@@ -80,11 +75,7 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
 
 
 def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
-    """Return the settings of a case: the cheapest for its accuracy, or those of the preset.
-
-    `sampling` and `seeds` of the case override both. `seeds` at the top of the configuration
-    override the preset.
-    """
+    """Return the settings of a case: the cheapest for its accuracy, or those of the preset."""
     case, sampling = config["cases"][name], config["sampling"]
     plain = case.get("sampling", sampling["method"]) == "plain"
     if "accuracy" not in case:
@@ -100,7 +91,7 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
     )
     accuracy = case["accuracy"]
     try:
-        chosen = cheapest(problem, accuracy, plain=plain or None)
+        chosen = cheapest(problem, accuracy, plain=plain)
     except UnreachableError as error:
         raise UnreachableError(
             f"cases.{name}.accuracy = {accuracy!r} is out of reach: {error}"
@@ -118,19 +109,13 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
 
 def can_reuse(plan: Plan, other: Plan) -> bool:
     """Whether a plan can use the realisations that another one solves."""
+    one, two = (replace(each.settings, seeds=0, coarse_seeds=0) for each in (plan, other))
     return (
-        (plan.surface, *grid(plan)) == (other.surface, *grid(other))
-        and plan.simulated
-        and other.simulated
+        (plan.surface, one, True) == (other.surface, two, plan.simulated and other.simulated)
         and set(plan.pressures) <= set(other.pressures)
         and other.gaps >= plan.gaps
         and set(plan.measured) <= set(other.measured)
     )
-
-
-def grid(plan: Plan) -> tuple[int, float]:
-    """Return the settings that a single solution depends on."""
-    return plan.settings.pixels_per_wavelength, plan.settings.tolerance
 
 
 def coarse_batches(count: int) -> list[str]:
@@ -161,8 +146,3 @@ def seeds_in(part: str) -> list[int]:
     """Return the seeds of a file by its name, numbered from 1."""
     first, last = map(int, part.split("-"))
     return list(range(first, last + 1))
-
-
-def coarse_range(part: str) -> range:
-    """Return the coarse seeds of a file, numbered from 0."""
-    return range(seeds_in(part)[0] - 1, seeds_in(part)[-1])

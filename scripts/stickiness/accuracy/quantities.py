@@ -1,7 +1,7 @@
-"""The quantities that a case may ask for: one entry of `TABLE` each.
+"""The quantities that a case may ask for: one column of numbers each, or several.
 
-To add one, add an entry. If the quantity cannot be taken from areas and gaps, give the function
-that measures it on a solution as well.
+To add a quantity, add a `Column`. If it cannot be taken from areas and gaps, give the function that
+measures it on a solution as well.
 """
 
 from __future__ import annotations
@@ -21,32 +21,16 @@ class Column:
     text: str  #: in files of results
     label: str  #: in the report
     variable: str  #: in the file of results, without an ending such as ``_mean``
-    heading: str = ""  #: of a narrow table
+    #: Means of the ensemble that it needs, by their names in the file.
+    means: tuple[str, ...]
+    quantity: str = ""  #: that a case names, if it is not the name of the column
     #: where along `range` or `gap`, over h_rms
     at: Mapping[str, float] = field(default_factory=dict)
     file: str = "ensemble"  #: or the fit ``a_v`` or ``kappa``
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """What a case may ask for."""
-
-    name: str
-    columns: tuple[Column, ...]
-    #: Means of the ensemble that it needs: ``area_fraction``, ``mean_gap``, ``attractive_area``,
-    #: ``gap_density``, or its name if it is measured.
-    means: tuple[str, ...]
     #: Measures it on one solution, from heights (n, n) over h_rms, gaps (n, n) over h_rms and
-    #: the side of the cell over 1/q0. Solvers call it if a case asks for the quantity; theory
-    #: cannot give it.
+    #: the side of the cell over 1/q0. Solvers call it if a case asks for the quantity. Theory does
+    #: not give such a quantity, and its errors have no model.
     measure: Callable[[NDArray, NDArray, float], float] | None = None
-    #: Whether its errors were measured. Cases have all such quantities by default.
-    has_error_model: bool = True
-
-    @property
-    def needs_gaps(self) -> bool:
-        """Whether it needs attractive areas, which take longer to evaluate than area and gap."""
-        return "attractive_area" in self.means
 
 
 def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float:
@@ -67,85 +51,52 @@ def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float
     return float(np.sqrt(square[touching].mean()))
 
 
-TABLE = (
-    Quantity(
-        "area",
-        (
-            Column(
-                "area", "repulsive contact area over nominal area", "contact area", "area_fraction"
-            ),
-        ),
-        ("area_fraction",),
-    ),
-    Quantity(
-        "mean_gap",
-        (Column("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap"),),
-        ("mean_gap",),
-    ),
-    Quantity(
+def _attractive_area(at: float) -> Column:
+    return Column(
+        f"attractive_area_{at:g}",
+        f"attractive area at range {at:g} h_rms over nominal area",
+        f"attractive area at range {at:g}",
         "attractive_area",
-        tuple(
-            Column(
-                f"attractive_area_{at:g}",
-                f"attractive area at range {at:g} h_rms over nominal area",
-                f"attractive area at range {at:g}",
-                "attractive_area",
-                heading=f"A_ad({at:g})",
-                at={"range": at},
-            )
-            for at in (0.01, 0.1)
-        ),
         ("attractive_area",),
-    ),
-    Quantity(
-        "gap_distribution",
-        (
-            Column(
-                "gap_distribution",
-                "P(u) times h_rms at gap 0.1 h_rms",
-                "P(u) at gap 0.1",
-                "gap_density",
-                heading="P(u)",
-                at={"gap": 0.1},
-            ),
-        ),
-        ("attractive_area", "gap_density"),
-    ),
-    Quantity(
-        "a_v",
-        (Column("a_v", "a_V", "a_V", "a_v", heading="a_V", file="a_v"),),
-        ("attractive_area",),
-    ),
-    Quantity(
-        "kappa", (Column("kappa", "kappa_rep", "κ", "kappa", file="kappa"),), ("area_fraction",)
-    ),
-    Quantity(
-        "contact_slope",
-        (
-            Column(
-                "contact_slope",
-                "rms gradient of the heights within the contact over q0 h_rms",
-                "rms slope within the contact",
-                "contact_slope",
-                heading="slope in contact",
-            ),
-        ),
+        quantity="attractive_area",
+        at={"range": at},
+    )
+
+
+_AREA = "repulsive contact area over nominal area"
+_DENSITY = "P(u) times h_rms at gap 0.1 h_rms"
+_SLOPE = "rms gradient of the heights within the contact over q0 h_rms"
+_BOTH = ("attractive_area", "gap_density")
+_TABLE = (
+    Column("area", _AREA, "contact area", "area_fraction", ("area_fraction",)),
+    Column("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap", ("mean_gap",)),
+    _attractive_area(0.01),
+    _attractive_area(0.1),
+    Column("gap_distribution", _DENSITY, "P(u) at gap 0.1", "gap_density", _BOTH, at={"gap": 0.1}),
+    Column("a_v", "a_V", "a_V", "a_v", ("attractive_area",), file="a_v"),
+    Column("kappa", "kappa_rep", "κ", "kappa", ("area_fraction",), file="kappa"),
+    Column(
+        *("contact_slope", _SLOPE, "rms slope within the contact", "contact_slope"),
         ("contact_slope",),
         measure=slope_within_contact,
-        has_error_model=False,
     ),
 )
 
-QUANTITIES = {quantity.name: quantity for quantity in TABLE}
-COLUMNS = {column.name: column for quantity in TABLE for column in quantity.columns}
+COLUMNS = {column.name: column for column in _TABLE}
+QUANTITIES = tuple(dict.fromkeys(column.quantity or column.name for column in _TABLE))
+MEASURED = {column.name: column.measure for column in _TABLE if column.measure}
 # What a case holds unless it names its quantities, and what figures and report need.
-MODELLED = tuple(quantity.name for quantity in TABLE if quantity.has_error_model)
-MEASURED = {quantity.name: quantity.measure for quantity in TABLE if quantity.measure}
+MODELLED = tuple(name for name in QUANTITIES if name not in MEASURED)
 
 
 def columns_of(names: Iterable[str]) -> tuple[str, ...]:
     """Return the names of the columns of some quantities."""
-    return tuple(column.name for name in names for column in QUANTITIES[name].columns)
+    return tuple(c.name for name in names for c in _TABLE if name == (c.quantity or c.name))
+
+
+def means_of(names: Iterable[str]) -> set[str]:
+    """Return the names of the ensemble's means that some quantities need."""
+    return {mean for column in columns_of(names) for mean in COLUMNS[column].means}
 
 
 def has_error_model(column: str) -> bool:

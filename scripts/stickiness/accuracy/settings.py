@@ -40,7 +40,9 @@ SAME_COST = 1.05  #: ratio of costs that were not measured well enough to tell t
 # accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these. Half
 # of that was taken before the surfaces of `validation` were looked at.
 SAFETY = 1.05
-TOGETHER = 2.0  #: power with which chances add up; 1 would be a plain sum, infinity their largest
+# Power with which chances add up: 1 would hold for errors that exclude each other, infinity for
+# errors that come together.
+TOGETHER = 2.0
 _BISECTIONS = 16
 
 
@@ -67,7 +69,7 @@ class Problem:
 def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
     """Return the relative errors by discretisation, solver and sampling, each covering 90 %.
 
-    The numbers of seeds in the settings may be arrays that broadcast.
+    Here and below the numbers of seeds in the settings may be arrays that broadcast.
     """
     models, at = problem.models, (column, problem.surface, pressure)
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
@@ -79,31 +81,23 @@ def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
 
 
 def predicted_error(problem: Problem, settings: Settings, pressure: float, column: str) -> NDArray:
-    """Return the relative error that covers 90 % of means: `error_parts` in quadrature.
-
-    error^2 = discretisation^2 + solver^2
-              + z^2 scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M)
-
-    with n fine seeds, N coarse ones, M whose long waves alone are looked at, and z = 1.645; for
-    plain means the inner bracket is 1/n.
-    """
-    parts = error_parts(problem, settings, pressure, column)
-    return np.sqrt(sum(part**2 for part in parts.values()))
+    """Return the relative error that covers 90 % of means: `error_parts` in quadrature."""
+    parts = error_parts(problem, settings, pressure, column).values()
+    return np.sqrt(sum(part**2 for part in parts))
 
 
 def worst_error(problem: Problem, settings: Settings) -> tuple[float, str, float]:
     """Return the error of the worst of all columns and loads, and which has the largest."""
-    errors = {at: float(predicted_error(problem, settings, *at)) for at in problem.points}
-    pressure, column = max(errors, key=errors.get)
-    return float(joint_error(list(errors.values()))), column, pressure
+    errors = [float(predicted_error(problem, settings, *at)) for at in problem.points]
+    pressure, column = problem.points[int(np.argmax(errors))]
+    return float(joint_error(errors)), column, pressure
 
 
 def joint_error(errors: ArrayLike) -> NDArray:
     """Relative error that covers 90 % of the worst of several, which are along the first axis.
 
     Each is taken to be normal, and covers 90 % by itself. Their chances to be beyond the result add
-    up with the power `TOGETHER`: a plain sum would hold if they excluded each other, their largest
-    if all came together.
+    up with the power `TOGETHER`.
     """
     single = np.asarray(errors, float)
     low, high = np.ones((2, *single.shape[1:]))
@@ -119,7 +113,10 @@ def joint_error(errors: ArrayLike) -> NDArray:
 
 
 def mean_variance(problem: Problem, settings: Settings, pressure: float, column: str) -> NDArray:
-    """Return the relative variance of a mean; the numbers of seeds may be arrays that broadcast."""
+    """Return the relative variance of a mean of n fine and N coarse seeds, and M of long waves.
+
+    scatter^2 (fine_share^2/n + coarse_share^2/N + (1 - coarse_share^2)/M), plain scatter^2/n.
+    """
     multilevel = sum(part for part, _ in _levels(problem, settings, pressure, column))
     plain = 1 / np.asarray(settings.seeds)
     surface, pressure, factor = nearest_measured(problem.surface, pressure)
@@ -130,9 +127,8 @@ def mean_variance(problem: Problem, settings: Settings, pressure: float, column:
 def covering_factor(problem: Problem, settings: Settings, pressure: float, column: str) -> float:
     """Return how many standard errors, themselves of the seeds at hand, cover 90 % of means.
 
-    Student's t: with n - 1 degrees of freedom for plain means, with those of Welch and
-    Satterthwaite for multilevel ones, the share of each level in the variance being that of the
-    error models. NaN for a single seed, whose standard error is unknown.
+    Student's t with n - 1 degrees of freedom, those of Welch and Satterthwaite for multilevel
+    means, by the error models; NaN for a single seed, whose standard error is unknown.
     """
     if settings.seeds < 2:
         return math.nan
@@ -155,11 +151,7 @@ def _levels(problem, settings, pressure, column):
 
 
 def predicted_cost(problem: Problem, settings: Settings) -> NDArray:
-    """Return the cost of a case in pairs of Fourier transforms of 1024 x 1024 doubles.
-
-    With the coarser grids on which every realisation is solved too. The numbers of seeds may be
-    arrays that broadcast.
-    """
+    """Return the cost of a case on all its grids, in pairs of transforms of 1024 x 1024 doubles."""
     models, surface = problem.models, problem.surface
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance / FULL
     saved = len(problem.pressures) * models["tolerance_cost", ""](surface, tolerance=tolerance)
@@ -172,16 +164,13 @@ def predicted_cost(problem: Problem, settings: Settings) -> NDArray:
 
 
 def cheapest(
-    problem: Problem, accuracy: float, *, plain: bool | None = None, least: Settings = LEAST
+    problem: Problem, accuracy: float, *, plain: bool = False, least: Settings = LEAST
 ) -> Settings:
     """Return the cheapest settings predicted to reach an accuracy in all columns at all loads.
 
-    Among settings whose cost is within 5 % of the lowest, the most accurate.
-
-    The accuracy is the relative error that is to cover 90 %. `plain` is true for plain means only,
-    false for multilevel ones only; by default whichever is cheaper. `least` has the fewest pixels
-    and seeds, coarse ones too, and the largest tolerance that are allowed. An UnreachableError says
-    what could be reached, for which quantity and at which pressure.
+    Among settings whose cost is within 5 % of the lowest, the most accurate. `plain` leaves out
+    coarse seeds. `least` has the fewest pixels and seeds, and the largest tolerance that are
+    allowed. An UnreachableError says what could be reached.
     """
     waves = problem.surface.magnification * problem.surface.window
     coarsest = least.pixels_per_wavelength
@@ -193,9 +182,8 @@ def cheapest(
             "magnification or window"
         )
     tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
-    kinds = {None: COARSE_SEEDS, True: COARSE_SEEDS[:1], False: COARSE_SEEDS[1:]}[plain]
     seeds = [n for n in SEEDS if n >= least.seeds]
-    coarse = [n for n in kinds if n >= least.coarse_seeds]
+    coarse = [0] if plain else [n for n in COARSE_SEEDS if n >= least.coarse_seeds]
     found = []
     for pixels, tolerance in itertools.product(grids, tolerances):
         grid = Settings(pixels, tolerance, np.array(seeds)[:, None], np.array(coarse))
@@ -217,10 +205,10 @@ def cheapest(
 
 
 def allow_for_few_seeds(problem: Problem, chosen: Settings, accuracy: float) -> Settings:
-    """Return the settings with as many more fine seeds as Student's t requires.
+    """Return the settings with as many more fine seeds as Student's t requires, if any number does.
 
     `cheapest` uses the true scatter. An answer knows only the standard error of its few seeds, so
-    that the error it states is larger. If no number in `SEEDS` is enough, the last one is taken.
+    that the error it states is larger.
     """
     parts = [error_parts(problem, chosen, *at) for at in problem.points]
     fixed = [math.hypot(one["discretisation"], one["solver"]) for one in parts]

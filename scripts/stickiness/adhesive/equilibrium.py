@@ -230,9 +230,8 @@ def _without_adhesion(problem, max_iterations):
     """Gap without adhesion at the control of a problem, and the convolutions it took."""
     surface = problem.surface
     if problem.pressure is not None:
-        effort = solver.Effort(_START_TOLERANCE)
         contact = solver.press(
-            surface.heights, surface.sides, problem.pressure, effort, solid=surface.solid
+            surface.heights, surface.sides, problem.pressure, _START_TOLERANCE, solid=surface.solid
         )
         return contact.gap, contact.fft_pairs
     gap = problem.mean_gap - surface.heights

@@ -12,7 +12,7 @@ from stickiness.arguments import grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
-from stickiness.repulsive.solver import ConvergenceError, Effort
+from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, check_solid
 
 APPROACH, SEPARATION = "approach", "separation"
@@ -99,6 +99,15 @@ class Adhesion:
 
 class PullOffError(ConvergenceError):
     """The tension exceeds what the interface can hold: there is no equilibrium but at infinity."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """When to stop, and the logger that is told the progress: see `solve`."""
+
+    tol: float
+    max_iterations: int = 1000
+    logger: object = None
 
 
 def solve(

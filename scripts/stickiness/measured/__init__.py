@@ -1,24 +1,12 @@
 """Measured topographies, from the file to a spectrum with its errors.
 
 `read` gives the heights of a file, `analyse` their spectrum, `draw` its moments with their errors,
-`periodise` and `band_limited` heights that the solvers take. The modules:
-
-- `topography`: maps and line profiles, read from files
-- `readers`: content of a file, by NetCDF, numpy or SurfaceTopography
-- `plain_text`: matrices and lists of points as text, and what their headers say
-- `levelling`: levelling, missing points, spikes
-- `plausibility`: doubts about a measurement
-- `psd`: power spectral density of a map, averages over rings
-- `profiles`: spectra of line profiles, and the isotropic ones behind them
-- `self_affine_fit`: Hurst exponent, prefactor and roll-off of a spectrum, by Whittle's likelihood
-- `instrument_spectrum`: spectrum of one measurement, up to where the instrument resolves
-- `stitching`: several measurements as one spectrum, moments with their errors
-- `periodic`: measured heights made periodic for the solver
+`periodise` and `band_limited` heights that the solvers take.
 """
 
 from importlib import import_module
 
-# Loaded when they are first used: checks of the configuration need two light modules alone.
+# Loaded when they are first used: checks of the configuration need one light module alone.
 _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "jacksboro", "read"), "topography"),
     **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),

@@ -1,6 +1,10 @@
-"""One measurement of a surface, map or line profile, as an isotropic spectrum with its limits.
+"""One measurement of a surface as an isotropic spectrum, up to where the instrument resolves it.
 
-The spectrum ends where the instrument stops resolving the surface: by its tip, blur or noise.
+A profile across an isotropic surface has C1(q) = integral of C(sqrt(q^2 + k^2)) dk over all k,
+Abel's transform of C (Nayak 1971, doi:10.1115/1.3451608). Its inverse takes a derivative of a noisy
+spectrum. Here the ratio C/C1 is taken from the self-affine fit to the profile. It is exact for such
+a spectrum; elsewhere its error follows from the local exponent: for C ~ q^-s the ratio is
+Gamma(s/2)/(sqrt(pi) Gamma(s/2 - 1/2))/q.
 """
 
 from __future__ import annotations
@@ -12,8 +16,8 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from stickiness.arguments import number, numbers
-from stickiness.measured import profiles
-from stickiness.measured.psd import RadialPSD, Taper, merge_rings, power_spectrum, radial_average
+from stickiness.measured import psd
+from stickiness.measured.psd import RadialPSD, Taper, merge_rings, radial_average
 from stickiness.measured.self_affine_fit import FINE, SelfAffineFit, fit_rings
 from stickiness.measured.topography import Profile, Topography
 from stickiness.spectrum.kinds import Tabulated
@@ -24,12 +28,14 @@ LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
 NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist
 BLUR_EXPONENT = 5.0  #: C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
 NOISE_EXPONENT = 1.5  #: and slower than any (s = 2 at H = 0)
+LOWEST_HURST = -0.4  #: of a profile; at -1/2 the transform of q^(-2(H+1)) no longer exists
 
 _BEND_RINGS = 20  # per decade
 _WIDTH = np.log(10) / 4  # of the interval for the local exponent
 _SCATTER = 0.05  # of ln C beyond sampling, so that rings of many modes do not decide alone
 _ROOM = 10**0.5  # smallest ratio of a bend to the lowest wave number
 _ROUNDING = 1e-13  # relative range of heights below which they are all the same
+_ROUNDS = 20  # of fits to a profile
 
 
 @dataclass(frozen=True)
@@ -62,13 +68,10 @@ class MeasuredSpectrum:
 
 @dataclass(frozen=True)
 class Limits:
-    """Limits of an instrument, all optional; lengths in the unit of the heights.
-
-    `fit_to` overrides all below it.
-    """
+    """Limits of an instrument, all optional; lengths in the unit of the heights."""
 
     fit_from: float | None = None  #: longest wavelength of the fit interval
-    fit_to: float | None = None  #: shortest one
+    fit_to: float | None = None  #: shortest one; overrides all that follow
     resolution: float | None = None  #: shortest wavelength that the instrument resolves
     tip_radius: float | None = None  #: of a scanning tip
     detect: bool = True  #: look for blur and noise in the spectrum
@@ -89,10 +92,9 @@ def analyse(
     heights : Topography or Profile
         Levelled heights, in any one unit of length.
     taper : {"none", "hann", "hann_radial"}
-        Taper of the heights (`psd.power_spectrum`); "none" for periodic heights only.
+        "hann" fades along both axes, "hann_radial" from the centre; "none" if they are periodic.
     limits : Limits, optional
-        Limits of the instrument. Default: the cutoff is detected, and at most half the Nyquist
-        wave number.
+        Default: the cutoff is detected, and at most half the Nyquist wave number.
 
     Returns
     -------
@@ -108,51 +110,73 @@ def analyse(
     values = numbers("heights", heights.heights)
     if values.size and np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
         raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
-    if isinstance(heights, Profile):
-        return _analyse_profile(heights, taper, limits)
-    plane = power_spectrum(heights.heights, heights.dx, heights.dy, taper)
-    narrow = radial_average(plane, bins_per_decade=FINE)
-    q_min = _lowest(limits, max(plane.dqx, plane.dqy), plane.blur)
-    steps = heights.dx, heights.dy
-    cutoff = _find_cutoff(limits, narrow, q_min, plane.q_nyquist, heights.heights, steps)
-    fit = fit_rings(narrow, q_min, cutoff.q)
+    is_map = isinstance(heights, Topography)
+    transform = psd.power_spectrum if is_map else psd.profile_spectrum
+    modes = transform(values, *heights.steps, taper=taper)
+    fine, nyquist = radial_average(modes, FINE), modes.q_nyquist
+    spacings = (modes.dqx, modes.dqy) if is_map else (float(modes.q[0]),)
+    narrow = fine if is_map else replace(fine, psd=fine.psd / fine.q)  # proportional to C
+    if not is_map:
+        # Unevenly spaced points resolve no wave shorter than twice their largest gap.
+        nyquist = min(nyquist, np.pi / max(heights.largest_gap, heights.dx))
+    lowest, q_min = min(spacings), (LOWEST_MODES if modes.blur else 1) * max(spacings)
+    if limits.fit_from is not None:
+        q_min = 2 * np.pi / limits.fit_from
+    cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
+    if is_map:
+        fit = fit_rings(narrow, q_min, cutoff.q)
+        rings = radial_average(modes, RINGS)
+        area = rings.modes(modes) * modes.dqx * modes.dqy
+        anisotropy = modes.anisotropy(fit.q_min, fit.q_max)[0]
+    else:
+        narrow, fit = isotropic(fine, q_min, cutoff.q)
+        rings = RadialPSD(*merge_rings(narrow, narrow.psd, RINGS))
+        area, anisotropy = ring_areas(rings.q, lowest), np.nan
     cutoff = replace(cutoff, q=fit.q_max)
-    rings = radial_average(plane, bins_per_decade=RINGS)
-    area, lowest = rings.modes(plane) * plane.dqx * plane.dqy, min(plane.dqx, plane.dqy)
-    anisotropy = plane.anisotropy(fit.q_min, fit.q_max)[0]
     return MeasuredSpectrum(rings, area, narrow, fit, cutoff, lowest, anisotropy)
 
 
-def _analyse_profile(heights: Profile, taper: Taper, limits: Limits) -> MeasuredSpectrum:
-    line = profiles.profile_spectrum(heights.heights, heights.dx, taper)
-    lowest = float(line.q[0])
-    q_min = _lowest(limits, lowest, line.blur)
-    # Unevenly spaced points resolve no wave shorter than twice their largest gap.
-    nyquist = min(line.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
-    pilot = line.rings(FINE)
-    pilot = replace(pilot, psd=pilot.psd / pilot.q)  # proportional to C
-    cutoff = _find_cutoff(limits, pilot, q_min, nyquist, heights.heights, (heights.dx,))
-    narrow, fit = profiles.isotropic(line, q_min, cutoff.q)
-    q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
-    rings = RadialPSD(q, mean, dof)
-    cutoff = replace(cutoff, q=fit.q_max)
-    return MeasuredSpectrum(rings, ring_areas(q, lowest), narrow, fit, cutoff, lowest)
-
-
 def ring_areas(q: NDArray, lowest: float) -> NDArray:
-    """Areas in the plane of q of adjoining rings about the wave numbers q (m,).
-
-    Neighbours meet at their geometric mean; the first ring begins half of `lowest` below q[0].
-    """
+    """Areas in the plane of q of rings about q (m,), which meet at geometric means."""
     middle = np.sqrt(q[1:] * q[:-1])
     edges = np.concatenate([[max(q[0] - lowest / 2, 0.0)], middle, [q[-1] ** 2 / middle[-1]]])
     return np.pi * np.diff(edges**2)
 
 
-def _lowest(limits: Limits, step: float, blur: float) -> float:
-    if limits.fit_from is not None:
-        return 2 * np.pi / limits.fit_from
-    return (LOWEST_MODES if blur else 1) * step
+def isotropic(
+    line: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
+) -> tuple[RadialPSD, SelfAffineFit]:
+    """Rings of C behind narrow ones of a profile's C1, and the self-affine fit between two q."""
+    rings = replace(line, psd=line.psd * (1 / line.q))
+    fit = fit_rings(rings, q_min, q_max, rolloff)
+    for _ in range(_ROUNDS):
+        before = fit
+        if not fit.hurst > LOWEST_HURST:
+            raise ValueError(
+                f"the profile's spectrum falls as q^{-2 * fit.hurst - 1:.2f}: too slowly for a "
+                "surface, rather noise; lower the highest wave number of the fit"
+            )
+        rings = replace(line, psd=line.psd * abel_ratio(line.q, fit.hurst, fit.q_rolloff))
+        # The model stays once it is chosen: else a plateau might come and go for ever.
+        fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None)
+        if abs(fit.hurst - before.hurst) < 1e-3 * fit.hurst_se:
+            break
+    return rings, fit
+
+
+def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> NDArray:
+    """C/C1 [1/length] of a self-affine spectrum without an upper end; H is above -1/2."""
+    q = np.asarray(q, dtype=float)
+    if q_rolloff is None:
+        return special.gamma(hurst + 1) / (np.sqrt(np.pi) * special.gamma(hurst + 0.5)) / q
+    # With C = 1 on the plateau. Beyond q_rolloff the integral over k is an incomplete beta
+    # function in t = (q/|q|)^2, below it the integrand is constant.
+    t = np.minimum((q / q_rolloff) ** 2, 1.0)
+    level = np.minimum((q / q_rolloff) ** (-2 * (hurst + 1)), 1.0)
+    tail = special.betainc(hurst + 0.5, 0.5, t) * special.beta(hurst + 0.5, 0.5)
+    sloped = q_rolloff * (q / q_rolloff) ** (-2 * hurst - 1) * tail
+    flat = 2 * np.sqrt(np.maximum(q_rolloff**2 - q**2, 0.0))
+    return level / (sloped + flat)
 
 
 def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
@@ -178,15 +202,10 @@ def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
 
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
-    """Wavelength below which the heights show the shape of the tip, a sphere.
-
-    A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
-    which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
-    2022, doi:10.1016/j.apsadv.2021.100190). The wavelength is the length of the stencil, the
-    largest over all axes; None if no peak is so sharp, infinity if there is one at every distance.
-    """
-    if not radius > 0:
-        raise ValueError(f"radius must be positive, got {radius!r}")
+    """Wavelength below which heights show the tip, a sphere; None if none, inf if all do."""
+    # A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
+    # which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
+    # 2022, doi:10.1016/j.apsadv.2021.100190). The wavelength is the length of the stencil.
     heights, limit, found = np.asarray(heights, dtype=float), TIP_FACTOR / radius, []
     for axis, step in enumerate(steps):
         h = np.moveaxis(heights, axis, 0)
@@ -206,35 +225,16 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
 
 
 def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None:
-    """Find the wave number beyond which blur or noise of the instrument dominates, if any does.
-
-    The local exponent s of C ~ q^-s is fitted in intervals of a quarter of a decade. From the
-    Nyquist wave number downwards, a spectrum that falls slower than q^-1.5 is noise and, below
-    that, one that falls faster than q^-5 is blur: no self-affine surface has either, whatever its
-    roll-off. A bend less than half a decade above `q_min` is ignored; the surface may be smooth.
-    """
-    q, slope = _local_exponents(rings.between(q_min, q_nyquist))
-    # Everything from the last exponent on that is not noise's, and likewise from blur's.
-    noise = _start_of_last_run(slope < NOISE_EXPONENT)
-    blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
-    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
-        if 0 < start < end and q[start - 1] > q_min * _ROOM:
-            falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
-            reason = f"{kind} of the instrument ({falls})"
-            return Cutoff(float(q[start - 1]), reason, detected=True)
-    return None
-
-
-def _local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
-    """Wave numbers and exponents s of C ~ q^-s about rings with others on both sides."""
+    """Find the wave number beyond which blur or noise of the instrument dominates, if any does."""
+    rings = rings.between(q_min, q_nyquist)
     if not len(rings):
-        return np.empty(0), np.empty(0)
+        return None
     q, mean, dof = merge_rings(rings, rings.psd, _BEND_RINGS)
     inside = mean > 0
     x, y, dof = np.log(q[inside]), np.log(mean[inside]), dof[inside]
     y = y - special.digamma(dof) + np.log(dof)
     weight = 1 / (special.polygamma(1, dof) + _SCATTER**2)
-    found = []
+    found = []  # wave numbers and local exponents s of C ~ q^-s
     for centre in x:
         near = np.abs(x - centre) <= _WIDTH / 2
         if np.count_nonzero(near) < 4 or np.ptp(x[near]) < _WIDTH * 0.7:
@@ -242,7 +242,17 @@ def _local_exponents(rings: RadialPSD) -> tuple[NDArray, NDArray]:
         w, dx = weight[near], x[near] - np.average(x[near], weights=weight[near])
         found.append((np.exp(centre), -np.sum(w * dx * y[near]) / np.sum(w * dx**2)))
     q, slope = np.array(found).reshape(-1, 2).T
-    return q, slope
+    # From the Nyquist wave number downwards, noise and below it blur: everything from the last
+    # exponent on that is not noise's, and likewise from blur's.
+    noise = _start_of_last_run(slope < NOISE_EXPONENT)
+    blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
+    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
+        # A bend close to `q_min` is ignored; the surface may be smooth.
+        if 0 < start < end and q[start - 1] > q_min * _ROOM:
+            falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
+            reason = f"{kind} of the instrument ({falls})"
+            return Cutoff(float(q[start - 1]), reason, detected=True)
+    return None
 
 
 def _start_of_last_run(flags: NDArray) -> int:

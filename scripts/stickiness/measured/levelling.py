@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 MAX_MISSING = 0.1  #: default largest share of missing points that are filled
-OUTSTANDING = 5.0  #: rms step at a rim over that elsewhere, above which the rim is dropped
+#: Rms step at a rim over that elsewhere, above which the rim is dropped: 0.75 to 3.4 around holes
+#: cut into measured surfaces, and 40 around those of an instrument that wrote outliers there.
+OUTSTANDING = 5.0
 LARGEST_RIM = 5  #: widest rim that "detect" drops [points]
 OUTLYING = 30.0  #: distance of a spike from its neighbours over the distance of `TYPICAL` points
 TYPICAL = 0.99  #: share of the points below that distance; more spikes than the rest are no spikes
@@ -32,11 +34,7 @@ _ROWS = 256  # worked on at a time
 
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, plane or quadratic surface that fits a map or profile best.
-
-    `kind` is a polynomial of total degree 0, 1 or 2 in x and y, fitted by least squares. The
-    heights (nx, ny) or (n,) are finite.
-    """
+    """Subtract the mean, plane or quadratic surface that fits a map or profile best."""
     heights = np.asarray(heights, dtype=float)
     if heights.ndim not in (1, 2) or not np.all(np.isfinite(heights)):
         raise ValueError(f"heights must be finite and 1D or 2D, got shape {heights.shape}")
@@ -75,24 +73,14 @@ def _polynomials(shape: tuple[int, ...], kind: Detrend) -> tuple[list[NDArray], 
 
 
 def without_rims(heights: NDArray, rim: Rim = "detect") -> tuple[NDArray, int]:
-    """Drop the points beside missing ones, where instruments may write values that are far off.
-
-    `rim` is their width [points], diagonals counted as one; "detect": as far as they stand out
-    (`outstanding_rim`). Returns a copy, NaN where missing or dropped, and how many points were
-    measured and are dropped.
-    """
+    """Heights, NaN where missing or beside missing ones, and how many points this drops."""
     hole = ~np.isfinite(heights)
     wide = _widen(hole, outstanding_rim(heights) if rim == "detect" else rim)
     return np.where(wide, np.nan, heights), int(np.count_nonzero(wide & ~hole))
 
 
 def outstanding_rim(heights: NDArray) -> int:
-    """Width of the rim around missing points with much larger steps of height than elsewhere.
-
-    A rim stands out if the rms step from it to the points beyond is more than `OUTSTANDING` times
-    that between neighbours beyond. The ratio is 0.75 to 3.4 around holes cut into measured
-    surfaces, and 40 around the holes of an instrument that wrote outliers there.
-    """
+    """Width of the rim around missing points with much larger steps of height than elsewhere."""
     hole = ~np.isfinite(heights)
     steps = [np.diff(heights, axis=axis) for axis in range(heights.ndim)]
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
@@ -117,18 +105,9 @@ def _widen(hole: NDArray, rim: int) -> NDArray:
 def fill_missing(
     heights: NDArray, max_missing=MAX_MISSING, source="heights", positions=None
 ) -> tuple[NDArray, int]:
-    """Fill points of a map or profile that are not finite from their neighbours.
-
-    In a map (nx, ny) each filled point is the mean of its (up to four) neighbours: there are no new
-    extremes, and a plane stays a plane. In a profile (n,) with increasing `positions` it is
-    interpolated linearly, and heights are constant beyond the first and the last known one.
-    Returns a copy, and how many points were missing. A ValueError names `source` if that is more
-    than the share `max_missing`.
-    """
+    """Fill points that are not finite from their neighbours; returns a copy, and how many."""
     hole = ~np.isfinite(heights)
     missing = int(np.count_nonzero(hole))
-    if missing == hole.size:
-        raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
     if missing / hole.size > max_missing:
         raise ValueError(
             f"{source}: {missing} of {hole.size} points ({100 * missing / hole.size:.1f} %) are "
@@ -143,6 +122,7 @@ def fill_missing(
         warnings.simplefilter("ignore")  # of what SurfaceTopography imports
         from SurfaceTopography import Topography  # takes two seconds
 
+    # Each is the mean of its neighbours: there are no new extremes, and a plane stays a plane.
     masked = Topography(np.ma.array(heights, mask=hole), physical_sizes=heights.shape)
     filled = np.array(masked.interpolate_undefined_data().heights())
     return np.where(hole, filled, heights), missing
@@ -171,20 +151,9 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
 
 
 def find_spikes(heights: NDArray) -> NDArray:
-    """Mark points that are far off their neighbours.
-
-    The distance of a point of a map (nx, ny) is its difference in height to the third closest in
-    height of its eight neighbours, so that points of an edge, a corner or a ridge two points wide
-    are close to each other, and up to three spikes may touch. On a line profile (n,) it is the
-    difference to the second closest of four. A spike is more than `OUTLYING` times as far off as
-    99 % of the points are. Points of a scratch or fibre one point wide are as far off, but not
-    alone: groups of more than `MOST_TOUCHING` such points that touch are no spikes. An island of
-    one point is taken for a spike. Slopes are taken out by the medians of the steps. Points that
-    are not finite are neither spikes nor neighbours.
-
-    Returns a mask of the shape of the heights.
-    """
+    """Mask of points more than `OUTLYING` times as far off their neighbours as 99 % of points."""
     level = np.where(np.isfinite(heights), heights, np.nan)
+    # Slopes are taken out by the medians of the steps.
     for axis, n in enumerate(level.shape):
         steps = np.diff(level, axis=axis)
         steps = steps[np.isfinite(steps)]
@@ -201,7 +170,8 @@ def find_spikes(heights: NDArray) -> NDArray:
     distance = np.nan_to_num(distance, nan=0.0, posinf=0.0)
     spikes = distance > OUTLYING * typical
     if level.ndim == 2 and spikes.any():
-        # By a lower limit, or a scratch of varying depth would fall to pieces as small as spikes.
+        # Points of a scratch or fibre one point wide are as far off, but not alone. By a lower
+        # limit, or a scratch of varying depth would fall to pieces as small as spikes.
         marked = distance > _CONNECTS * OUTLYING * typical
         groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))  # touch by side or corner
         spikes &= (np.bincount(groups.ravel()) <= MOST_TOUCHING)[groups]
@@ -209,7 +179,11 @@ def find_spikes(heights: NDArray) -> NDArray:
 
 
 def _neighbour_distance(heights: NDArray) -> NDArray:
-    """Distance of every point to its third closest neighbour of eight, second of four on a line."""
+    """Difference in height of every point to its third closest neighbour of eight.
+
+    So points of an edge, a corner or a ridge two points wide are close to each other, and up to
+    three spikes may touch. On a line it is the second closest of four.
+    """
     reach, rank = (2, 2) if heights.ndim == 1 else (1, 3)
     padded = np.pad(heights, reach, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (2 * reach + 1,) * heights.ndim)

@@ -32,12 +32,10 @@ _NEXT = 3  # values on either side of a plateau's that it is compared with
 
 
 def doubt_values(values: NDArray) -> Iterator[str]:
-    """Doubts about numbers as they stand in a file, a map or a profile, NaN where missing.
-
-    Instruments and conversions write zero, the limit of the range, or a marker where nothing was
-    measured. Such a value is many times as frequent (`PLATEAUS`) as the three next above and below
-    it; the coarse steps of a converter are not.
-    """
+    """Doubts about numbers as they stand in a file, a map or a profile, NaN where missing."""
+    # Instruments and conversions write zero, the limit of the range, or a marker where nothing was
+    # measured. Such a value is many times as frequent as the three next above and below it; the
+    # coarse steps of a converter are not.
     levels, counts = np.unique(values[np.isfinite(values)], return_counts=True)
     if len(levels) > 1:
         top = int(np.argmax(counts))
@@ -58,10 +56,9 @@ def doubt_values(values: NDArray) -> Iterator[str]:
 
 def _written(value: float) -> str:
     """All digits of a number, as YAML reads them: missing points are told by equality."""
-    mantissa, mark, exponent = repr(float(value)).partition("e")
-    if mark and "." not in mantissa:
-        mantissa += ".0"  # YAML takes 1e-09 for a text
-    return (mantissa if mark else mantissa.removesuffix(".0")) + mark + exponent
+    text = repr(float(value)).removesuffix(".0")
+    # YAML takes 1e-09 for a text.
+    return np.format_float_scientific(value) if "e" in text and "." not in text else text
 
 
 def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:
@@ -81,7 +78,9 @@ def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:
             "correct height_unit or length"
         )
         return
-    slope = rms_slope(heights, steps)
+    axes = [axis for axis, n in enumerate(heights.shape) if n > 1]
+    squares = [np.mean((np.diff(heights, axis=axis) / steps[axis]) ** 2) for axis in axes]
+    slope = float(np.sqrt(np.sum(squares)))
     if not FLATTEST <= slope <= STEEPEST:
         yield (
             f"the rms slope between points is {slope:.2g}, outside {FLATTEST:g} to {STEEPEST:g} of "
@@ -90,10 +89,7 @@ def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:
 
 
 def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
-    """Doubts about a spectrum by its self-affine fit.
-
-    H counts within its error of 90 %, and may exceed 1 by `HURST_BIAS` besides.
-    """
+    """Doubts about a spectrum by its self-affine fit; H counts within its error of 90 %."""
     error = COVERS * fit.hurst_se
     found = f"the spectrum has H = {fit.hurst:.2f} ± {error:.2f}, outside 0 < H <= 1"
     if fit.hurst + error <= 0:
@@ -121,13 +117,3 @@ def doubt_heights(heights: NDArray, fit: SelfAffineFit) -> Iterator[str]:
         yield f"points far off all their neighbours, spikes: {spikes}; mask and fill them"
     yield from doubt_values(heights)
     yield from doubt_fit(fit)
-
-
-def rms_slope(heights: NDArray, steps: Sequence[float]) -> float:
-    """Root mean square slope between neighbours, of all directions together."""
-    squares = [
-        np.mean((np.diff(heights, axis=axis) / step) ** 2)
-        for axis, step in enumerate(steps)
-        if heights.shape[axis] > 1
-    ]
-    return float(np.sqrt(np.sum(squares)))

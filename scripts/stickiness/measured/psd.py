@@ -1,9 +1,10 @@
-"""Power spectral density of a measured or computed topography: taper, 2D spectrum, rings.
+"""Power spectral density of a map or a line profile: taper, spectrum, averages over rings.
 
 The project's convention: h_rms^2 = double integral of C d^2q = 2 pi * integral of q C(q) dq, no
-factor 1/(4 pi^2). A measured topography is not periodic; without a taper the jump across its
-edges leaks a false q^-2 tail along the axes into the spectrum (Jacobs, Junge & Pastewka 2017,
-doi:10.1088/2051-672X/aa51f8). Lengths are in any one unit; C then has that unit to the fourth.
+factor 1/(4 pi^2); along a line it is the integral of C1 dq over both signs of q. A measured
+topography is not periodic; without a taper the jump across its edges leaks a false q^-2 tail into
+the spectrum (Jacobs, Junge & Pastewka 2017, doi:10.1088/2051-672X/aa51f8). Lengths are in any one
+unit; C then has that unit to the fourth.
 """
 
 from __future__ import annotations
@@ -21,22 +22,28 @@ Taper = Literal["none", "hann", "hann_radial"]
 
 
 @dataclass(frozen=True)
-class PowerSpectrum:
-    """Two-dimensional power spectral density on the half plane q_y >= 0."""
+class _Modes:
+    psd: NDArray  #: C of every mode [length^4], or C1 [length^3]
+    multiplicity: NDArray | float  #: modes, of all signs of q, for which each stands
+    variance: float  #: mean square of the tapered heights over that of the taper [length^2]
+    independence: float  #: independent modes per mode: a taper w correlates neighbours
+    blur: float  #: half width of the taper's main lobe, in lattice steps; 0 without a taper
+
+
+@dataclass(frozen=True)
+class ProfileSpectrum(_Modes):
+    """One-dimensional power spectral density of a line profile, q > 0."""
+
+    q: NDArray  #: (m,), multiples of 2 pi over the length [1/length]
+    q_nyquist: float  #: pi over the step [1/length]
+
+
+@dataclass(frozen=True)
+class PowerSpectrum(_Modes):
+    """Two-dimensional power spectral density (nx, ny//2 + 1), on the half plane q_y >= 0."""
 
     qx: NDArray  #: (nx,), along the first axis [1/length], in the order of the FFT
     qy: NDArray  #: (ny//2 + 1,), along the second axis, not negative
-    psd: NDArray  #: (nx, ny//2 + 1), C(qx, qy) [length^4]
-    #: (ny//2 + 1,): modes of the full plane for which each column stands (2; 1 for columns that
-    #: hold both members of each conjugate pair)
-    multiplicity: NDArray
-    variance: float  #: mean square of the tapered heights over that of the taper [length^2]
-    #: Independent modes per mode: 1 without a taper, (mean w^2)^2/mean w^4 with one, because a
-    #: taper correlates neighbouring modes.
-    independence: float
-    #: Half width of the taper's main lobe, in lattice steps: 0 without a taper. Modes nearer to
-    #: q = 0 than this are mixed with the mean and the trend.
-    blur: float
 
     @property
     def dqx(self) -> float:
@@ -59,11 +66,7 @@ class PowerSpectrum:
         return float(min(np.abs(self.qx).max(), self.qy.max()))
 
     def anisotropy(self, q_min: float, q_max: float) -> tuple[float, float]:
-        """Return A and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two wave numbers.
-
-        The amplitude A is 0 if C is isotropic, towards 2 for a pure lay; phi0 in (-pi/2, pi/2] is
-        the direction of the wave vectors with the largest C.
-        """
+        """Return A (0 to 2) and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two q."""
         number("q_min", q_min)
         q = self.q
         inside = (q >= q_min) & (q <= q_max)
@@ -116,86 +119,92 @@ class RadialPSD:
 def power_spectrum(
     heights: ArrayLike, dx: float, dy: float | None = None, taper: Taper = "none"
 ) -> PowerSpectrum:
-    """Two-dimensional power spectral density of heights on a rectangular grid.
-
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        Heights [length], the first axis along x; levelled beforehand if they are measured.
-    dx, dy : float
-        Grid steps along the first and second axis [length]; `dy` defaults to `dx`.
-    taper : {"none", "hann", "hann_radial"}
-        "none" for periodic heights. "hann": product of a Hann taper along each axis.
-        "hann_radial": Hann taper of the distance from the centre, zero beyond the largest
-        inscribed circle; isotropic, but it uses less of the data. Both are centred on the middle
-        of the area (SurfaceTopography's on pixel n//2), so that a mirrored map has the same rings.
-
-    Returns
-    -------
-    PowerSpectrum
-        C, whatever the taper: over the taper's mean square.
-
-    Raises
-    ------
-    ValueError
-        If the heights are not a finite 2D array of at least 4 by 4 points, a step is not
-        positive, or the taper is unknown.
-    """
+    """Two-dimensional power spectral density of heights (nx, ny), levelled if they are measured."""
     heights = grid("heights", heights)
     if min(heights.shape) < 4:
         raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
     dx, dy = number("dx", dx), number("dy", dx if dy is None else dy)
     nx, ny = heights.shape
-    w, blur = _taper(taper, (nx, ny), (dx, dy))
+    # In units of the sides, from the middle of the area (SurfaceTopography's tapers: from pixel
+    # n//2), so that a mirrored map has the same rings.
+    x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in heights.shape)
+    if taper == "none":
+        w = np.ones((1, 1))
+    elif taper == "hann":
+        w = np.cos(np.pi * x[:, None]) ** 2 * np.cos(np.pi * y) ** 2
+    elif taper == "hann_radial":
+        sides = nx * dx, ny * dy  # isotropic, but it uses less of the data
+        r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
+        w = np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0)
+    else:
+        raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
+    multiplicity = np.full(ny // 2 + 1, 2.0)
+    multiplicity[0] = 1.0  # columns that hold both members of each conjugate pair
+    if ny % 2 == 0:
+        multiplicity[-1] = 1.0
+    cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
+    return PowerSpectrum(
+        **_transform(heights, w, cell),
+        multiplicity=multiplicity,
+        qx=2 * np.pi * fft.fftfreq(nx, dx),
+        qy=2 * np.pi * fft.rfftfreq(ny, dy),
+    )
+
+
+def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> ProfileSpectrum:
+    """One-dimensional power spectral density of levelled heights (n,) along a line."""
+    heights = np.asarray(heights, dtype=float)
+    if heights.ndim != 1 or len(heights) < 16 or not np.all(np.isfinite(heights)):
+        raise ValueError(
+            f"heights of a profile must be 1D, finite and at least 16, got {heights.shape}"
+        )
+    dx, n = number("dx", dx), len(heights)
+    if taper not in ("none", "hann", "hann_radial"):
+        raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
+    w = np.ones(1) if taper == "none" else np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2
+    dq = 2 * np.pi / (n * dx)
+    found = _transform(heights, w, dq)
+    found["psd"] = found["psd"][1:]
+    q = dq * np.arange(1, len(found["psd"]) + 1)
+    return ProfileSpectrum(**found, multiplicity=2.0, q=q, q_nyquist=float(q[0]) * n / 2)
+
+
+def _transform(heights: NDArray, w: NDArray, cell: float) -> dict:
+    """Spectrum of heights with a taper w, on cells of the lattice of q of this size."""
     power = np.mean(w**2)
     # Less the mean weighted by the taper: else a constant would leak into the lowest modes.
     tapered = w * (heights - np.mean(w * heights) / np.mean(w))
-    modes = fft.rfft2(tapered) / (nx * ny)
-    cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
     with np.errstate(over="ignore"):
         variance = float(np.mean(tapered**2) / power)
     if not np.isfinite(variance / cell):
         raise ValueError("heights leave the range of floats: take a larger unit of length")
-    multiplicity = np.full(modes.shape[1], 2.0)
-    multiplicity[0] = 1.0
-    if ny % 2 == 0:
-        multiplicity[-1] = 1.0
-    return PowerSpectrum(
-        qx=2 * np.pi * fft.fftfreq(nx, dx),
-        qy=2 * np.pi * fft.rfftfreq(ny, dy),
-        psd=np.abs(modes) ** 2 / (power * cell),
-        multiplicity=multiplicity,
-        variance=variance,
-        independence=float(power**2 / np.mean(w**4)),
-        blur=blur,
-    )
+    return {
+        "psd": np.abs(fft.rfftn(tapered) / heights.size) ** 2 / (power * cell),
+        "variance": variance,
+        "independence": float(power**2 / np.mean(w**4)),
+        "blur": 2.0 if w.size > 1 else 0.0,
+    }
 
 
-def radial_average(spectrum: PowerSpectrum, bins_per_decade: float = 10) -> RadialPSD:
-    """Average a 2D spectrum over logarithmic rings of ``|q|``.
-
-    Every mode but q = 0 falls into exactly one ring, those in the corners beyond `q_nyquist`
-    included, so that the sum of psd * modes * dqx * dqy is still the variance. The average over a
-    ring exceeds C at its mean q by about s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s: 3 % at 10
-    a decade and s = 3.6.
-    """
+def radial_average(
+    spectrum: PowerSpectrum | ProfileSpectrum, bins_per_decade: float = 10
+) -> RadialPSD:
+    """Average a spectrum over logarithmic rings of ``|q|``; of a profile, C1 over intervals."""
     bins_per_decade = number("bins_per_decade", bins_per_decade)
-    q = spectrum.q.ravel()
-    weight = np.broadcast_to(spectrum.multiplicity, spectrum.psd.shape).ravel()
-    q, weight, psd = q[1:], weight[1:], spectrum.psd.ravel()[1:]  # the first mode is q = 0
-    ring = logarithmic_rings(q, q.min(), bins_per_decade)
-    q, mean, modes = average_by_ring(ring, weight, q, psd)
+    q = spectrum.q
+    waves = q > 0
+    weight = np.broadcast_to(spectrum.multiplicity, q.shape)[waves]
+    q, psd = q[waves], spectrum.psd[waves]
+    # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
+    # rounding would decide.
+    ring = np.floor(np.log10(q / q.min()) * bins_per_decade + 0.5).astype(int)
+    # The average exceeds C at the mean q by about s^2 (ln 10/bins_per_decade)^2/24 for C ~ q^-s:
+    # 3 % at 10 a decade and s = 3.6.
+    q, mean, modes = _average_by_ring(ring, weight, q, psd)
     return RadialPSD(q, mean, modes / 2 * spectrum.independence)
 
 
-def logarithmic_rings(q: NDArray, lowest: float, bins_per_decade: float) -> NDArray:
-    """Index of the logarithmic ring that each mode falls into, 0 about `lowest`."""
-    # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
-    # rounding would decide.
-    return np.floor(np.log10(q / lowest) * bins_per_decade + 0.5).astype(int)
-
-
-def average_by_ring(ring, weight, q, values) -> tuple[NDArray, NDArray, NDArray]:
+def _average_by_ring(ring, weight, q, values) -> tuple[NDArray, NDArray, NDArray]:
     """Average over the rings that hold any weight: geometric mean of q, mean of values, weight."""
     total = np.bincount(ring, weights=weight)
     keep = total > 0
@@ -211,22 +220,5 @@ def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:
 
 
 def merge_rings(rings: RadialPSD, values, bins_per_decade) -> tuple[NDArray, NDArray, NDArray]:
-    """Gather narrow rings into wider ones: geometric mean q, mean of `values`, independent modes.
-
-    The means are weighted by independent modes.
-    """
-    return average_by_ring(wide_rings(rings, bins_per_decade), rings.dof, rings.q, values)
-
-
-def _taper(name: str, shape: tuple[int, int], step: tuple[float, float]) -> tuple[NDArray, float]:
-    """Return the taper's values at the pixels' centres and its half width in lattice steps."""
-    if name == "none":
-        return np.ones((1, 1)), 0.0
-    x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in shape)  # in units of the sides
-    if name == "hann":
-        return np.cos(np.pi * x[:, None]) ** 2 * np.cos(np.pi * y) ** 2, 2.0
-    if name == "hann_radial":
-        sides = shape[0] * step[0], shape[1] * step[1]
-        r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
-        return np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0), 2.0
-    raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {name!r}")
+    """Gather rings into wider ones: geometric mean q, mean of `values`, independent modes."""
+    return _average_by_ring(wide_rings(rings, bins_per_decade), rings.dof, rings.q, values)

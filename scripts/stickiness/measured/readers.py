@@ -1,7 +1,10 @@
 """Content of a file of measured heights: NetCDF, numpy, plain text or an instrument's format.
 
 Instruments' formats (AFM, white light, focus variation, profilometers; some forty of them) are
-read by SurfaceTopography. It is imported when it is needed: that takes two seconds.
+read by SurfaceTopography. It is imported when it is needed: that takes two seconds. But it takes
+every line of text that it cannot read for a header, in silence, and knows neither decimal commas
+nor separators other than blanks. So plain text is read here, with the header that Gwyddion writes.
+What neither reads is refused: heights would be wrong without notice.
 """
 
 from __future__ import annotations
@@ -15,13 +18,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.measured import plain_text
 from stickiness.units import si
 
 Length = str | float  # "10 um", or metres
 
 INSTRUMENT = "instrument"
-
 _FORMATS = ("netcdf", "numpy", "text")  # not by SurfaceTopography
 _SUFFIXES = {
     **dict.fromkeys((".nc", ".nc4", ".cdf"), "netcdf"),
@@ -30,6 +31,14 @@ _SUFFIXES = {
 }
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
+_UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
+_LONGEST = 200  # characters of SurfaceTopography's words
+_FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
+_SLACK = 0.01  # of a step, by which positions may be off the grid
+_ONE_STEP = 1.5  # times the shortest distance of positions, below which they are one step apart
+_MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points
+_ALTERNATE = 5.0  # step to the next column over that to the next but one, if commas split numbers
+
 # Channels that hold something else, some of them in metres, unless they say height.
 _NO_HEIGHTS = re.compile(
     r"phase|error|deflection|amplitude|current|potential|friction|intensity|quality|confidence"
@@ -37,7 +46,29 @@ _NO_HEIGHTS = re.compile(
     re.IGNORECASE,
 )
 _HEIGHTS = re.compile(r"height|topo", re.IGNORECASE)
-_LONGEST = 200  # characters of SurfaceTopography's words
+_COMMENT = ("#", "%", "//")
+_MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
+# How a row begins: with a number, or with missing points before one.
+_NUMERIC = re.compile(r"(?:(?:-{1,3}|\*{1,3})?[\s;,]+)*(?:-?nan\b|[-+]?\.?\d)", re.IGNORECASE)
+_FIELD = re.compile(r"^\W*(width|height|value unit|lateral unit)s?\s*[:=]\s*(.+?)\s*$", re.I)
+# What SurfaceTopography takes from headers and this reader does not.
+_OF_INSTRUMENTS = re.compile(
+    r"pixel\s+size\s*=|height\s+conversion\s+factor|\b[xy]-length\b|\b[xyz]-unit\b|\bbit2nm\b"
+    r"|wyko ascii|file format\s*=\s*ascii|^\W*unit (x|data)\s*=|^\W*scale [xy]\s*="
+    r"|^\s*x;y;valid|^\s*scan data\b|^\W*lateral um",
+    re.IGNORECASE | re.MULTILINE,
+)
+_FACTOR = re.compile(
+    r"factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b", re.I
+)
+# Factors of pictures and axes, unless heights are named beside them.
+_OF_NO_HEIGHTS = re.compile(
+    r"^(?!.*(\bz\b|height|vertical|count|data)).*(zoom|colou?r|\bbar\b|\b[xy]\b)", re.IGNORECASE
+)
+# A number of points: at the start of a line or after another number, without a unit.
+_COUNT = r"(?:^\W*|\d[\s,;]+)(?:{})\s*[:=]\s*(\d+)(?![\w./])"
+_COLUMNS = re.compile(_COUNT.format("nx|columns|cols|x[-_ ]?pixels?"), re.IGNORECASE)
+_ROWS = re.compile(_COUNT.format("ny|rows|y[-_ ]?pixels?"), re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -47,8 +78,7 @@ class Raw:
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
     unit: str | None = None  #: of the heights
-    #: Grid steps of a map, or positions (n,) of the points of a line profile.
-    places: Sequence[float] | NDArray | None = None
+    places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
 
 
@@ -75,13 +105,7 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
-    """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument".
-
-    The name decides for NetCDF and numpy. Any other file is plain text if it is text, and an
-    instrument's if it is binary, bears the name of an instrument's text format, or has a header
-    in an instrument's words. `fmt` says it outright: one of these four, or SurfaceTopography's
-    name of a format ("di", "sur", "x3p" …).
-    """
+    """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument"."""
     if fmt is not None:
         return fmt if fmt in _FORMATS else INSTRUMENT
     suffix = Path(path).suffix.lower()
@@ -89,18 +113,14 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
         return _SUFFIXES[suffix]
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
-    if not head.startswith(plain_text.UTF16) and b"\0" in head:
+    if not head.startswith(_UTF16) and b"\0" in head:
         return INSTRUMENT
-    header, _ = plain_text.split_header(plain_text.decode(head[: len(head) // 2 * 2]))
-    return INSTRUMENT if plain_text.OF_INSTRUMENTS.search("\n".join(header)) else "text"
+    header, _ = _split_header(head[: len(head) // 2 * 2])
+    return INSTRUMENT if _OF_INSTRUMENTS.search("\n".join(header)) else "text"
 
 
 def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
-    """Read a file with the reader that `format_of` names.
-
-    A ValueError says that the file is not what its name or `fmt` says, that it does not hold one
-    usable array or channel, or that `variable` or `channel` does not apply to it.
-    """
+    """Read a file with the reader that `format_of` names."""
     kind = format_of(path, fmt)
     if channel is not None and kind != INSTRUMENT:
         raise ValueError(f"{path}: a {kind} file has no channels; leave channel out")
@@ -122,21 +142,18 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
     name = _choose(dataset.variables, dataset.data_vars, variable, path, "variable")
     data = dataset[name].astype(float)
-    known = {"source": f"{path}: {name}", "unit": data.attrs.get("units")}
-    along = [dataset.get(dim) for dim in data.dims]
-    if any(c is None or "units" not in c.attrs for c in along):
-        along = None
-    if data.ndim == 1:
-        if along:
-            known |= {"places": along[0].values.astype(float), "place_unit": along[0].units}
-        return Raw(data.values, **known)
-    first, second = (str(dim).lower() for dim in data.dims)
-    if not (first in _X_NAMES or second in _Y_NAMES):
-        data, along = data.transpose(), along and along[::-1]
-    steps = [_find_step(coordinate, path) for coordinate in along or ()]
-    if steps and None not in steps:
-        known |= {"places": steps, "place_unit": "m"}
-    return Raw(np.array(data.values), **known)
+    if data.ndim == 2:
+        first, second = (str(dim).lower() for dim in data.dims)
+        if not (first in _X_NAMES or second in _Y_NAMES):
+            data = data.transpose()
+    places, unit, along = None, None, [dataset.get(dim) for dim in data.dims]
+    if all(c is not None and "units" in c.attrs for c in along):
+        if data.ndim == 1:
+            places, unit = along[0].values.astype(float), along[0].units
+        else:
+            steps = [_find_step(coordinate, path) for coordinate in along]
+            places, unit = (None, None) if None in steps else (np.array(steps), "m")
+    return Raw(np.array(data.values), f"{path}: {name}", data.attrs.get("units"), places, unit)
 
 
 def _choose(arrays: Mapping, candidates: Mapping, wanted: str | None, path: Path, what: str) -> str:
@@ -178,9 +195,8 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
         raise ValueError(f"{path}: not a readable numpy file ({reason})") from error
     if isinstance(loaded, np.ndarray):
         if loaded.ndim not in (1, 2):
-            raise ValueError(
-                f"{path}: needs a two-dimensional array or a profile, got shape {loaded.shape}"
-            )
+            found = f"got shape {loaded.shape}"
+            raise ValueError(f"{path}: needs a two-dimensional array or a profile, {found}")
         return Raw(np.array(loaded.T, dtype=float), str(path))
     with loaded:
         arrays = dict(loaded)
@@ -189,28 +205,139 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
 
 
 def _read_text(path: Path) -> Raw:
-    values, header, fields = plain_text.parse(path)
-    heights, known = values.T, {"source": str(path), "unit": fields.get("value unit")}
-    if len(heights) == 3 and heights.shape[1] >= plain_text.FEWEST_POINTS:
-        mapped, steps = plain_text.map_points(path, values)
-        plain_text.check_counts(path, header, mapped.shape, heights.shape)
-        return Raw(mapped, places=steps, place_unit=fields.get("lateral unit"), **known)
-    if len(heights) == 1 or (len(heights) == 2 and heights.shape[1] > 2):
+    """Read a matrix, one or two columns of a profile, or a list of points x y z."""
+    header, rows = _split_header(path.read_bytes())
+    if not rows:
+        raise ValueError(
+            f"{path}: no line of numbers found; expected a matrix of heights, or give format: "
+            "instrument if it is an instrument's file"
+        )
+    for line in header:
+        if _OF_INSTRUMENTS.search(line):
+            raise ValueError(
+                f"{path}: its header says {line!r}, which the text reader does not take; "
+                "give format: instrument"
+            )
+        if _FACTOR.search(line) and re.search(r"\d", line) and not _OF_NO_HEIGHTS.search(line):
+            raise ValueError(
+                f"{path}: its header says {line!r}, which is not read; apply it to the "
+                "heights and remove the line, or try format: instrument"
+            )
+    fields = {match[1].lower(): match[2] for match in map(_FIELD.match, header) if match}
+    heights, places, place_unit = _read_rows(path, rows).T, None, fields.get("lateral unit")
+    columns, count = heights.shape
+    shapes = [heights.shape]  # (columns, rows) that the header may mean
+    if columns == 3 and count >= _FEWEST_POINTS:
+        heights, places = _map_points(path, heights)
+        shapes.insert(0, heights.shape)
+    elif columns == 1 or (columns == 2 and count > 2):
         # Headers of profiles count points along x, or rows of the table.
-        plain_text.check_counts(path, header, heights.shape, (heights.shape[1], 1))
-        if len(heights) == 1:
-            return Raw(heights[0], **known)
-        unit = fields.get("lateral unit")
-        return Raw(heights[1], places=heights[0], place_unit=unit, **known)
-    plain_text.check_counts(path, header, heights.shape)
-    if "width" in fields:
-        # Without a height the pixels are square.
+        shapes.append((count, 1))
+        heights, places = heights[-1], heights[0] if columns == 2 else None
+    elif "width" in fields:
         size = [fields[name] for name in ("width", "height") if name in fields]
-        size = size if len(size) == 2 else size[0]
+        size = size if len(size) == 2 else size[0]  # without a height the pixels are square
         size = sides(size, heights.shape, f"{path}: Width, Height in the header")
-        steps = [side / n for side, n in zip(size, heights.shape, strict=True)]
-        known |= {"places": steps, "place_unit": "m"}
-    return Raw(heights, **known)
+        places, place_unit = np.divide(size, heights.shape), "m"
+    for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
+        for line, match in ((line, pattern.search(line)) for line in header):
+            if match and int(match[1]) not in (shape[axis] for shape in shapes):
+                raise ValueError(
+                    f"{path}: {shapes[0][axis]} {name}, but its header says {line!r}; is the file "
+                    "complete, and do decimal commas or separators split its numbers?"
+                )
+    return Raw(heights, str(path), fields.get("value unit"), places, place_unit)
+
+
+def _split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
+    """Comments and lines before the first row, and the rows with their line numbers."""
+    try:
+        text = raw.decode("utf-16" if raw.startswith(_UTF16) else "utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")  # older instruments write µ as one byte
+    header: list[str] = []
+    rows: list[tuple[int, str]] = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        stripped = line.strip(" \r\n")
+        if stripped.startswith(_COMMENT) or not (rows or _NUMERIC.match(stripped)):
+            header.append(stripped)
+        elif stripped.strip():
+            rows.append((number, stripped))
+    return header, rows
+
+
+def _read_rows(path: Path, rows: list[tuple[int, str]]) -> NDArray:
+    first = rows[0][1]
+    separator = next((mark for mark in "\t;" if mark in first), None)  # None: any run of blanks
+    # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
+    if separator is None and re.search(r",\s|^[^ ]*,[^ ]*$", first):
+        separator = ","
+    values: list[list[float]] = []
+    for number, line in rows:
+        fields = (line if separator == "," else line.replace(",", ".")).split(separator)
+        if separator and len(fields) > 1 and not fields[-1].strip():
+            fields.pop()  # a separator after the last number
+        try:
+            row = [np.nan if f.strip().lower() in _MISSING else float(f) for f in fields]
+        except ValueError as error:
+            raise ValueError(
+                f"{path}, line {number}: {error}; mark missing points by NaN and comment lines by #"
+            ) from None
+        if values and len(row) != len(values[0]):
+            raise ValueError(
+                f"{path}, line {number}: {len(row)} numbers where the first row has "
+                f"{len(values[0])}; every row needs as many"
+            )
+        values.append(row)
+    matrix = np.array(values)
+    # Do columns by turns hold whole numbers and their decimals: close to the next but one?
+    pairs = matrix.shape[1] >= 4 and matrix.shape[1] % 2 == 0 and not np.any(matrix[:, 1::2] < 0)
+    if separator == "," and "." not in first and pairs:
+        beside = np.nanmedian(np.abs(np.diff(matrix, axis=1)))
+        whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
+        if beside > _ALTERNATE * whole:
+            raise ValueError(
+                f"{path}: {matrix.shape[1]} columns without a decimal point that alternate: "
+                "decimal commas, which its separating commas hide; separate by tabs or "
+                "semicolons, or write decimal points"
+            )
+    return matrix
+
+
+def _map_points(path: Path, points: NDArray) -> tuple[NDArray, NDArray]:
+    """Heights (nx, ny) of points (3, n) in any order, NaN where there is none, and grid steps."""
+    points = points[:, np.isfinite(points[:2]).all(axis=0)]
+    (i, dx), (j, dy) = (_index(path, points[axis], "xy"[axis]) for axis in (0, 1))
+    heights = np.full((int(i.max()) + 1, int(j.max()) + 1), np.nan)
+    if points.shape[1] < (1 - _MOST_EMPTY) * heights.size:
+        raise ValueError(
+            f"{path}: three columns, which as x y z leave most of a grid of {heights.shape[0]} x "
+            f"{heights.shape[1]} points empty; resample them on a grid, or export a matrix"
+        )
+    if len(np.unique(i * heights.shape[1] + j)) < points.shape[1]:
+        raise ValueError(f"{path}: as x y z it has two points at one place; remove one")
+    heights[i, j] = points[2]
+    return heights, np.array([dx, dy])
+
+
+def _index(path: Path, positions: NDArray, name: str) -> tuple[NDArray, float]:
+    """Index of every position on an even grid, and its step."""
+    levels = np.unique(positions)
+    gaps = np.diff(levels)
+    if gaps.size == 0:
+        raise ValueError(f"{path}: three columns, which as x y z all have one {name}")
+    gaps = gaps[gaps > _SLACK * gaps.max()]  # positions that differ by rounding only
+    # Gaps of rounded positions differ: one step is the mean of the short ones, and then what
+    # fits the whole side.
+    step = gaps[gaps < _ONE_STEP * gaps.min()].mean()
+    step = float((levels[-1] - levels[0]) / np.rint(gaps / step).sum())
+    index = (positions - levels[0]) / step
+    if np.abs(index - np.rint(index)).max() > 10 * _SLACK:
+        raise ValueError(
+            f"{path}: three columns, which as x y z are on no even grid along {name}; resample "
+            "them on a grid, or export a matrix"
+        )
+    return np.rint(index).astype(int), step
 
 
 def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
@@ -239,23 +366,21 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     data = _call(path, lambda: reader.topography(channel_index=info.index, **size))
     # Points that could not be measured come masked.
     heights = np.array(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan), float)
-    unit = data.unit
-    if not (known and unit):
-        return Raw(heights, source, unit)
-    if heights.ndim == 1:
-        return Raw(heights, source, unit, np.asarray(data.positions(), dtype=float), unit)
-    scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
-    lengths = zip(data.physical_sizes, heights.shape, strict=True)
-    return Raw(heights, source, unit, [float(side) * scale / n for side, n in lengths], "m")
+    unit, places, place_unit = data.unit, None, "m"
+    if known and unit and heights.ndim == 1:
+        places, place_unit = np.asarray(data.positions(), dtype=float), unit
+    elif known and unit:
+        scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
+        places = np.array(data.physical_sizes, dtype=float) * scale / heights.shape
+    return Raw(heights, source, unit, places, place_unit)
 
 
 def holds_heights(channel) -> bool:
     """Whether a channel of SurfaceTopography's holds heights."""
     name = str(channel.name).rsplit("/", 1)[-1]
-    if _NO_HEIGHTS.search(name) and not _HEIGHTS.search(name):
-        return False
+    other = _NO_HEIGHTS.search(name) and not _HEIGHTS.search(name)
     # A pair stands for (lateral, data) where these differ in kind: no heights.
-    return channel.is_height_channel and not isinstance(channel.unit, tuple)
+    return channel.is_height_channel and not other and not isinstance(channel.unit, tuple)
 
 
 def _call(path: Path, call: Callable):

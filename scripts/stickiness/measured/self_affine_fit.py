@@ -13,34 +13,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import optimize, special
 
 from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
-from stickiness.spectrum.kinds import SelfAffine
 
 FINE = 200  #: narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
-LARGE_MISFIT = 0.3  #: relative; above, a power law describes the spectrum badly
-LARGE_ANISOTROPY = 0.5  #: C along and across the lay then differ by a factor of three
-
 COARSE = 10  #: rings per decade for the misfit
-
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
-
-
-class HurstLine(NamedTuple):
-    """Prefactors of C = C0 q^(-2(H+1)) at a given Hurst exponent [length^(2 - 2H)]."""
-
-    #: Least squares of ln C over logarithmic rings of equal weight, corrected for the bias of
-    #: the logarithm.
-    c0: float
-    c0_se: float  #: from the scatter about the line
-    upper: float  #: upper envelope: the largest C q^(2(H+1)) of all rings
 
 
 @dataclass(frozen=True)
@@ -49,15 +33,11 @@ class SelfAffineFit:
 
     hurst: float  #: as fitted; it may be outside 0 < H <= 1
     c0: float  #: [length^(2 - 2H)], so that its unit depends on H
-    #: Of (ln c0, hurst) or (ln c0, hurst, ln q_rolloff). ln c0 and hurst are strongly
-    #: correlated: q = 1 lies far from the data.
-    log_covariance: NDArray
+    log_covariance: NDArray  #: of ln c0, hurst and, with a plateau, ln q_rolloff
     q_min: float  #: lowest and highest wave number used [1/length]
     q_max: float
     q_rolloff: float | None  #: end of the plateau [1/length]; None if the data show none
-    #: Relative rms departure of the spectrum from the fit beyond sampling noise; 0 if sampling
-    #: explains it all. The standard errors grow with it.
-    misfit: float
+    misfit: float  #: relative rms departure from the fit beyond sampling noise
     rings: RadialPSD  #: narrow ones, that the fit used
 
     @property
@@ -71,10 +51,8 @@ class SelfAffineFit:
         return self.c0 * float(np.sqrt(self.log_covariance[0, 0]))
 
     @property
-    def q_rolloff_se(self) -> float | None:
-        """Standard error of `q_rolloff` [1/length]; None without one."""
-        if self.q_rolloff is None:
-            return None
+    def q_rolloff_se(self) -> float:
+        """Standard error of `q_rolloff`, if there is one [1/length]."""
         return self.q_rolloff * float(np.sqrt(self.log_covariance[2, 2]))
 
     @property
@@ -85,104 +63,50 @@ class SelfAffineFit:
     def psd(self, q: ArrayLike) -> NDArray:
         """Fitted C(q) [length^4], at any `q` [1/length]."""
         q = np.asarray(q, dtype=float)
-        q = q if self.q_rolloff is None else np.maximum(q, self.q_rolloff)
-        return self.c0 * q ** (-2 * (self.hurst + 1))
+        return self.c0 * np.maximum(q, self.q_rolloff or 0.0) ** (-2 * (self.hurst + 1))
 
-    def spectrum(self, q0: float | None = None, q1: float | None = None) -> SelfAffine:
-        """Return the fit as a `SelfAffine` spectrum, by default from `q_min` to `q_max`."""
-        if not self.is_self_affine:
-            raise ValueError(f"hurst must be in 0 < H <= 1 for a spectrum, fitted {self.hurst:.3f}")
-        return SelfAffine(
-            hurst=self.hurst,
-            q0=self.q_min if q0 is None else q0,
-            q1=self.q_max if q1 is None else q1,
-            C0=self.c0,
-            q_rolloff=self.q_rolloff,
-        )
-
-    def c0_at_hurst(self, hurst: float = 0.8, bins_per_decade: float = 10) -> HurstLine:
-        """Prefactors at an imposed exponent, in a unit that can be compared between surfaces.
-
-        The line is fitted above `q_rolloff`; the values of the rings cover the whole fit interval.
-        """
-        if not 0 < hurst <= 1:
-            raise ValueError(f"hurst must be in 0 < H <= 1, got {hurst!r}")
-        rings = self.rings
-        level = rings.psd * rings.q ** (2 * (hurst + 1))
-        q, mean, dof = merge_rings(rings, level, bins_per_decade)
-        sloped = q >= (0.0 if self.q_rolloff is None else self.q_rolloff)
-        logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[sloped]
+    def c0_at_hurst(self, hurst: float) -> tuple[float, float, float]:
+        """C0 at an imposed exponent, its standard error, and the largest C q^(2(H+1)) of a ring."""
+        level = self.rings.psd * self.rings.q ** (2 * (hurst + 1))
+        q, mean, dof = merge_rings(self.rings, level, COARSE)
+        # Least squares above `q_rolloff`, less the bias of the logarithm.
+        logs = (np.log(mean) - special.digamma(dof) + np.log(dof))[q >= (self.q_rolloff or 0.0)]
         scatter = np.std(logs, ddof=1) if len(logs) > 1 else np.nan
         c0 = float(np.exp(logs.mean()))
-        se = c0 * float(scatter / np.sqrt(len(logs)))
-        return HurstLine(c0, se, float(mean.max()))
+        return c0, c0 * float(scatter / np.sqrt(len(logs))), float(mean.max())
 
 
 def fit_rings(
     rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum between two wave numbers, with or without a plateau at low q.
-
-    The rings, in ascending order, are so narrow that their mean C is C at `rings.q` (`FINE` a
-    decade). By default a plateau is fitted if it gains more than 10 in Akaike's criterion. A
-    ValueError says that fewer than five rings (ten a decade) or 20 independent modes lie in the fit
-    interval, or that the spectrum vanishes there.
-    """
-    rings = _within(rings, q_min, q_max)
-    # ln q about the middle of the data, where exponent and level are least correlated.
-    scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
-    x = np.log(rings.q / scale)
-    plain, plain_misfit = weighted_fit(fit_power_law, x, rings)
-    room = None if rolloff is False else rolloff_room(x, rings)
-    if room is None and rolloff:
-        raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
-    if room is not None:
-        bent, bent_misfit = weighted_fit(partial(fit_rolloff, room), x, rings)
-        limited = limit_weight(rings, bent_misfit)
-        gain = 2 * (deviance(x, limited, *plain) - deviance(x, limited, *bent)) - 2
-        if rolloff or gain > ROLLOFF_AIC:
-            return _result(rings, scale, bent, bent_misfit)
-    return _result(rings, scale, plain, plain_misfit)
-
-
-def remarks(fit: SelfAffineFit, anisotropy: float = 0.0) -> list[str]:
-    """One line for each reason why a surface is not isotropic and self-affine."""
-    found = []
-    if not fit.is_self_affine:
-        found.append(
-            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
-            "or the instrument's blur (H too high)"
-        )
-    if fit.misfit > LARGE_MISFIT:
-        found.append(f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)")
-    if anisotropy > LARGE_ANISOTROPY:
-        found.append(
-            f"C depends on direction (amplitude {anisotropy:.2f} of cos 2 phi): theory for "
-            "isotropic surfaces applies to its average at best"
-        )
-    return found
-
-
-def _within(rings: RadialPSD, low: float, high: float) -> RadialPSD:
-    if not 0 < low < high:
-        raise ValueError(f"need 0 < q_min < q_max, got q_min = {low:.6g}, q_max = {high:.6g}")
+    """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` is None."""
+    if not 0 < q_min < q_max:
+        raise ValueError(f"need 0 < q_min < q_max, got q_min = {q_min:.6g}, q_max = {q_max:.6g}")
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
-    low, high = low * (1 - 1e-9), high * (1 + 1e-9)
-    rings = rings.between(low, high)
+    rings = rings.between(q_min * (1 - 1e-9), q_max * (1 + 1e-9))
     wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
     if wide < 5 or rings.dof.sum() < 20:
         raise ValueError(
-            f"too few modes between q_min = {low:.6g} and q_max = {high:.6g} for a fit: "
+            f"too few modes between q_min = {q_min:.6g} and q_max = {q_max:.6g} for a fit: "
             f"{rings.dof.sum():.0f} independent ones in {wide} rings, need 20 in 5"
         )
     if not np.all(rings.psd > 0):
         raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")
-    return rings
-
-
-def _result(rings, scale, parameters, misfit) -> SelfAffineFit:
-    a, s, *corner = parameters
+    # ln q about the middle of the data, where exponent and level are least correlated.
+    scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
+    parameters, misfit = weighted_fit(fit_power_law, x, rings)
+    # A plateau may end above four modes, a tenth of a decade below the top.
+    room = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
+    if rolloff and len(room) < 2:
+        raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
+    if rolloff is not False and len(room) > 1:
+        bent, bent_misfit = weighted_fit(partial(fit_rolloff, (room[0], room[-1])), x, rings)
+        limited = limit_weight(rings, bent_misfit)
+        gain = 2 * (deviance(x, limited, *parameters) - deviance(x, limited, *bent)) - 2
+        if rolloff or gain > ROLLOFF_AIC:
+            parameters, misfit = bent, bent_misfit
+    a, s, *corner = parameters
     # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
     log_q = np.maximum(x, *corner) if corner else x
     slopes = [np.ones_like(x), -2 * (log_q + np.log(scale)), *(-s * (x < c) for c in corner)]
@@ -200,9 +124,6 @@ def _result(rings, scale, parameters, misfit) -> SelfAffineFit:
     )
 
 
-# Whittle's likelihood, with weights limited by the misfit
-
-
 def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
     """Maximise the likelihood of ln C = a - s x: (a, s). The likelihood has one maximum."""
     weight = rings.dof / rings.dof.sum()
@@ -217,12 +138,6 @@ def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
 
     s = optimize.brentq(lambda s: moments(s)[1], *_SLOPES, xtol=1e-12)
     return moments(s)[0] + s * centre, s
-
-
-def rolloff_room(x: NDArray, rings: RadialPSD) -> tuple[float, float] | None:
-    """Interval in which a plateau may end: above four modes, a tenth of a decade below the top."""
-    inside = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
-    return (float(inside[0]), float(inside[-1])) if len(inside) > 1 else None
 
 
 def fit_rolloff(room, x, rings) -> tuple[float, float, float]:

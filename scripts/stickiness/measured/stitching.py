@@ -1,13 +1,10 @@
 """Several measurements stitched to one spectrum; moments of a spectrum with their errors.
 
-Measurements at different magnifications cover different wave numbers at different places. Where
-they overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in which tau is the
-scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka 2017,
-doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra).
-
-Errors of moments come from drawing spectra that agree with the measured one: rings vary by their
-sampling error, measurements by their scatter, extrapolation and plateau by the covariance of the
-fit. Every moment is computed for each draw, so that correlated errors stay correlated.
+Where measurements overlap, ln C is averaged with weights 1/(sampling variance + tau^2), in which
+tau is the scatter between measurements: place, calibration, instrument (Jacobs, Junge & Pastewka
+2017, doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra). Errors of moments come
+from drawing spectra that agree with the measured one: rings vary by their sampling error,
+measurements by their scatter, extrapolation and plateau by the covariance of the fit.
 """
 
 from __future__ import annotations
@@ -22,7 +19,7 @@ from scipy import special
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
 from stickiness.measured.psd import RadialPSD
-from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
+from stickiness.measured.self_affine_fit import fit_rings
 from stickiness.spectrum.kinds import PowerLawSegments
 
 RINGS = 20  #: per decade
@@ -30,52 +27,47 @@ REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
 
-@dataclass(frozen=True)
-class Stitched:
-    """Several measurements of one surface as one spectrum."""
+@dataclass(frozen=True, kw_only=True)
+class Stitched(MeasuredSpectrum):
+    """Several measurements of one surface as one spectrum; `fit` has the scatter in its errors."""
 
-    #: the whole; the errors of `fit` include the scatter between measurements
-    spectrum: MeasuredSpectrum
-    #: (k, m), C of each measurement in the rings of `spectrum`, NaN outside its band
-    levels: NDArray
-    #: (k,), mean of ln C minus the stitched one where measurements overlap, else NaN
-    offsets: NDArray
-    #: (k, m), weight of each measurement in each ring; the sum over measurements is 1
-    shares: NDArray
-    scatter: float  #: tau, standard deviation of the offsets in ln C; NaN if no two overlap
+    levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
+    shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
+    scatter: float  #: tau, standard deviation of their ln C; NaN if no two overlap
 
 
-def stitch(measurements: Sequence[MeasuredSpectrum]) -> Stitched:
-    """Log-average two or more measurements of one surface into one spectrum.
-
-    Each counts within the interval of its fit, the one of the lowest wave numbers also below, where
-    most of the variance of the heights is. The errors of the fit are those of the rings plus, for
-    each measurement, the change of the fit when it alone is raised by tau: offsets tilt the
-    spectrum.
-    """
-    if len(measurements) < 2:
-        raise ValueError(f"stitching needs two measurements at least, got {len(measurements)}")
+def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
+    """Log-average measurements of one surface into one `Stitched` spectrum; a single one stays."""
+    if len(measurements) == 1:
+        return measurements[0]
     logs, variances, q = _on_common_rings(measurements)
     tau2 = _variance_between(logs, variances)
-    mean, rings = _average(q, logs, variances, tau2)
+    shares, rings = _average(q, logs, variances, tau2)
     top = max(measurements, key=lambda m: m.cutoff.q)
     band = min(m.fit.q_min for m in measurements), top.cutoff.q
     fit = fit_rings(rings, *band)
-    tau = float(np.sqrt(tau2))
-    if tau > 0:
-        fit = _add_offsets(fit, logs, variances, tau, q, band)
-    present = np.isfinite(logs)
-    both = present & (present.sum(0) > 1)
-    offsets = np.array(
-        [np.mean((log - mean)[b]) if b.any() else np.nan for log, b in zip(logs, both, strict=True)]
+    tau, bent = float(np.sqrt(tau2)), fit.q_rolloff is not None
+    covariance = fit.log_covariance.copy()
+    # Offsets tilt the spectrum: add what raising each measurement by tau changes.
+    for offsets in tau * np.eye(len(logs)) if tau > 0 else ():
+        _, raised = _average(q, logs + offsets[:, None], variances, tau**2)
+        other = fit_rings(raised, *band, rolloff=bent)
+        change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
+        change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
+        covariance += np.outer(change, change)
+    lowest = min(m.lowest for m in measurements)
+    return Stitched(
+        rings=rings,
+        area=ring_areas(rings.q, lowest),
+        narrow=rings,
+        fit=replace(fit, log_covariance=covariance),
+        cutoff=replace(top.cutoff, q=fit.q_max),
+        lowest=lowest,
+        anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
+        levels=np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof)),
+        shares=shares,
+        scatter=tau,
     )
-    anisotropy = float(np.fmax.reduce([m.anisotropy for m in measurements]))
-    q_low = min(m.lowest for m in measurements)
-    area = ring_areas(rings.q, q_low)
-    cutoff = replace(top.cutoff, q=fit.q_max)
-    whole = MeasuredSpectrum(rings, area, rings, fit, cutoff, q_low, anisotropy)
-    levels = np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof))
-    return Stitched(whole, levels, offsets, _shares(variances, tau2), tau)
 
 
 def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
@@ -87,6 +79,7 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
     logs = np.full((len(measurements), count), np.nan)
     variances = np.full_like(logs, np.nan)
     for k, measurement in enumerate(measurements):
+        # The broadest counts below the interval of its fit, too: most of the variance is there.
         low = measurement.lowest if measurement is broadest else measurement.fit.q_min
         slack = 1 + 1e-9
         rings = measurement.narrow.between(low / slack, measurement.cutoff.q * slack)
@@ -105,58 +98,30 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
 
 
 def _average(q, logs, variances, tau2) -> tuple[NDArray, RadialPSD]:
-    """Weighted mean of ln C (m,), and rings whose ln C has this mean and its variance."""
-    mean = np.nansum(_shares(variances, tau2) * logs, axis=0)
-    error2 = 1 / np.nansum(_weights(variances, tau2), axis=0)
+    """Weights of the mean of ln C (k, m), and rings whose ln C has this mean and its variance."""
+    weight = np.nan_to_num(1 / (variances + np.nan_to_num(tau2)))
+    shares = weight / weight.sum(axis=0)
+    mean = np.nansum(shares * logs, axis=0)
+    error2 = 1 / weight.sum(axis=0)
     # Solve polygamma(1, dof) = error2: Newton's method on its inverse, nearly linear in dof.
     dof = 0.5 + 1 / error2
     for _ in range(20):
         trigamma = special.polygamma(1, dof)
         dof = dof + trigamma * (1 - trigamma / error2) / special.polygamma(2, dof)
     level = np.exp(mean + special.digamma(dof) - np.log(dof))
-    return mean, RadialPSD(q, level, dof)
-
-
-def _weights(variances: NDArray, tau2: float) -> NDArray:
-    return 1 / (variances + (tau2 if np.isfinite(tau2) else 0.0))
-
-
-def _shares(variances: NDArray, tau2: float) -> NDArray:
-    weight = np.nan_to_num(_weights(variances, tau2))
-    return weight / weight.sum(axis=0)
+    return shares, RadialPSD(q, level, dof)
 
 
 def _variance_between(logs: NDArray, variances: NDArray) -> float:
-    """Variance between measurements, from the mean offsets of all pairs that overlap.
-
-    An offset smaller than its sampling error counts as that error.
-    """
+    """Variance between measurements, from the mean offsets of all pairs that overlap."""
     squares = []
     for j, k in combinations(range(len(logs)), 2):
         weight = 1 / (variances[j] + variances[k])
         if np.isfinite(weight).any():
             total = np.nansum(weight)
             offset = np.nansum(weight * (logs[j] - logs[k])) / total
-            squares.append(max(offset**2, 1 / total))
+            squares.append(max(offset**2, 1 / total))  # at least its sampling error
     return float(np.mean(squares)) / 2 if squares else np.nan
-
-
-def _add_offsets(fit, logs, variances, tau, q, band) -> SelfAffineFit:
-    """Add to the covariance what raising each measurement by tau changes."""
-    covariance = fit.log_covariance.copy()
-    bent = fit.q_rolloff is not None
-    for k in range(len(logs)):
-        raised = logs.copy()
-        raised[k] += tau
-        _, rings = _average(q, raised, variances, tau**2)
-        other = fit_rings(rings, *band, rolloff=bent)
-        change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
-        change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
-        covariance += np.outer(change, change)
-    return replace(fit, log_covariance=covariance)
-
-
-# Moments and their errors
 
 
 @dataclass(frozen=True)
@@ -166,9 +131,7 @@ class Draws:
     #: (n,) each: `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy`
     #: [length], the last of full contact per area over E*
     moments: dict[str, NDArray]
-    #: (n,), lowest wave number of the self-affine range [1/length]: the end of the plateau if
-    #: one was found, else the lowest of the scan, without error
-    q0: NDArray
+    q0: NDArray  #: (n,), end of the plateau [1/length]; if there is none, lowest of the scan
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -176,25 +139,16 @@ class Draws:
 
 
 def draw(
-    spectrum: MeasuredSpectrum,
-    count: int,
-    seed: int,
-    *,
-    stitched: Stitched | None = None,
-    extend_to: float | None = None,
+    spectrum: MeasuredSpectrum, count: int, seed: int, *, extend_to: float | None = None
 ) -> Draws:
     """Draw moments of spectra that agree with a measured one.
 
     Parameters
     ----------
     spectrum : MeasuredSpectrum
-        Of one measurement, or the `spectrum` of `stitched`.
-    count : int
-        Number of draws.
-    seed : int
-        Of the random numbers; the same seed draws the same moments.
-    stitched : Stitched, optional
-        If the spectrum was stitched: the scatter between measurements varies, too.
+        Of one measurement or several.
+    count, seed : int
+        Number of draws, and seed of the random numbers.
     extend_to : float, optional
         Wave number up to which the fit extrapolates the spectrum [1/length]. Default: slope,
         curvature and energy end at the cutoff.
@@ -221,47 +175,34 @@ def draw(
         )
     rng = np.random.default_rng(seed)
     rings, top = spectrum.rings, spectrum.cutoff.q * (1 + 1e-9)
-    levels = rings.psd * _relative(spectrum, count, rng, stitched)
-    law = _draw_power_laws(spectrum, count, rng)
+    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
+    # of that mean and variance is positive and lacks the far tail of the posterior of a single
+    # mode: the variance of the measured heights is known.
+    variance = np.log1p(1 / rings.dof)
+    sampling, logs = variance, 0.0
+    if isinstance(spectrum, Stitched):
+        tau, shares = np.nan_to_num(spectrum.scatter), spectrum.shares
+        logs = rng.normal(size=(count, len(shares))) * tau @ shares
+        # The errors of the rings already hold the offsets, as if these were independent.
+        sampling = np.maximum(variance - tau**2 * np.sum(shares**2, axis=0), 0.0)
+    normal = rng.normal(size=(count, len(variance)))
+    levels = rings.psd * np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
+    # ln C at the cutoff, H and, with a plateau, ln q_rolloff.
+    fit = spectrum.fit
+    centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
+    law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
+    law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
     moments = {}
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
-        variance = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
+        moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
         if extend_to is not None:
             ends = [spectrum.cutoff.q, extend_to]
             laws = (
                 PowerLawSegments(ends, [np.exp(level)], [-2 * (hurst + 1)])
                 for level, hurst in law[:, :2]
             )
-            variance = variance + [beyond.variance_below(extend_to, order) for beyond in laws]
-        moments[name] = variance / 4 if order == 1 else np.sqrt(variance)
-    q0 = np.full(count, spectrum.lowest)
-    if spectrum.fit.q_rolloff is not None:
-        q0 = np.exp(law[:, 2])
-    return Draws(moments, q0)
-
-
-def _relative(spectrum, count, rng, stitched) -> NDArray:
-    """Drawn over measured C in every ring (count, m)."""
-    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
-    # of that mean and variance is positive and lacks the far tail of the posterior of a single
-    # mode: the variance of the measured heights is known.
-    variance = np.log1p(1 / spectrum.rings.dof)
-    sampling, logs = variance, 0.0
-    if stitched is not None:
-        tau = np.nan_to_num(stitched.scatter)
-        logs = rng.normal(size=(count, len(stitched.shares))) * tau @ stitched.shares
-        # The errors of the rings already hold the offsets, as if these were independent.
-        sampling = np.maximum(variance - tau**2 * np.sum(stitched.shares**2, axis=0), 0.0)
-    normal = rng.normal(size=(count, len(variance)))
-    return np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
-
-
-def _draw_power_laws(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
-    """Draws of (ln C at the cutoff, H) and, with a plateau, ln q_rolloff: (count, 2 or 3)."""
-    fit = spectrum.fit
-    centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
-    law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
-    law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
-    return law
+            moment = moment + [beyond.variance_below(extend_to, order) for beyond in laws]
+        moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
+    return Draws(moments, np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest))

@@ -33,9 +33,7 @@ class _Heights:
     cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
     dropped: int = 0  #: number of points that were measured beside missing ones and not used
     spikes: int = 0  #: number of points far off their neighbours, not used
-    #: As `heights` before anything was dropped, masked or filled, NaN where missing; None if
-    #: nothing was dropped or masked.
-    as_read: NDArray | None = None
+    as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
 
     @property
@@ -47,6 +45,25 @@ class _Heights:
     def missing_fraction(self) -> float:
         """Share of the points that were missing."""
         return self.missing / self.heights.size
+
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """Grid steps along every axis [m]."""
+        return (self.dx, self.dy) if self.heights.ndim == 2 else (self.dx,)
+
+    @property
+    def size(self) -> tuple[float, ...]:
+        """Sides along every axis [m]."""
+        return tuple(n * step for n, step in zip(self.heights.shape, self.steps, strict=True))
+
+    def to_xarray(self) -> xr.DataArray:
+        """Return the heights along `x` (and `y`) with units, so that ``.plot()`` labels itself."""
+        attributes, axes = {"units": "m", "long_name": "height"}, ("x", "y")
+        found = xr.DataArray(self.heights, None, axes[: self.heights.ndim], "height", attributes)
+        for axis, step in zip(found.dims, self.steps, strict=True):
+            found[axis] = step * np.arange(found.sizes[axis])
+            found[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
+        return found
 
     def h_rms_as_read(self, kind: Detrend = "plane") -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
@@ -66,20 +83,6 @@ class Topography(_Heights):
     dy: float
     source: str  #: file (and variable or channel) of the heights, for messages
 
-    @property
-    def size(self) -> tuple[float, float]:
-        """Sides along x and y [m]."""
-        return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
-
-    def to_xarray(self) -> xr.DataArray:
-        """Return the heights along `x` and `y` with units, so that ``.plot()`` labels itself."""
-        positions = {
-            axis: (axis, step * np.arange(n), {"units": "m", "long_name": f"position along {axis}"})
-            for axis, step, n in zip("xy", (self.dx, self.dy), self.heights.shape, strict=True)
-        }
-        attributes = {"units": "m", "long_name": "height"}
-        return xr.DataArray(self.heights, positions, ("x", "y"), "height", attributes)
-
 
 @dataclass(frozen=True)
 class Profile(_Heights):
@@ -88,14 +91,7 @@ class Profile(_Heights):
     heights: NDArray  #: (n,), finite [m]
     dx: float  #: step [m]
     source: str  #: file (and variable or channel) of the heights, for messages
-    #: Largest distance between neighbouring points as measured [m]; above `dx` if they were
-    #: unevenly spaced and have been interpolated.
-    largest_gap: float = 0.0
-
-    @property
-    def length(self) -> float:
-        """Length of the line [m]."""
-        return len(self.heights) * self.dx
+    largest_gap: float = 0.0  #: between neighbours as measured [m]; above `dx` if uneven
 
 
 def read(
@@ -158,13 +154,12 @@ def read(
     ------
     ValueError
         If the file does not hold one usable array, its size or unit is unknown or of a wrong
-        dimension, or too much is missing. The message names file, variable and remedy.
+        dimension, or too much is missing.
 
     Notes
     -----
     In NetCDF the axis named x (or lon) is x, else the last one. A text matrix may have a header as
-    Gwyddion writes it (Width, Height, Value units). Text in three columns is a list of points
-    x y z on a grid.
+    Gwyddion writes it. Text in three columns is a list of points x y z on a grid.
     """
     path = Path(path)
     if not path.is_file():
@@ -198,8 +193,7 @@ def read(
     if missing == "crop":
         kept = levelling.complete_rectangle(np.isfinite(left), source)
         left, x = left[kept], x if x is None else x[kept]
-    name = source
-    name += f", {dropped} points beside missing ones dropped" if dropped else ""
+    name = source + (f", {dropped} points beside missing ones dropped" if dropped else "")
     name += f", {masked} spikes masked" if masked else ""
     limit = 0.0 if missing == "refuse" else max_missing
     filled, count = levelling.fill_missing(left, limit, name, x)
@@ -225,28 +219,23 @@ def read(
     }
     if x is not None:
         return Profile(filled, *steps, source, float(gaps.max()), **known)
-    return Topography(filled, *steps, source, **known)
+    return Topography(filled, *map(float, steps), source, **known)
 
 
-def _places(raw: Raw, length, pixel_size, position_unit) -> tuple[float, ...] | NDArray:
+def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
-    if length is not None:
-        size = sides(length, shape, f"{raw.source}: length")
-        if is_profile:
-            return np.arange(shape[0]) * size[0] / shape[0]
-        return tuple(side / n for side, n in zip(size, shape, strict=True))
-    if pixel_size is not None:
-        steps = sides(pixel_size, (1,) * len(shape), f"{raw.source}: pixel_size")
-        return np.arange(shape[0]) * steps[0] if is_profile else steps
+    if length is not None or pixel_size is not None:
+        counts = (1,) * len(shape) if length is None else shape
+        name, given = ("pixel_size", pixel_size) if length is None else ("length", length)
+        size = sides(given, counts, f"{raw.source}: {name}")
+        return np.arange(shape[0]) * size[0] / counts[0] if is_profile else np.divide(size, counts)
     if raw.places is None:
         what = "the profile's length" if is_profile else "its size"
         raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
     if not np.all(np.isfinite(raw.places)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
-    scale = _scale(raw.source, "position_unit", position_unit, raw.place_unit)
-    places = np.asarray(raw.places) * scale
-    return places if is_profile else tuple(places.tolist())
+    return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
 
 
 def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:

@@ -8,7 +8,6 @@ share) and interpolated at the nodes of P(u) (`GapProfile`).
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
@@ -115,10 +114,7 @@ class GapCurve:
             start, end = panels.T
             series = _series(setting, p, y_end, start, end)
             ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
-            narrow = ~ready & (end - start < _LEAST_PANEL)
-            if narrow.any():
-                logging.info("p = %g: %d panels of gaps not converged", p, narrow.sum())
-            ready |= narrow
+            ready |= end - start < _LEAST_PANEL
             done += zip(start[ready], series[ready], strict=True)
             middle = 0.5 * (start + end)
             halves = np.stack([start, middle, middle, end], axis=1)
@@ -143,7 +139,7 @@ class GapCurve:
 def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     """Range of ln(y - y_end) over which gaps are not negligible beside all others."""
     high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
-    slope = y_end**3 * float(setting.kernels.diffusion(y_end)) / 2
+    slope = y_end**3 * float(setting.kernels.correction.diffusion(y_end)) / 2
     low = float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2)))
     return min(low, high - 1.0), high  # next to full contact all gaps are that small
 
@@ -158,7 +154,6 @@ def _series(setting: Setting, p: float, y_end: float, start: NDArray, end: NDArr
 
 def scaled_gap(setting: Setting, p: float, lost: LostContact) -> NDArray:
     """u1 over exp(y^2 - p(m)^2/(M - m)), by the sum over scales finer than each m."""
-    kernel = setting.kernels
     nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
     coarse = lost.m < 0.5 * setting.m2
     s2 = np.empty((len(coarse), len(nodes.weight)))
@@ -169,9 +164,14 @@ def scaled_gap(setting: Setting, p: float, lost: LostContact) -> NDArray:
     # What is not finer ends where the exponential is zero.
     np.maximum(s2, pressure2 / (finest + 740.0), out=s2)
     x2 = pressure2 / s2
-    a = np.sqrt(np.pi) * p**2 * erf(lost.y) / (lost.y**3 * kernel.diffusion(lost.y))
+    a = (
+        np.sqrt(np.pi)
+        * p**2
+        * erf(lost.y)
+        / (lost.y**3 * setting.kernels.correction.diffusion(lost.y))
+    )
     terms = np.exp(finest - x2)
-    terms *= kernel.gap_kernel(x2)
+    terms *= setting.kernels.gap_kernel(x2)
     terms *= s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
     terms /= np.sqrt(s2)
     return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)

@@ -31,9 +31,8 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 class Correction:
     """How lost contact slows the diffusion of pressure and takes elastic energy from each scale.
 
-    Of a function y, A = erf(y) being the relative contact area, subclasses give `diffusion`,
-    S = dV_eff/dV, the growth of the pressure variance over that in full contact, from gamma at
-    A = 0 to 1, and `energy`, K = d(A S)/dA, the growth of a scale's elastic energy with the area.
+    At the area A = erf(y) subclasses give `diffusion`, S = dV_eff/dV, the growth of the pressure
+    variance over that in full contact, from gamma at A = 0 to 1, and `energy`, K = d(A S)/dA.
     """
 
     gamma: float
@@ -87,24 +86,22 @@ class Xu2024(Correction):
     energies. It takes gamma = 0.45 for areas and pressures and 0.42 for energies.
     """
 
-    def _parts(self, y: ArrayLike) -> tuple[NDArray, NDArray, NDArray, NDArray]:
-        """Return y, A, g and dg/dy."""
-        y = np.asarray(y, dtype=float)
-        area = erf(y)
+    def _parts(self, y: NDArray) -> tuple[NDArray, NDArray]:
+        """Return g and dg/dy."""
         lacking = 1 - self.gamma
         slope = lacking * 2 / np.sqrt(np.pi) * np.exp(-(y**2))
-        return y, area, self.gamma + lacking * area, slope
+        return self.gamma + lacking * erf(y), slope
 
-    def diffusion(self, y: ArrayLike) -> NDArray:
-        y, _, g, slope = self._parts(y)
+    def diffusion(self, y: NDArray) -> NDArray:
+        g, slope = self._parts(y)
         return g**2 / (g + 0.5 * y * slope)
 
-    def energy(self, y: ArrayLike) -> NDArray:
-        y, area, g, slope = self._parts(y)
+    def energy(self, y: NDArray) -> NDArray:
+        g, slope = self._parts(y)
         below = g + 0.5 * y * slope
         # 2 below - g (3/2 - y^2), without the terms that cancel
         change = (0.5 + y**2) * g + y * slope
-        return g**2 / below + area * (1 - self.gamma) * g * change / below**2
+        return g**2 / below + erf(y) * (1 - self.gamma) * g * change / below**2
 
 
 _KINDS = {"yang2008": Yang2008, "wang2017": Wang2017, "xu2024": Xu2024}
@@ -152,18 +149,13 @@ class EvenTable:
         return value + rows[..., 3]
 
 
-@dataclass(frozen=True)
 class Kernels:
-    """The functions T, F and kappa for one correction. Made by `kernels`."""
+    """The functions T, F and kappa for one correction; `kernels` keeps them."""
 
-    correction: Correction
-    _log_t: EvenTable
-    _gap: EvenTable
-    _mean: EvenTable
-
-    def diffusion(self, y: ArrayLike) -> NDArray:
-        """Factor S of pressure diffusion at the area A = erf(y)."""
-        return self.correction.diffusion(y)
+    def __init__(self, correction: Correction):
+        self.correction = correction
+        self._log_t, self._gap = _area_table(correction), _gap_table(correction)
+        self._mean = _mean_table(self._gap)
 
     def area_scale(self, y: ArrayLike) -> NDArray:
         """T(y) = 2 int_y^inf dt / (t^3 diffusion(t)), which is 1/y^2 without a correction."""
@@ -182,7 +174,7 @@ class Kernels:
         small = log_step < 0.25
         half = 0.5 * log_step[small]
         t = y[small][:, None] * np.exp(half[:, None] * (1 + _NODES))
-        result[small] = half * np.sum(_WEIGHTS * 2 / (t**2 * self.diffusion(t)), axis=-1)
+        result[small] = half * np.sum(_WEIGHTS * 2 / (t**2 * self.correction.diffusion(t)), axis=-1)
         return result
 
     def invert_area_scale(self, t: ArrayLike) -> NDArray:
@@ -192,7 +184,7 @@ class Kernels:
         log_y = -0.5 * log_t
         for _ in range(60):
             value = self.area_scale(np.exp(log_y))
-            slope = -2 / (np.exp(2 * log_y) * self.diffusion(np.exp(log_y)) * value)
+            slope = -2 / (np.exp(2 * log_y) * self.correction.diffusion(np.exp(log_y)) * value)
             step = (np.log(value) - log_t) / slope
             log_y = log_y - step
             if np.all(np.abs(step) < 1e-14 * (1 + np.abs(log_y))):
@@ -218,9 +210,7 @@ class Kernels:
 @lru_cache(maxsize=128)
 def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008") -> Kernels:
     """Tabulate the universal functions; arguments and errors as in `correction_of`."""
-    chosen = correction_of(correction, gamma)
-    gap = _gap_table(chosen)
-    return Kernels(chosen, _area_table(chosen), gap, _mean_table(gap))
+    return Kernels(correction_of(correction, gamma))
 
 
 def _panels(log_x: NDArray) -> tuple[NDArray, NDArray]:

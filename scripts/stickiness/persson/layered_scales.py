@@ -1,11 +1,7 @@
 """Scales of a rough surface on a layer, for Persson's contact theory.
 
-On a layer a wave costs 1/S times the pressure and the energy in full contact of a half-space, see
-`solids`. With ``m(q) = pi int q'^3 C/S^2 dq'`` the area A(m) is that of the half-space; waves dm
-cost the energy ``(1/2) (S/q) dm``, so that every 1/q in the mean gap becomes S/q:
-
-    ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q,   s^2 = m(q).
-
+With ``m(q) = pi int q'^3 C/S^2 dq'``, S of `solids`, the area A(m) is that of the half-space; waves
+dm cost the energy ``(1/2) (S/q) dm``: ``ubar(p) = (2/sqrt(pi)) int ds F(p/s) S/q``, ``s^2 = m(q)``.
 Unlike 1/q, S/q may rise with q. So this integral is not taken by parts, as in `theory`, and the
 distribution of gaps is left out: u1 may be negative. The mean gap is within 6 % of simulations. The
 area is too small, by up to a half on thin incompressible layers.
@@ -57,11 +53,7 @@ class LayeredScales:
         return (q / self.solid.factor(q)) ** 2
 
     def _gauss_nodes(self, nodes: float) -> tuple[NDArray, NDArray, NDArray]:
-        """Wave numbers, m there, and what m grows by with the weight of each.
-
-        The first panel, of relative width 1e-8 at most, is one shell: F(p/s) changes there at
-        small loads.
-        """
+        """Wave numbers, m there, and what m grows by with the weight of each."""
         edges = self.spectrum.q0 * np.exp(scale_edges(self.spectrum))
         edges[-1] = self.spectrum.q1
         # so close that ln m grows by little between them
@@ -77,6 +69,7 @@ class LayeredScales:
         before = np.concatenate([[0.0], np.cumsum(growth.sum(axis=1))[:-1]])
         # up to a node: the integral of the interpolating polynomial
         within = growth / w @ _partial_weights(x).T
+        # The first panel, of relative width 1e-8 at most: F(p/s) changes there at small loads.
         shell = self.spectrum.q0, growth[0].sum(), 0.0
         rest = q[1:], before[1:, None] + within[1:], growth[1:]
         return tuple(np.append(one, all_else) for one, all_else in zip(shell, rest, strict=True))

@@ -1,9 +1,9 @@
 """Quadrature over the scales of a rough surface, for Persson's contact theory.
 
-The theory integrates over d(-1/q) functions that depend on q through m(q) alone, the profile
-variance of the gradient up to q. They set in at some m like exp(-c m/(m(q) - m)). With c about a
-third, at small loads, Gauss quadrature takes some hundred nodes per unit of ln m across the onset,
-and seven for any panel farther away than a third of its width. Hence two sets of nodes.
+The theory integrates over d(-1/q) functions of m(q), the profile variance of the gradient up to q.
+They set in at some m like exp(-c m/(m(q) - m)). With c about a third, at small loads, Gauss
+quadrature takes some hundred nodes per unit of ln m across the onset, and seven for any panel
+farther away than a third of its width. Hence two sets of nodes.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import Shells
 
 _ORDER = 7  # of Gauss quadrature on panels
 _WIDEST = 0.7  # panels, in ln q
@@ -71,7 +70,10 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     many shells or points of a table, neighbours are put together.
     """
     if spectrum.is_discrete:
-        return _grouped_nodes(_shell_nodes(spectrum), nodes)
+        gradient = 0.5 * spectrum.variance * spectrum.q**2
+        above = np.append(np.cumsum(gradient[::-1])[::-1][1:], 0.0)
+        shells = Nodes(np.cumsum(gradient), above, -np.diff(1 / spectrum.q, append=0.0))
+        return _grouped_nodes(shells, nodes)
     edges = scale_edges(spectrum)
     order = max(2, round(_ORDER * nodes))
     coarse = _gauss_nodes(spectrum, edges, order)
@@ -111,13 +113,6 @@ def _gauss_nodes(spectrum: Spectrum, edges: NDArray, order: int) -> Nodes:
     weight = np.append((half * w).ravel(), 1.0) / q
     below = 0.5 * spectrum.variance_below(q, 2)
     return Nodes(below, 0.5 * spectrum.variance_above(q, 2), weight)
-
-
-def _shell_nodes(shells: Shells) -> Nodes:
-    """One node per shell."""
-    gradient = 0.5 * shells.variance * shells.q**2
-    above = np.append(np.cumsum(gradient[::-1])[::-1][1:], 0.0)
-    return Nodes(np.cumsum(gradient), above, -np.diff(1 / shells.q, append=0.0))
 
 
 def _grouped_nodes(discrete: Nodes, nodes: float) -> ScaleNodes:

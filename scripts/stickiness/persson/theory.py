@@ -1,22 +1,14 @@
 """Persson's theory of purely repulsive contact: area, mean gap and distribution of gaps.
 
 The scale of resolution is measured by m, the profile variance of the gradient from q0 up to that
-scale (m = m2 for the whole surface); everything then holds alike for continuous spectra, tables
-and the shells of a periodic window. With E* = 1, M = m2 and p(m) = p/A(m):
-
-- relative contact area A = erf(y), where m = p^2 T(y);
-- mean gap where the contact at m is in sight, ubar(m) = (2/sqrt(pi)) int ds F(p(m)/s) / q(m + s^2)
-  with s from 0 to sqrt(M - m), F(x) = int_x^inf (dt/t) K(t) exp(-t^2);
-- gap where contact is lost on resolving m, u1 = d(A ubar)/dA.
-
-Both integrals by parts are sums of positive terms over 1/q (nothing cancels, and C(q), which
-shells do not have, drops out):
+scale, M for the whole surface. With E* = 1 and p(m) = p/A(m) the area is A = erf(y), m = p^2 T(y).
+The mean gap where the contact at m is in sight, and the gap where contact is lost on resolving m,
+u1 = d(A ubar)/dA, are integrals from q(m) up that end with a jump of -1/q to zero at q1,
 
     ubar = (2/sqrt(pi)) int d(-1/q) s kappa(p(m)/s),
-    u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm),
+    u1   = (2/sqrt(pi)) int d(-1/q) F(p(m)/s) (s + a/(2 s)),   s^2 = m(q) - m,  a = -A/(dA/dm).
 
-the integral running from q(m) up and ending with a jump of -1/q to zero at q1. T and K belong to
-the correction of the theory, see `kernels`.
+All terms are positive, and C(q), which shells do not have, drops out. T, F, kappa: see `kernels`.
 """
 
 from __future__ import annotations
@@ -115,7 +107,9 @@ class Persson:
         self.solid, self._layered = check_solid(solid), None
         if solid != HALF_SPACE:
             self._layered = LayeredScales(spectrum, solid, nodes)
-        m2 = self._variance_below(spectrum.q1)
+            m2 = self._layered.variance_below(spectrum.q1)
+        else:
+            m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
         scales = scale_nodes(spectrum, nodes)
         self._setting = gaps.Setting(spectrum, universal, scales, m2, variant, nodes)
         self._profiles: dict[tuple[float, float], gaps.GapProfile] = {}
@@ -131,31 +125,13 @@ class Persson:
         other._setting = replace(self._setting, variant=variant)
         return other
 
-    def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
-        """Relative contact area A/A_nom, array of the shape of `p`.
-
-        Parameters
-        ----------
-        p : array_like
-            Mean pressure over E*, p >= 0.
-        magnification : float, optional
-            Resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen; the finest by
-            default. With a direction, q0 is the wave number of the longest of all waves.
-        """
+    def area_fraction(self, p: ArrayLike) -> NDArray:
+        """Relative contact area A/A_nom at mean pressures `p` >= 0 over E*, of their shape."""
         (p,) = finite(p=p)
         if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
         warn_of_pressure(float(np.max(p, initial=0.0)), float(np.sqrt(2 * self._setting.m2)))
-        m = self._setting.m2
-        if magnification is not None:
-            if np.ndim(magnification) or not magnification >= 1:
-                raise ValueError(
-                    f"magnification must be a number of at least 1, got {magnification!r}"
-                )
-            m = self._variance_below(magnification * self.spectrum.q0)
-        if m == 0:
-            return np.where(p > 0, 1.0, 0.0)[()]
-        y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
+        y = self._setting.kernels.invert_area_scale(self._setting.m2 / np.where(p > 0, p, 1.0) ** 2)
         return np.where(p > 0, erf(y), 0.0)[()]
 
     def mean_gap(self, p: ArrayLike) -> NDArray:
@@ -222,12 +198,6 @@ class Persson:
         while excess(high) > 0:
             high = min(high + 0.5, highest)
         return float(np.exp(brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
-
-    def _variance_below(self, q: float) -> float:
-        """Twice the variance of the pressure in full contact of the waves up to `q` [E*]."""
-        if self._layered is not None:
-            return self._layered.variance_below(q)
-        return 0.5 * float(self.spectrum.variance_below(q, 2))
 
     def _over_gaps(self, u: ArrayLike, p: ArrayLike, function) -> NDArray:
         if self._layered is not None:

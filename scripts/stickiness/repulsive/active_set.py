@@ -1,27 +1,26 @@
 """Active-set iteration of the repulsive contact problem, in dimensionless variables.
 
-`solver` states the problem and the method. The pressures of the contact set are short vectors;
-whole grids are touched once per update of the set. Between updates the pressure is corrected in
-single precision: a correction reduces the gap by a factor of 10 to 1000, for which seven digits are
-enough, and the next update starts from the true gap (iterative refinement). That gap is computed in
-double precision as soon as rounding matters, and always for the result.
-
-Where few points may touch, only these take part in corrections and in changes of the set
-(`dilute_contact`), as long as this makes progress.
+For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
+pressure. Points under tension are released and points that penetrate are added, until neither is
+left. Between updates of the set the pressure is corrected in single precision: a correction reduces
+the gap by a factor of 10 to 1000, for which seven digits are enough, and the next update starts
+from the true gap (iterative refinement), in double precision as soon as rounding matters. Below a
+per cent of contact only points that may touch take part (`dilute_contact`).
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.repulsive import convolution, dilute_contact, free_edges, half_space
-from stickiness.repulsive.half_space import measure_slope
+from stickiness.repulsive import convolution, dilute_contact, half_space
 from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
 
 _FIRST_SET_FACTOR = 2.0  # first set over the contact that is expected
 _LARGEST_FIRST_SET = 0.5  # of all points: beyond this the first set is all of them
-PREDICTION = 0.7  #: c in "contact where p > c k g": 0.5 to 1 predict about equally well
+# c in "contact where p > c k g", k being the stiffness of a single pixel, which predicts the set to
+# a per cent from a guess of the gap; 0.5 to 1 do about equally well.
+PREDICTION = 0.7
 _REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing much
 _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
 _FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
@@ -46,9 +45,7 @@ class Problem:
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""
         shape = self.heights.shape
-        if self.periodic:
-            return half_space.half_space(shape, self.sides, dtype, self.solid)
-        return free_edges.free_half_space(shape, self.sides, dtype)
+        return half_space.half_space(shape, self.sides, dtype, self.solid, self.periodic)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,7 +58,7 @@ class State:
     area_fraction: float
     residual: float
     iterations: int
-    pairs: float
+    fft_pairs: float
 
 
 class _Field:
@@ -90,34 +87,27 @@ class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
     def __init__(self, problem, rough):
-        heights = problem.heights
-        self.shape = heights.shape
-        self.heights = heights
-        self.active = np.zeros(heights.size, bool)
+        self.heights, self.shape = problem.heights, problem.heights.shape
+        self.solid, self.sides = problem.solid, problem.sides
+        self.active = np.zeros(self.heights.size, bool)
         dtype = np.float32 if rough else np.float64
         self.exact = _Field(problem.operator(dtype))
         self.quick = self.exact
         if not rough:
             self.quick = _Field(problem.operator(np.float32), memory=self.exact)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
-        largest = float(np.abs(heights).max())
+        largest = float(np.abs(self.heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
-        self.solid, self.sides = problem.solid, problem.sides
+        self._operators = {self.quick.operator, self.exact.operator}
         self.spent = 0.0  # convolutions on coarser grids, by their share of the points
-        self._before = self._count()
-
-    def _count(self):
-        pairs = self.quick.operator.pairs + self.spent
-        if self.exact is not self.quick:
-            pairs += self.exact.operator.pairs
-        return pairs
+        self.spent = -self.pairs
 
     @property
     def pairs(self):
         """Convolutions since this object was made."""
-        return self._count() - self._before
+        return self.spent + sum(operator.pairs for operator in self._operators)
 
     def rows(self, points):
         hit = np.zeros(self.shape[0], bool)
@@ -125,7 +115,7 @@ class _Grid:
         return np.flatnonzero(hit)
 
 
-def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False, logger=None):
+def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False):
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
     Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
@@ -161,11 +151,6 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
         stalled += 1
         if best is None or residual < best[-1]:
             best, stalled = (points, pressure, shift, residual), 0
-        if logger is not None:
-            logger.info(
-                "%d x %d: residual %.1e h_rms, area %.5f, %d iterations",
-                *(*grid.shape, residual, points.size / heights.size, iterations),
-            )
         if residual <= tol or iterations >= max_iterations or stalled > max_stalled:
             break
         if below.size + points.size == 1:
@@ -206,14 +191,19 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False,
             few = changed <= _FEW_CHANGES * points.size
             reduction = min(loose, _REDUCTION_NEARLY_SETTLED) if few else loose
             goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
-        residuals, scale = _scaled(gaps)
+        scale = float(np.std(gaps)) or 1.0
+        residuals = np.empty(gaps.size, np.float32)
+        np.subtract(float(gaps.mean()), gaps, out=residuals, casting="same_kind")
+        residuals /= np.float32(scale)
         gaps = None  # frees memory
         change, count = close_gap(
             precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
         )
         iterations += count
-        pressure = _changed(pressure, change, scale)
-        change = residuals = None
+        change = np.multiply(change, scale, dtype=float)
+        change -= change.mean()
+        change += pressure
+        pressure, change, residuals = change, None, None
         keep = pressure > 0
         changed = points.size - int(np.count_nonzero(keep))
         if changed:
@@ -261,14 +251,10 @@ def _highest(problem):
 
     At small loads the area of contact is about twice the load over the rms slope.
     """
-    heights = problem.heights
-    area = 2 * problem.load / (measure_slope(heights, problem.sides) or 1.0)
+    heights, sure = problem.heights, problem.periodic and problem.solid == HALF_SPACE
+    area = 2 * problem.load / (half_space.measure_slope(heights, problem.sides) or 1.0)
     count = int(_FIRST_SET_FACTOR * area * heights.size) + 1
-    if (
-        not problem.periodic
-        or problem.solid != HALF_SPACE
-        or count > _LARGEST_FIRST_SET * heights.size
-    ):
+    if not sure or count > _LARGEST_FIRST_SET * heights.size:
         return np.arange(heights.size)
     return np.sort(np.argpartition(heights.ravel(), -count)[-count:])
 
@@ -322,23 +308,6 @@ def _joined(grid, field, points, pressure, extra, shift):
     return joined, spread, gaps
 
 
-def _scaled(gaps):
-    """Residuals of zero mean in single precision, and their unit: the rms gap."""
-    mean, scale = float(gaps.mean()), float(np.std(gaps)) or 1.0
-    residual = np.empty(gaps.size, np.float32)
-    np.subtract(mean, gaps, out=residual, casting="same_kind")
-    residual /= np.float32(scale)
-    return residual, scale
-
-
-def _changed(pressure, change, scale):
-    """Pressure plus a change of zero sum."""
-    total = np.multiply(change, scale, dtype=float)
-    total -= total.mean()
-    total += pressure
-    return total
-
-
 def _state(grid, best, field, last, iterations):
     touching, pressure, shift, residual = best
     # The image may belong to a later, worse iterate, or be in single precision.
@@ -356,5 +325,5 @@ def _state(grid, best, field, last, iterations):
         area_fraction=touching.size / gap.size,
         residual=residual,
         iterations=iterations,
-        pairs=grid.pairs,
+        fft_pairs=grid.pairs,
     )

@@ -21,25 +21,34 @@ _CACHED = 2**14  # complex numbers transformed at a time along axis 0: 256 kB
 _ALIGNED = 64  # bytes
 
 
-class Real:
-    """Convolution of fields of a `dtype` on any grid `shape`; the spectrum is stored transposed."""
+class _Rows:
+    """Transforms of blocks of rows of fields of a `dtype` on a grid `shape`."""
+
+    def __init__(self, shape, dtype, modes):
+        self.shape, self._dtype = shape, dtype
+        self._numbers = np.result_type(dtype, np.complex64)
+        self._rows = min(shape[0], _ROWS)
+        self._real = pyfftw.zeros_aligned((self._rows, shape[1]), dtype)
+        self._half = self._zeros(self._rows, modes)
+        packed = 2 * modes == shape[1]
+        rows = self._real.view(self._numbers) if packed else self._real
+        self._rows_forward = _plan(rows, self._half, "FFTW_FORWARD")
+        self._rows_backward = _plan(self._half, rows, "FFTW_BACKWARD")
+
+    def _zeros(self, rows, columns):
+        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
+
+
+class Real(_Rows):
+    """Convolution on any grid; the spectrum is stored transposed."""
 
     def __init__(self, shape, dtype):
-        n0, n1 = shape
-        modes = n1 // 2 + 1
-        numbers = np.result_type(dtype, np.complex64)
-        self._dtype = dtype
-        self.shape = shape
+        n0, modes = shape[0], shape[1] // 2 + 1
+        super().__init__(shape, dtype, modes)
         self._strip = max(1, min(modes, _CACHED // n0))
-        padded = -(-modes // self._strip) * self._strip
-        self._spectrum = pyfftw.zeros_aligned((padded, _stride(n0)), numbers)[:, :n0]
-        self._rows = min(n0, _ROWS)
-        self._real = pyfftw.zeros_aligned((self._rows, n1), dtype)
-        self._half = pyfftw.zeros_aligned((self._rows, _stride(modes)), numbers)[:, :modes]
-        self._work = pyfftw.zeros_aligned((self._strip, n0), numbers)
+        self._spectrum = self._zeros(-(-modes // self._strip) * self._strip, n0)
+        self._work = pyfftw.zeros_aligned((self._strip, n0), self._numbers)
         first = self._spectrum[: self._strip]
-        self._rows_forward = _plan(self._real, self._half, "FFTW_FORWARD")
-        self._rows_backward = _plan(self._half, self._real, "FFTW_BACKWARD")
         self._columns_forward = _plan(first, self._work, "FFTW_FORWARD")
         self._columns_backward = _plan(self._work, first, "FFTW_BACKWARD")
 
@@ -76,7 +85,7 @@ class Real:
             out[span] = self._real[: block.size, : out.shape[1]]
 
 
-class Packed:
+class Packed(_Rows):
     """Convolution for an even number of columns, by transforms of complex rows of half the width.
 
     Neighbours along a row are the real and the imaginary part (Cooley, Lewis and Welch, J. Sound
@@ -87,23 +96,15 @@ class Packed:
     """
 
     def __init__(self, shape, dtype):
-        n0, n1 = shape
-        modes = n1 // 2
-        numbers = np.result_type(dtype, np.complex64)
-        self.shape = shape
-        self._dtype, self._numbers = dtype, numbers
+        n0, modes = shape[0], shape[1] // 2
+        super().__init__(shape, dtype, modes)
         self._groups = list(_mirrored(modes, max(8, _STRIP // n0)))
         widest = max(sum(s.stop - s.start for s in group) for group in self._groups)
-        self._spectrum = pyfftw.zeros_aligned((n0, _stride(modes)), numbers)[:, :modes]
-        self._rows = min(n0, _ROWS)
-        self._real = pyfftw.zeros_aligned((self._rows, n1), dtype)
-        self._half = pyfftw.zeros_aligned((self._rows, _stride(modes)), numbers)[:, :modes]
-        self._before = pyfftw.zeros_aligned((widest, n0), numbers)
-        self._after = pyfftw.zeros_aligned((widest, n0), numbers)
-        self._product = pyfftw.zeros_aligned((widest, n0), numbers)
+        self._spectrum = self._zeros(n0, modes)
+        self._before, self._after, self._product = (
+            pyfftw.zeros_aligned((widest, n0), self._numbers) for _ in range(3)
+        )
         self._mirror = np.empty(2 * n0, dtype)
-        self._rows_forward = _plan(self._real.view(numbers), self._half, "FFTW_FORWARD")
-        self._rows_backward = _plan(self._half, self._real.view(numbers), "FFTW_BACKWARD")
         self._columns_forward = _plan(self._before, self._after, "FFTW_FORWARD")
         self._columns_backward = _plan(self._product, self._before, "FFTW_BACKWARD")
 
@@ -126,15 +127,10 @@ class Packed:
 
     def apply(self, symbol, field, out, rows_in, rows_out):
         """Convolve, as `Real.apply` does; `field` and `out` must be two arrays."""
-        self._forward(field, rows_in)
-        self._multiply(symbol)
-        self._backward(out, rows_out)
-
-    def _forward(self, field, rows):
-        if rows.size < self.shape[0]:
+        if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
         plan = self._rows_forward
-        for block, span, direct in self._blocks(field, rows):
+        for block, span, direct in self._blocks(field, rows_in):
             if direct:
                 plan.update_arrays(field[span].view(self._numbers), self._spectrum[span])
                 plan.execute()
@@ -143,10 +139,9 @@ class Packed:
             plan.update_arrays(self._real.view(self._numbers), self._half)
             plan.execute()
             self._spectrum[span] = self._half[: block.size]
-
-    def _backward(self, out, rows):
+        self._multiply(symbol)
         plan = self._rows_backward
-        for block, span, direct in self._blocks(out, rows):
+        for block, span, direct in self._blocks(out, rows_out):
             if direct:
                 plan.update_arrays(self._spectrum[span], out[span].view(self._numbers))
                 plan.execute()

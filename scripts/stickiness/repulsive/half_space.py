@@ -1,4 +1,4 @@
-"""Periodic grids and the Fourier operators of an elastic solid on them.
+"""Grids and the Fourier operators of an elastic solid on them, periodic or with free edges.
 
 A pressure wave ``p_q`` (in units of E*) displaces a half-space by ``u_q = 2 p_q / |q|``, q != 0
 (Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and Kato, J. Tribol. 119:481, 1997,
@@ -9,6 +9,7 @@ import threading
 from functools import cached_property, lru_cache
 
 import numpy as np
+from scipy import fft
 
 from stickiness.arguments import positive
 from stickiness.repulsive import convolution
@@ -66,31 +67,16 @@ def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
 
 
 class HalfSpace:
-    """Compliance ``2/|q|`` of a periodic half-space and its inverse, the stiffness, but for q = 0.
-
-    Or ``2 S/|q|`` of another solid.
+    """Compliance ``2 S/|q|`` of a periodic solid and its inverse, the stiffness, but for q = 0.
 
     It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
     pressure under a pixel lifted alone, per unit of lift. The object contains buffers: no two
     threads may use it at once (`half_space` returns a separate one for every thread).
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Grid points ``(n0, n1)``; even, odd and prime numbers work.
-    lengths : tuple of float
-        Sides of the cell; displacements come out in this unit.
-    dtype : data-type, optional
-        Of the real fields: double precision, or single at about half the cost for large grids.
-    solid : solids.HalfSpace or solids.Layer, optional
-        Its thickness in the unit of `lengths`.
     """
 
-    def __init__(self, shape, lengths, dtype=np.float64, solid=HALF_SPACE):
+    def __init__(self, shape, lengths, dtype, solid):
         self.dtype = np.dtype(dtype)
-        self.shape = tuple(int(n) for n in shape)
-        self.lengths = tuple(float(a) for a in lengths)
-        self.solid = solid
+        self.shape, self.lengths, self.solid = shape, lengths, solid
         self.pairs = 0
         n0, n1 = self.shape
         self._convolution = convolution.choose(self.shape, self.dtype)
@@ -118,17 +104,15 @@ class HalfSpace:
         `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
         the displacement, the others stay as they are in `out` (default: all).
         """
-        kernel = self._compliance
-        return self._convolve(self._convolution, pressure, kernel, out, rows_in, rows_out)
+        symbol = self._compliance
+        return self._convolve(self._convolution, pressure, symbol, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
         """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
-        kernel = self._stiffness
-        return self._convolve(self._convolution, displacement, kernel, out, rows_in, rows_out)
+        symbol = self._stiffness
+        return self._convolve(self._convolution, displacement, symbol, out, rows_in, rows_out)
 
     def _convolve(self, convolution, field, symbol, out, rows_in, rows_out):
-        if field.shape != self.shape:
-            raise ValueError(f"field has shape {field.shape}, the half-space {self.shape}")
         if out is None:
             empty = np.empty if rows_out is None else np.zeros
             out = empty(self.shape, self.dtype)
@@ -140,12 +124,62 @@ class HalfSpace:
         return out
 
 
-def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE):
-    """`HalfSpace` of a grid (arguments as there), kept for the next call of the same thread."""
-    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid)
+class FreeHalfSpace(HalfSpace):
+    """Displacement of a rectangle of an unbounded half-space under pressure on it.
+
+    The displacement is absolute: it vanishes far away. It is a convolution, which a periodic one on
+    a grid of twice the sides yields if the pressure is zero beyond the rectangle (Hockney, Methods
+    Comput. Phys. 9:135, 1970). The `stiffness` of the periodic half-space only approximates the
+    inverse of `compliance`, enough for a preconditioner. `pairs` counts convolutions by their share
+    of the points of the given grid, those on the grid of twice the sides about fourfold.
+    """
+
+    def __init__(self, shape, lengths, dtype, solid):
+        super().__init__(shape, lengths, dtype, solid)
+        padded = tuple(2 * fft.next_fast_len(n, real=True) for n in self.shape)
+        pixel = tuple(a / n for a, n in zip(self.lengths, self.shape, strict=True))
+        self._share = padded[0] * padded[1] / (self.shape[0] * self.shape[1])
+        self._padded = convolution.choose(padded, self.dtype)
+        # The kernel is even along both axes: a cosine transform of a quadrant has its spectrum.
+        quadrant = displace_by_pixel([m // 2 + 1 for m in padded], pixel)
+        spectrum = fft.dctn(quadrant, type=1, overwrite_x=True).T
+        spectrum /= padded[0] * padded[1]
+        spectrum = np.concatenate([spectrum, spectrum[:, -2:0:-1]], axis=1)
+        self._symbol = self._padded.symbol(spectrum)
+
+    def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
+        """Displacement, zero far away; arguments as of `HalfSpace.compliance`."""
+        out = self._convolve(self._padded, pressure, self._symbol, out, rows_in, rows_out)
+        self.pairs += self._share - 1  # which has been counted as one
+        return out
 
 
-_kept_half_space = keep_per_thread(24)(HalfSpace)
+def displace_by_pixel(shape, pixel):
+    """Displacement under unit pressure [E*] on one pixel, at `shape` pixels from there on.
+
+    It is ``1/(pi E*)`` times the integral of 1/r over the pixel: the second difference, over its
+    corners, of ``x asinh(y/x) + y asinh(x/y)`` (Love, Phil. Trans. R. Soc. A 228:377, 1929). At a
+    distance of m pixels the difference loses some ``m**2`` times the rounding.
+    """
+    x, y = ((np.arange(m + 1) - 0.5) * side for m, side in zip(shape, pixel, strict=True))
+    x, y = x[:, None], y[None, :]
+    corners = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
+    return np.diff(np.diff(corners, axis=0), axis=1) / np.pi
+
+
+def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
+    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread.
+
+    Fields are ``shape`` points, in double or single precision; displacements come out in the unit
+    of the sides `lengths` and of the solid's thickness.
+    """
+    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid, periodic)
+
+
+@keep_per_thread(24)
+def _kept_half_space(shape, lengths, dtype, solid, periodic):
+    kind = HalfSpace if periodic else FreeHalfSpace
+    return kind(shape, lengths, dtype, solid)
 
 
 def check_length(length, shape):
@@ -186,6 +220,12 @@ def coarsen(n):
     return (n + 1) // 2
 
 
+def average_pixels(heights):
+    """Means of two by two pixels; the last row or column of an odd number counts twice."""
+    heights = np.pad(heights, [(0, n % 2) for n in heights.shape], mode="edge")
+    return (heights[::2, ::2] + heights[1::2, ::2] + heights[::2, 1::2] + heights[1::2, 1::2]) / 4
+
+
 def sample(field, shape):
     """Sample a periodic field on a grid about half as fine."""
     if all(n == 2 * m for n, m in zip(field.shape, shape, strict=True)):
@@ -212,12 +252,7 @@ def _double(field, axis):
     between /= 16
     shape = list(field.shape)
     shape[axis] *= 2
-    fine = np.empty(shape, field.dtype)
-    even, odd = [slice(None)] * 2, [slice(None)] * 2
-    even[axis], odd[axis] = slice(0, None, 2), slice(1, None, 2)
-    fine[tuple(even)] = field
-    fine[tuple(odd)] = between
-    return fine
+    return np.stack([field, between], axis + 1).reshape(shape)
 
 
 def _resample(field, n, axis):

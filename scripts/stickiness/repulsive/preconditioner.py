@@ -1,13 +1,12 @@
 """Preconditioned conjugate gradients on a given set of contact points.
 
-The preconditioner is an approximate inverse of the compliance.
-
-The exact inverse is the stiffness, ``|q| / 2`` for a half-space, between an extension of the
-displacement beyond the edge of contact and the transpose of that extension. The extension is the
-one of least energy, under which the free surface carries no pressure. Next to a straight edge it
-weights the displacement in contact by the inverse square of the distance (Poisson's kernel of the
-root of the Laplacian; Landkof, *Foundations of Modern Potential Theory*, 1972). A mean with such
-weights approximates it, taken on a grid with a sixteenth of the points.
+The preconditioner approximates the inverse of the compliance on these points. That inverse is the
+stiffness, ``|q| / 2`` for a half-space, between an extension of the displacement beyond the edge of
+contact and the transpose of that extension. The extension is the one of least energy, under which
+the free surface carries no pressure. Next to a straight edge it weights the displacement in contact
+by the inverse square of the distance (Poisson's kernel of the root of the Laplacian; Landkof,
+*Foundations of Modern Potential Theory*, 1972). A mean with such weights approximates it, taken on
+a grid with a sixteenth of the points.
 """
 
 import numpy as np
@@ -22,17 +21,10 @@ _SMALLEST_REDUCTION = 1e-4  # of the gap, by a correction in single precision
 
 
 def close_gap(contact, residual, goal, largest, limit):
-    """Change of pressure, of zero sum, that closes the gap on a set of points.
+    """Change of pressure, of zero sum, that closes the gap on a set of points; and iterations.
 
     In single precision until the rms residual (or the `largest`) is down to `goal`. `contact` has
     the `compliance` on these points and is, when called, a preconditioner. Overwrites `residual`.
-
-    Returns
-    -------
-    change : numpy.ndarray
-        Of the pressure, in single precision.
-    count : int
-        Iterations, at least one.
     """
     change, count = np.zeros(residual.size, np.float32), 1
     if residual.size == 1 or not residual.any():
@@ -109,10 +101,7 @@ class Preconditioner:
 
 
 class _Mean:
-    """Sums weighted by the inverse square of the distance, smooth over a few pixels.
-
-    `gather` takes them of a field on the coarse grid, `spread` and `at` give them on the fine one.
-    """
+    """Sums weighted by the inverse square of the distance, smooth over a few pixels."""
 
     def __init__(self, shape, sides):
         coarse = tuple(-(-n // _SPACING) for n in shape)

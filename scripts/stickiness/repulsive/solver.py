@@ -5,20 +5,10 @@ Given heights ``h`` and a mean pressure, find the pressure ``p >= 0`` and the ga
 (`solids`; Polonsky and Keer, Wear 231:206, 1999, doi 10.1016/S0043-1648(99)00113-1; Stanley and
 Kato, doi 10.1115/1.2833523).
 
-* For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
-  pressure (`preconditioner`). The number of iterations hardly depends on the grid.
-* Points under tension are released and points that penetrate are added, until neither is left.
-  While the set still changes, the inner solution is a rough one.
-* Coarser grids supply a first guess of the gap, which is smooth enough to be interpolated. With the
-  exact heights it gives a pressure. A point is put into contact where ``p > c k g``, k being the
-  stiffness of a single pixel: this predicts the set to a per cent.
-* Below a per cent of contact corrections involve only points that may touch (`dilute_contact`).
-* Where this fails on a layer, `projected_gradients` takes over.
-
-If the surface is not periodic, u is the displacement of a half-space loaded on a rectangle
-(`free_edges`). The method is the same except that the stiffness is only approximate: coarser grids
-supply a guess of the pressure, full contact is no special case, and `projected_gradients` takes
-over if necessary.
+`active_set` finds the contact set; coarser grids supply a first guess of the gap, which is smooth
+enough to be interpolated. If the surface is not periodic, u is the displacement of a half-space
+loaded on a rectangle, and coarser grids supply a guess of the pressure. There, and on layers,
+`projected_gradients` takes over where active sets fail.
 """
 
 from dataclasses import dataclass, replace
@@ -27,20 +17,10 @@ import numpy as np
 
 from stickiness.arguments import grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
-from stickiness.repulsive import active_set, free_edges, projected_gradients
-from stickiness.repulsive.half_space import (
-    check_length,
-    coarsen,
-    interpolate,
-    measure_scale,
-    measure_slope,
-    sample,
-)
+from stickiness.repulsive import active_set, half_space, projected_gradients
 from stickiness.solids import HALF_SPACE, check_solid
 
 _MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
-# Relative change of load up to which the last solution is the better start.
-_MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
 _MAX_UNSURE_ITERATIONS = 150
@@ -48,7 +28,7 @@ _COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
+class Contact(active_set.State):
     """Solution of a repulsive contact problem.
 
     Attributes
@@ -64,7 +44,7 @@ class Contact:
         Rigid displacement in ``gap = u + shift - h``; unit of the heights. On a periodic surface u
         has no mean, and the approach of a layer's backing is ``solid.mean_compliance *
         mean_pressure - shift``. With free edges u vanishes far away: the plane h = 0 is ``-shift``
-        below the surface of the undeformed half-space.
+        below the surface of the undeformed half-space, and ``max(h) - shift`` is the approach.
     residual : float
         Largest violation of the contact conditions, in units of h_rms: the maximum over the grid
         of ``|u + shift - h|`` in contact and of the penetration ``-(u + shift - h)`` outside it.
@@ -76,28 +56,13 @@ class Contact:
         Convolutions (a forward and a backward transform each) on all grids, those on
         coarser ones (also inside the preconditioner) counted by their share of the points of
         the given grid.
-    length : tuple of float
-        Sides of the periodic cell, or of the surface if its edges are free.
     rms_height : float
         Root mean square of the heights about their mean.
-    approach : float
-        With free edges, distance [unit of the heights] by which surface and far half-space have
-        come closer since they touched, ``max(h) - shift``. Not a number on a periodic surface,
-        where it is infinite.
     """
 
-    pressure: np.ndarray
-    gap: np.ndarray
     mean_pressure: float
-    area_fraction: float
     mean_gap: float
-    shift: float
-    residual: float
-    iterations: int
-    fft_pairs: float
-    length: tuple
     rms_height: float
-    approach: float = np.nan
 
 
 class ConvergenceError(RuntimeError):
@@ -117,9 +82,7 @@ def solve(
     length,
     pressure,
     tol=1e-8,
-    start=None,
     max_iterations=1000,
-    logger=None,
     solid=HALF_SPACE,
     periodic=True,
 ) -> Contact:
@@ -135,13 +98,8 @@ def solve(
         Mean pressure in units of E*. At zero the surfaces touch at the summit, without contact.
     tol : float
         Largest accepted `Contact.residual`, relative to h_rms; at most 0.1.
-    start : Contact, optional
-        Solution on the same grid at nearly the same load. It saves a quarter of the work if the
-        load changes by 0.1 %, and costs more than it saves beyond 1 %.
     max_iterations : int
         Largest number of iterations on the given grid.
-    logger : logging.Logger, optional
-        Receives the progress at level INFO.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of `length`.
     periodic : bool
@@ -171,21 +129,14 @@ def solve(
     >>> solve(wave, length=1.0, pressure=0.1).area_fraction  # beyond pi * 0.01: full contact
     1.0
     >>> punch = solve(np.zeros((128, 128)), length=1.0, pressure=0.01, periodic=False)
-    >>> print(f"{punch.mean_pressure / punch.approach:.2f}")  # fine pixels: 1.152
+    >>> print(f"{punch.mean_pressure / -punch.shift:.2f}")  # fine pixels: 1.152
     1.15
     """
     heights = grid("heights", heights)
-    lengths = check_length(length, heights.shape)
+    lengths = half_space.check_length(length, heights.shape)
     pressure = number("pressure", pressure, zero=True)
     tol = number("tol", tol, most=_MAX_TOLERANCE)
     max_iterations = integer("max_iterations", max_iterations, least=1)
-    if not (start is None or isinstance(start, Contact)):
-        raise ValueError(f"start must be a Contact of the same grid, got {type(start).__name__}")
-    if start is not None and start.pressure.shape != heights.shape:
-        raise ValueError(
-            f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
-            "pass a solution on the same grid"
-        )
     solid = check_solid(solid)
     if not isinstance(periodic, bool | np.bool_):
         raise ValueError(f"periodic must be True or False, got {periodic!r}")
@@ -193,124 +144,89 @@ def solve(
         raise ValueError(
             f"periodic=False is for a half-space only, got solid={solid!r}; leave out one of them"
         )
-    scale = measure_scale(heights)
+    scale = half_space.measure_scale(heights)
     warn_of_heights(scale[1], lengths[0])
     if pressure > 1:
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
-        warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
-    effort = Effort(tol, max_iterations, logger)
-    return press(heights, lengths, pressure, effort, start, solid, periodic, scale)
-
-
-@dataclass(frozen=True)
-class Effort:
-    """When to stop, and the logger that is told the progress: see `solve`."""
-
-    tol: float
-    max_iterations: int = 1000
-    logger: object = None
+        warn_of_pressure(pressure, half_space.measure_slope(heights, lengths) * stiffening)
+    return press(heights, lengths, pressure, tol, max_iterations, solid, periodic, scale)
 
 
 def press(
-    heights, lengths, pressure, effort, start=None, solid=HALF_SPACE, periodic=True, scale=None
+    heights,
+    lengths,
+    pressure,
+    tol,
+    max_iterations=1000,
+    solid=HALF_SPACE,
+    periodic=True,
+    scale=None,
 ):
     """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
 
-    `scale` is `measure_scale(heights)`, if it is known.
+    `scale` is `half_space.measure_scale(heights)`, if it is known.
     """
-    mean, rms = scale or measure_scale(heights)
+    mean, rms = scale or half_space.measure_scale(heights)
     if pressure == 0 or (rms == 0 and periodic):
-        return _without_iterations(heights, lengths, pressure, rms, periodic)
-    unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
-    scaled = heights - mean
-    scaled /= unit
-    problem = active_set.Problem(
-        scaled,
-        (1.0, lengths[1] / lengths[0]),
-        pressure * (lengths[0] / unit),
-        solid.in_unit(lengths[0]),
-        bool(periodic),
-    )
-    guess = {"pressure": start.pressure} if start is not None and start.area_fraction > 0 else None
-    state = _relax(problem, guess, effort)
-    # Nothing else refers to these fields: they may be large, and are scaled in place.
-    field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
-    field *= unit / lengths[0]
-    gap *= unit
-    shift = state.shift * unit + mean
-    contact = Contact(
-        pressure=field,
-        gap=gap,
-        mean_pressure=pressure,
-        area_fraction=state.area_fraction,
-        mean_gap=float(gap.mean()),
-        shift=shift,
-        residual=state.residual,
-        iterations=state.iterations,
-        fft_pairs=state.pairs,
-        length=lengths,
-        rms_height=rms,
-        approach=np.nan if periodic else float(heights.max()) - shift,
-    )
-    if not state.residual <= effort.tol:
+        state = _touch(heights, pressure, rms)
+    else:
+        unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
+        scaled = heights - mean
+        scaled /= unit
+        load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
+        problem = active_set.Problem(scaled, sides, load, solid.in_unit(lengths[0]), bool(periodic))
+        state = _relax(problem, tol, max_iterations)
+        # Nothing else refers to these fields: they may be large, and are scaled in place.
+        field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
+        field *= unit / lengths[0]
+        gap *= unit
+        state = replace(state, pressure=field, gap=gap, shift=state.shift * unit + mean)
+    mean_gap = float(state.gap.mean())
+    contact = Contact(mean_pressure=pressure, mean_gap=mean_gap, rms_height=rms, **vars(state))
+    if not state.residual <= tol:
         raise ConvergenceError(
             f"residual {state.residual:.2e} h_rms after {state.iterations} iterations exceeds tol "
-            f"= {effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"= {tol:.2e}: raise max_iterations, or tol if it is near rounding",
             contact,
         )
     return contact
 
 
-def _relax(problem, guess, effort):
-    """Solve a scaled problem from a guess or, without one, from coarser grids.
-
-    Its iterations and convolutions are those of all methods, the latter on all grids.
-    """
-    work, logger, limit = [], effort.logger, effort.max_iterations
-    unsure = problem.solid != HALF_SPACE or not problem.periodic
-    if guess is None:
-        guess = _guess_from_coarser_grids(problem, work, logger)
-    first_limit = min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit
-    state = active_set.relax(
-        problem, tol=effort.tol, max_iterations=first_limit, logger=logger, **guess
-    )
-    iterations, pairs = state.iterations, state.pairs
-    if unsure and not state.residual <= effort.tol and iterations < limit:
-        pressure = np.asarray(state.pressure, dtype=float)
-        left = limit - iterations
-        state = projected_gradients.relax(
-            problem, pressure, tol=effort.tol, max_iterations=left, logger=logger
-        )
-        iterations, pairs = iterations + state.iterations, pairs + state.pairs
-    pairs += sum(work) / problem.heights.size
-    return replace(state, iterations=iterations, pairs=pairs)
-
-
 def load_path(heights, length, pressures, tol=1e-8, **options):
-    """Solve one surface at several mean pressures; yields one `Contact` for each, in order.
+    """Solve one surface at several mean pressures [E*]; yields one `Contact` for each, in order.
 
-    A solution at nearly the same pressure is the start of the next; beyond a relative change of 0.5
-    % the coarser grids predict the contact set better, and every solution starts from those.
-
-    Parameters
-    ----------
-    pressures : iterable of float
-        Mean pressures in units of E*.
-    heights, length, tol, **options
-        As for `solve`, which also takes `start`.
+    The other arguments are those of `solve`.
     """
-    last = None
     for pressure in pressures:
-        near = last is not None and (
-            abs(pressure - last.mean_pressure) < _MAX_LOAD_CHANGE * last.mean_pressure
-        )
-        start = last if near else None
-        last = solve(heights, length, pressure, tol=tol, start=start, **options)
-        yield last
+        yield solve(heights, length, pressure, tol=tol, **options)
 
 
-def _guess_from_coarser_grids(problem, work, logger):
+def _touch(heights, pressure, rms):
+    """Contact of a flat, which is in full contact, or of any surface that carries no load."""
+    top = float(heights.max() if rms > 0 else heights.flat[0])
+    gap = top - heights if rms > 0 else np.zeros(heights.shape)
+    area = 1.0 if pressure > 0 else 0.0
+    return active_set.State(np.full(heights.shape, pressure), gap, top, area, 0.0, 0, 0.0)
+
+
+def _relax(problem, tol, limit):
+    """Solve a scaled problem; iterations and convolutions are those of all methods."""
+    work = []
+    unsure = problem.solid != HALF_SPACE or not problem.periodic
+    guess = _guess_from_coarser_grids(problem, work)
+    first_limit = min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit
+    state = active_set.relax(problem, tol=tol, max_iterations=first_limit, **guess)
+    iterations, pairs = state.iterations, state.fft_pairs
+    if unsure and not state.residual <= tol and iterations < limit:
+        pressure = np.asarray(state.pressure, dtype=float)
+        state = projected_gradients.relax(problem, pressure, tol, limit - iterations)
+        iterations, pairs = iterations + state.iterations, pairs + state.fft_pairs
+    pairs += sum(work) / problem.heights.size
+    return replace(state, iterations=iterations, fft_pairs=pairs)
+
+
+def _guess_from_coarser_grids(problem, work):
     """First guess of the gap or, with free edges, of the pressure; empty for a small grid.
 
     It is found in single precision. `work` gets the convolutions on every coarser grid, times its
@@ -320,38 +236,18 @@ def _guess_from_coarser_grids(problem, work, logger):
     if min(shape) < 2 * _MIN_COARSE_POINTS:
         return {}
     if problem.periodic:
-        heights, sides = sample(problem.heights, tuple(coarsen(n) for n in shape)), problem.sides
+        coarse_shape = tuple(half_space.coarsen(n) for n in shape)
+        heights, sides = half_space.sample(problem.heights, coarse_shape), problem.sides
     else:
-        heights = free_edges.coarsen_heights(problem.heights)
+        heights = half_space.average_pixels(problem.heights)
         sides = tuple(
             a * 2 * m / n for a, m, n in zip(problem.sides, heights.shape, shape, strict=True)
         )
     coarse = replace(problem, heights=heights, sides=sides)
-    guess = _guess_from_coarser_grids(coarse, work, logger)
-    state = active_set.relax(
-        coarse, tol=_COARSE_TOLERANCE, max_iterations=200, rough=True, logger=logger, **guess
-    )
-    work.append(state.pairs * heights.size)
+    guess = _guess_from_coarser_grids(coarse, work)
+    state = active_set.relax(coarse, tol=_COARSE_TOLERANCE, max_iterations=200, rough=True, **guess)
+    work.append(state.fft_pairs * heights.size)
     if problem.periodic:
-        return {"gap": interpolate(state.gap, shape)}
-    return {"pressure": free_edges.refine_pressure(state.pressure, shape)}
-
-
-def _without_iterations(heights, lengths, pressure, rms, periodic):
-    """Contact of a flat, which is in full contact, or of any surface that carries no load."""
-    top = float(heights.max() if rms > 0 else heights.flat[0])
-    gap = top - heights if rms > 0 else np.zeros(heights.shape)
-    return Contact(
-        pressure=np.full(heights.shape, pressure),
-        gap=gap,
-        mean_pressure=pressure,
-        area_fraction=1.0 if pressure > 0 else 0.0,
-        mean_gap=float(gap.mean()),
-        shift=top,
-        residual=0.0,
-        iterations=0,
-        fft_pairs=0.0,
-        length=lengths,
-        rms_height=rms,
-        approach=np.nan if periodic else 0.0,
-    )
+        return {"gap": half_space.interpolate(state.gap, shape)}
+    fine = state.pressure.repeat(2, axis=0).repeat(2, axis=1)
+    return {"pressure": np.ascontiguousarray(fine[: shape[0], : shape[1]])}

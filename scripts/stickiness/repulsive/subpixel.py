@@ -1,20 +1,10 @@
 """Areas of a discrete contact finer than its pixels: the edge of contact and the gap beside it.
 
-The solution on a grid touches at whole pixels, while the gap grows from an edge of contact as
-``u = C x^(3/2)``. At 8 pixels per shortest wavelength it climbs to about 0.01 h_rms across the
-first pixel: a count of pixels says nothing about smaller ranges of attraction. Two facts say more:
-
-* *Where the edge is.* The discrete contact is too large by a strip along its edge, `STRIP_WIDTH`
-  pixels per pixel side of boundary (Yastrebov, Anciaux & Molinari, Tribol. Int. 114, 161, 2017,
-  arXiv:1701.02727, with 0.118 from geometry). Measured, the width is 0.096 +- 0.006 on straight
-  edges of known position (Westergaard's waves in all directions), 0.095 at 64 points per wavelength
-  on rough surfaces and 0.103 at 8, against counts of 32 and 64 points extrapolated linearly.
-* *How the gap leaves it.* In ``s = u^(2/3)`` the edge law is a straight line, whose slope the
-  second open pixel gives: the first one is where the discrete solution differs from the law. The
-  ratio of the two says how far the edge is.
-
-An area is the mean length of its intersections with the grid lines along both axes (Cavalieri); on
-a line, s is interpolated linearly between neighbouring points.
+The solution on a grid touches at whole pixels and is too large by a strip along its edge. The gap
+grows from an edge as ``u = C x^(3/2)``: in ``s = u^(2/3)`` a straight line, whose slope the second
+open pixel gives. The first one is where the discrete solution differs from the law; the ratio of
+the two says how far the edge is. An area is the mean length of its intersections with the grid
+lines along both axes (Cavalieri); on a line, s is interpolated linearly between neighbours.
 """
 
 from __future__ import annotations
@@ -24,7 +14,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive
 
-STRIP_WIDTH = 0.100  #: pixels per pixel side of boundary, in this discretisation
+#: Width by which contact is too large, in pixels per pixel side of boundary (Yastrebov, Anciaux &
+#: Molinari, Tribol. Int. 114, 161, 2017, arXiv:1701.02727, with 0.118 from geometry). Measured, it
+#: is 0.096 +- 0.006 on straight edges of known position (Westergaard's waves in all directions),
+#: 0.095 at 64 points per wavelength on rough surfaces and 0.103 at 8, against counts of 32 and 64
+#: points extrapolated linearly.
+STRIP_WIDTH = 0.100
 
 # A straight edge along a grid axis, solved on the grid (a wave of 1024 pixels): distance in
 # pixels of the first open point from the true edge, against the ratio of s = u^(2/3) at the first
@@ -70,8 +65,7 @@ def edge_gap(gap: ArrayLike, contact: ArrayLike | None = None) -> float:
     pixel: a count of pixels is then a statement about the grid, `attractive_area` one about the
     edge law. Arguments as of `attractive_area`; ValueError, too, if nothing or everything touches.
     """
-    gap, contact = gap_and_contact(gap, contact)
-    _require_grid("gap", gap)
+    gap, contact = gap_and_contact(gap, contact, grid=True)
     near = np.zeros_like(contact)
     for axis in (-1, -2):
         near |= np.roll(contact, 1, axis) | np.roll(contact, -1, axis)
@@ -89,8 +83,7 @@ def attractive_area(
     Arguments and errors are those of `gaps.attractive_area`. With the contact's area less its
     `boundary_strip` the fractions for all ranges add up to one.
     """
-    gap, contact = gap_and_contact(gap, contact)
-    _require_grid("gap", gap)
+    gap, contact = gap_and_contact(gap, contact, grid=True)
     (eps,) = positive(eps=eps)
     ranges, inverse = np.unique(eps, return_inverse=True)
     levels = np.cbrt(ranges) ** 2
@@ -118,9 +111,13 @@ def attractive_area(
     return area if eps.ndim else float(area)
 
 
-def gap_and_contact(gap: ArrayLike, contact: ArrayLike | None) -> tuple[NDArray, NDArray]:
-    """Return checked arrays of the gap and of where it counts as contact."""
+def gap_and_contact(
+    gap: ArrayLike, contact: ArrayLike | None, grid: bool = False
+) -> tuple[NDArray, NDArray]:
+    """Return checked arrays, grids if need be, of the gap and of where it counts as contact."""
     gap = numbers("gap", gap)
+    if grid and gap.ndim < 2:
+        raise ValueError(f"gap must be at least two-dimensional, got shape {gap.shape}")
     if gap.size == 0 or not np.all(np.isfinite(gap)):
         raise ValueError(f"gap must be a non-empty array of finite numbers, got shape {gap.shape}")
     if contact is None:
@@ -139,19 +136,13 @@ def gap_and_contact(gap: ArrayLike, contact: ArrayLike | None) -> tuple[NDArray,
     return gap, contact
 
 
-def _require_grid(name: str, array: NDArray) -> None:
-    if array.ndim < 2:
-        raise ValueError(f"{name} must be at least two-dimensional, got shape {array.shape}")
-
-
 def _mask(contact: ArrayLike) -> NDArray:
     contact = np.asarray(contact)
-    if contact.dtype != bool or contact.size == 0:
+    if contact.dtype != bool or contact.size == 0 or contact.ndim < 2:
         raise ValueError(
-            "contact must be a non-empty boolean array, True where the surfaces touch, "
-            f"got {contact.dtype} of shape {contact.shape}"
+            "contact must be a non-empty boolean array of two dimensions at least, True where the "
+            f"surfaces touch, got {contact.dtype} of shape {contact.shape}"
         )
-    _require_grid("contact", contact)
     return contact
 
 

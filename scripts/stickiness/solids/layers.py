@@ -8,12 +8,9 @@ a half-space and for short waves, and a function of ``k = |q| d`` for a layer of
 - bonded to a rigid base: ``S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]``, with
   ``a = 3 - 4 nu`` (Carbone and Mangialardi 2008, doi 10.1016/j.jmps.2007.05.009).
 
-The code regroups numerator and denominator into sums of terms that do not cancel.
-
-Displacements have no mean: a mean gap is the gap between the deformed surfaces, whatever the solid.
-A layer as a whole also yields by `mean_compliance` times the mean pressure: the approach of its
-backing is ``mean_compliance * pressure - shift`` in the terms of `repulsive.Contact`. Mean gaps,
-energies and works of adhesion do not depend on it.
+The code regroups numerator and denominator into sums of terms that do not cancel. Displacements
+have no mean: mean gaps, energies and works of adhesion do not depend on how a layer as a whole
+yields, by `mean_compliance` times the mean pressure.
 """
 
 from __future__ import annotations
@@ -83,9 +80,9 @@ class Film:
     thickness: float
 
     def __post_init__(self):
-        _set(self, "modulus_ratio", number("modulus_ratio", self.modulus_ratio))
-        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
-        _set(self, "thickness", number("thickness", self.thickness))
+        number("modulus_ratio", self.modulus_ratio)
+        number("poisson", self.poisson, zero=True, most=0.5)
+        number("thickness", self.thickness)
 
 
 @dataclass(frozen=True)
@@ -120,10 +117,9 @@ class Layer(_Compliant):
     backing: Literal["bonded", "slip"] | Film = "bonded"
 
     def __post_init__(self):
-        _set(self, "thickness", number("thickness", self.thickness))
-        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
-        named = isinstance(self.backing, str) and self.backing in ("bonded", "slip")
-        if not (named or isinstance(self.backing, Film)):
+        number("thickness", self.thickness)
+        number("poisson", self.poisson, zero=True, most=0.5)
+        if not (self.backing in ("bonded", "slip") or isinstance(self.backing, Film)):
             raise ValueError(
                 "backing must be 'bonded', 'slip' or a Film(modulus_ratio, poisson, thickness), "
                 f"got {self.backing!r}"
@@ -133,10 +129,7 @@ class Layer(_Compliant):
     def mean_compliance(self) -> float:
         """Compression per uniform pressure, times E* [length].
 
-        ``d (1 - 2 nu)/(1 - nu)^2``, which is d (1 + nu)(1 - 2 nu)/((1 - nu) E) per pressure. The
-        layer is wide and cannot spread, on a base that it sticks to or slips on alike. (A long
-        wave, 2 S/q, finds this compliance if bonded; if it slips, d, for material can flow from
-        crests to troughs.)
+        The layer is wide and cannot spread, on a base that it sticks to or slips on alike.
         """
         return self.thickness * (1 - 2 * self.poisson) / (1 - self.poisson) ** 2
 
@@ -194,10 +187,6 @@ def check_solid(solid: Solid) -> Solid:
         got = f"the class {solid.__name__}" if isinstance(solid, type) else repr(solid)
         raise ValueError(f"solid must be solids.HalfSpace() or a solids.Layer(...), got {got}")
     return solid
-
-
-def _set(frozen, name, value):
-    object.__setattr__(frozen, name, value)
 
 
 def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:

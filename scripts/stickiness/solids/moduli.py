@@ -86,7 +86,7 @@ Modulus = Constant | Prony | Table
 
 
 def crossings(
-    modulus: Modulus, threshold: float, frequencies: ArrayLike
+    modulus: Modulus, threshold: float, frequencies: NDArray
 ) -> Sequence[tuple[float, bool]]:
     """Frequencies at which the storage modulus passes a threshold [Pa], in ascending order.
 
@@ -94,14 +94,10 @@ def crossings(
     too, and interpolated in logarithms. With each comes whether the modulus exceeds the threshold
     beyond.
     """
-    (frequencies,) = positive(frequencies=frequencies)
-    (limit,) = positive(threshold=threshold)
-    if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):
-        raise ValueError(f"frequencies must be one increasing sequence, got {frequencies!r}")
-    if isinstance(modulus, Table) and frequencies.size:
+    if isinstance(modulus, Table):
         inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
         frequencies = np.union1d(frequencies, inside)
-    excess = np.log(np.asarray(modulus.storage(frequencies)) / limit)
+    excess = np.log(np.asarray(modulus.storage(frequencies)) / threshold)
     a, b = excess[:-1], excess[1:]
     known = np.isfinite(a) & np.isfinite(b) & (a != 0)
     here = np.flatnonzero((np.sign(a) != np.sign(b)) & known)

@@ -1,8 +1,14 @@
 """Spectra of random rough surfaces and their moments."""
 
 from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import PowerLawSegments, SelfAffine, Shells, Tabulated
-from stickiness.spectrum.sums import Sum, combine
+from stickiness.spectrum.kinds import (
+    PowerLawSegments,
+    SelfAffine,
+    Shells,
+    Sum,
+    Tabulated,
+    combine,
+)
 
 __all__ = [
     "PowerLawSegments",

@@ -59,20 +59,19 @@ class PowerLaws:
         """2 pi * integral of q'^(1 + power) C from the first knot to `q`."""
         q = np.clip(*nonnegative(q=q), *self.ends)
         i = self._segment(q)
-        before = np.concatenate([[0.0], np.cumsum(self._whole_segments(power))])
-        return before[i] + self._integral(i, self.knots[i], q, power)
+        return self._below_knots(power)[i] + self._integral(i, self.knots[i], q, power)
 
     def above(self, q: ArrayLike, power: float) -> NDArray:
         """2 pi * integral of q'^(1 + power) C from `q` to the last knot."""
         q = np.clip(*nonnegative(q=q), *self.ends)
         i = self._segment(q)
-        after = np.concatenate([np.cumsum(self._whole_segments(power)[::-1])[::-1], [0.0]])
+        after = np.append(np.cumsum(self._whole_segments(power)[::-1])[::-1], 0.0)
         return after[i + 1] + self._integral(i, q, self.knots[i + 1], power)
 
     def invert_gradient(self, variance: ArrayLike) -> NDArray:
         """Wave number at which ``below(q, 2)`` is `variance`."""
         (variance,) = nonnegative(variance=variance)
-        before = np.concatenate([[0.0], np.cumsum(self._whole_segments(2))])
+        before = self._below_knots(2)
         i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(self.level) - 1)
         beta = self.exponent[i] + 4
         level = 2 * np.pi * self.level[i] * self.knots[i] ** 4
@@ -96,6 +95,9 @@ class PowerLaws:
         level = self.level[i] * self.knots[i] ** (2 + power)
         return 2 * np.pi * level * np.exp(beta * from_knot) * _expm1_over(beta, np.log(b / a))
 
+    def _below_knots(self, power: float) -> NDArray:
+        return np.append(0.0, np.cumsum(self._whole_segments(power)))
+
     def _whole_segments(self, power: float) -> NDArray:
         i = np.arange(len(self.level))
         return self._integral(i, self.knots[:-1], self.knots[1:], power)
@@ -107,17 +109,10 @@ class Ellipse:
 
     Averaged over directions C is ``<C(q/g)/g^2>``. It is like a square root at the ends of the
     waves that the ellipse of a knot holds, and a power law away from them.
-
-    Parameters
-    ----------
-    ratio : float
-        Of the correlation lengths, long over short, from 1 to 1e4.
-    angle : float
-        Direction of the long correlation length from x [rad].
     """
 
-    ratio: float = 1.0
-    angle: float = 0.0
+    ratio: float = 1.0  #: of the correlation lengths, long over short, from 1 to 1e4
+    angle: float = 0.0  #: direction of the long correlation length from x [rad]
 
     def __post_init__(self):
         if not 1 <= number("anisotropy", self.ratio) <= MOST:
@@ -211,40 +206,34 @@ class Ellipse:
         s2, c2 = np.sin(w / 2) ** 2, np.cos(w / 2) ** 2
         low, high = 4 * length * s2, 4 * length * c2
         # Each of the roots vanishes with the sine of one end.
-        ends = _expm1_ratio(low) * _expm1_ratio(-high)
+        ends = _expm1_over(low, 1.0) * _expm1_over(-high, 1.0)
         return 0.5 * np.exp(-2 * length * np.cos(w)) / np.sqrt(ends)
 
 
 CIRCLE = Ellipse()
 
 
-def find_amplitude(ratio: float, hurst: float) -> float:
-    """Amplitude A of C ~ 1 + A cos 2 phi of a self-affine spectrum with a direction.
-
-    That is what `measured.psd.PowerSpectrum.anisotropy` finds of its surfaces.
-    """
-    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
-    density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
-    return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density))
-
-
 def find_ratio(amplitude: float, hurst: float) -> float:
-    """Ratio of the correlation lengths of a measured amplitude, at most `_LARGEST_FOUND`.
+    """Ratio of the correlation lengths, at most `_LARGEST_FOUND`, of a self-affine spectrum.
 
-    The inverse of `find_amplitude`, with a Hurst exponent from 0.1 to 1.
+    `amplitude` is A of C ~ 1 + A cos 2 phi, as `measured.psd.PowerSpectrum.anisotropy` finds it.
     """
     hurst = min(max(hurst, 0.1), 1.0)
-    if amplitude >= find_amplitude(_LARGEST_FOUND, hurst):
+    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
+
+    def excess(log_ratio: float) -> float:
+        ratio = np.exp(log_ratio)
+        density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
+        return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density)) - amplitude
+
+    if excess(np.log(_LARGEST_FOUND)) <= 0:
         return _LARGEST_FOUND
     if amplitude <= 0:
         return 1.0
-    found = brentq(
-        lambda log: find_amplitude(np.exp(log), hurst) - amplitude, 0, np.log(_LARGEST_FOUND)
-    )
-    return float(np.exp(found))
+    return float(np.exp(brentq(excess, 0, np.log(_LARGEST_FOUND))))
 
 
-def _expm1_over(beta: NDArray, x: NDArray) -> NDArray:
+def _expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
     """Integral of exp(beta t) from 0 to x, that is expm1(beta x)/beta, regular at beta = 0."""
     safe = np.where(beta == 0, 1.0, beta)
     return np.where(beta == 0, x, np.expm1(safe * x) / safe)
@@ -254,12 +243,6 @@ def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
     """Inverse of `_expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
     safe = np.where(beta == 0, 1.0, beta)
     return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)
-
-
-def _expm1_ratio(x: NDArray) -> NDArray:
-    """(exp(x) - 1)/x."""
-    safe = np.where(x == 0, 1.0, x)
-    return np.where(x == 0, 1.0, np.expm1(safe) / safe)
 
 
 def _cell_quadrature() -> tuple[NDArray, NDArray]:

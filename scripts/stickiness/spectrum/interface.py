@@ -2,6 +2,11 @@
 
 A new kind of spectrum is a subclass of `Spectrum` in `kinds`. It overrides `knots` where C(q) has
 kinks, and `modes_in_band` and `mode_variance` where its modes are not those of a density.
+
+One convention throughout: the two-dimensional power spectral density C(q) [length^4] has
+h_rms^2 = double integral of C d^2q, with no factor 1/(4 pi^2); averaged over directions,
+h_rms^2 = 2 pi * integral of q C(q) dq. Theories know a surface by that average: it has the same
+heights, gradients, curvatures and energy of full contact.
 """
 
 from __future__ import annotations
@@ -14,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import number
 from stickiness.solids import HALF_SPACE, Solid, check_solid
+from stickiness.spectrum.direction import CIRCLE, Ellipse
 
 # Gauss quadrature on panels in ln q. What layers make of a wave has its nearest singularity
 # about one unit of ln q off the real axis: such panels err by less than 1e-13.
@@ -25,29 +31,34 @@ LATTICE_ROUNDING = 1e-9  #: relative slack on band limits that coincide with lat
 class Spectrum(ABC):
     """Height spectrum on a band of wave numbers ``q0 <= q <= q1``, averaged over directions.
 
-    What the theory needs is `variance_below` and `variance_above`; everything else follows. Only
-    `PowerLawSegments` may have a direction: then `norm` takes the place of ``|q|`` in the band, and
-    `averaged` is the isotropic spectrum that theories use in its place.
+    What the theory needs is `variance_below` and `variance_above`; everything else follows. With a
+    direction the norm of the `ellipse` takes the place of ``|q|`` in the band, and `averaged` is
+    the isotropic spectrum that theories use in its place.
     """
 
     q0: float
     q1: float
     prescribed: str = "C"  # what fixes the size of the spectrum
     is_discrete: bool = False  # whether it sits on shells, with arrays `q` and `variance`
-    isotropic: bool = True
-    anisotropy: float = 1.0  # ratio of the correlation lengths
+    ellipse: Ellipse = CIRCLE
 
     @abstractmethod
     def psd(self, q: ArrayLike) -> NDArray:
         """Power spectral density C(q) [length^4] at wave numbers `q` [1/length]; 0 off the band."""
 
-    def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
-        """Norm of wave vectors that `q0` and `q1` bound: ``|q|`` without a direction."""
-        return np.hypot(qx, qy)
-
     def psd_of_norm(self, norm: ArrayLike) -> NDArray:
-        """C [length^4] of wave vectors of this `norm`; 0 off the band."""
+        """C [length^4] of wave vectors of this norm; 0 off the band."""
         return self.psd(norm)
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether all directions are alike."""
+        return self.ellipse.is_circle
+
+    @property
+    def anisotropy(self) -> float:
+        """Ratio of the correlation lengths."""
+        return self.ellipse.ratio
 
     def averaged(self) -> Spectrum:
         """Return the isotropic spectrum that this one is on average over directions."""
@@ -85,7 +96,7 @@ class Spectrum(ABC):
     @property
     def band(self) -> tuple[float, float]:
         """Smallest and largest ``|q|`` of all waves."""
-        return self.q0, self.q1
+        return self.q0 / self.ellipse.reach, self.q1 * self.ellipse.reach
 
     @property
     def q_longest(self) -> float:
@@ -116,27 +127,21 @@ class Spectrum(ABC):
         """Root mean square of the Laplacian [1/length], sqrt(8 m4/3)."""
         return float(np.sqrt(self.total_variance(4)))
 
-    @property
-    def nayak(self) -> float:
-        """Nayak's bandwidth parameter alpha = m0 m4/m2^2 (Nayak 1971, doi:10.1115/1.3451608)."""
-        return self.moment(0) * self.moment(4) / self.moment(2) ** 2
-
     def moment(self, order: int) -> float:
-        """Profile moment m0, m2 or m4 of the surface averaged over directions (Nayak 1971).
+        """Profile moment m0, m2 or m4, averaged over directions (Nayak, doi:10.1115/1.3451608).
 
         m0 = h_rms^2, m2 = pi int q^3 C dq, m4 = (3 pi/4) int q^5 C dq.
         """
-        try:
-            share = {0: 1.0, 2: 1 / 2, 4: 3 / 8}[order]
-        except KeyError:
-            raise ValueError(f"moment: order must be 0, 2 or 4, got {order!r}") from None
-        return share * self.total_variance(order)
+        share = {0: 1.0, 2: 1 / 2, 4: 3 / 8}
+        if order not in share:
+            raise ValueError(f"moment: order must be 0, 2 or 4, got {order!r}")
+        return share[order] * self.total_variance(order)
 
     def elastic_energy(self, solid: Solid = HALF_SPACE) -> float:
-        """Elastic energy of full contact per nominal area over E* [length].
+        """Elastic energy of full contact per nominal area over E* [length], less the mean's.
 
         (pi/2) * integral of q^2 C dq (Persson & Tosatti 2001, doi:10.1063/1.1398300); of q^2 C/S
-        for a `solid` that is a layer, to 1e-12. The energy of the mean pressure is not included.
+        for a `solid` that is a layer, to 1e-12.
         """
         if check_solid(solid) == HALF_SPACE:
             return self.total_variance(1) / 4
@@ -144,11 +149,7 @@ class Spectrum(ABC):
         return averaged.integrate(lambda q: q / solid.factor(q), *averaged.band) / 4
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
-        """Return 2 pi * integral from `low` to `high` of q f(q) C(q) dq for a smooth f.
-
-        This is the mean of f over the waves in between, a shell at `high` included, times their
-        height variance.
-        """
+        """Return 2 pi * integral from `low` to `high`, included, of q f(q) C(q) dq, f smooth."""
         low, high = max(low, self.q0), min(high, self.q1)
         if not high > low:
             return 0.0
@@ -165,19 +166,10 @@ class Spectrum(ABC):
     def modes(self, length: float) -> tuple[NDArray, NDArray, NDArray]:
         """Modes of a periodic cell of side `length` that lie in the band.
 
-        Returns
-        -------
-        i, j : (m,) int arrays
-            Lattice indices of the wave vectors 2 pi (i, j)/length, one of each pair +-k, by rising
-            norm. In this order random numbers stay with their modes when the band grows at its
-            upper end.
-        variance : (m,) array
-            Height variance of each mode [length^2].
-
-        Raises
-        ------
-        ValueError
-            If the cell holds no mode of the band, or too many.
+        Returns the lattice indices i, j of the wave vectors 2 pi (i, j)/length, one of each pair
+        +-k, by rising norm, and the height variance of each mode [length^2]. In this order random
+        numbers stay with their modes when the band grows at its upper end. ValueError if the cell
+        holds no mode of the band, or too many.
         """
         dq = 2 * np.pi / length
         reach = int(np.floor(self.band[1] / dq * (1 + LATTICE_ROUNDING)))
@@ -194,7 +186,10 @@ class Spectrum(ABC):
         i, j = i[half], j[half]
         band = self.modes_in_band(i, j, dq)
         i, j = i[band], j[band]
-        order = np.lexsort((j, i, self.rank_modes(i, j)))
+        rank = i**2 + j**2
+        if not self.ellipse.is_circle:  # equal norms have equal ranks
+            rank = np.round(np.log(self.ellipse.norm(i, j)), 10)
+        order = np.lexsort((j, i, rank))
         i, j = i[order], j[order]
         variance = self.mode_variance(i, j, dq)
         if not variance.any():
@@ -203,17 +198,13 @@ class Spectrum(ABC):
 
     def modes_in_band(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Whether lattice vectors dq (i, j) lie in the band."""
-        norm = dq * self.norm(i, j)
+        norm = dq * self.ellipse.norm(i, j)
         above = norm >= self.q0 * (1 - LATTICE_ROUNDING)
         return above & (norm <= self.q1 * (1 + LATTICE_ROUNDING))
 
-    def rank_modes(self, i: NDArray, j: NDArray) -> NDArray:
-        """Numbers that rise with the norm of lattice vectors; equal norms give equal numbers."""
-        return i**2 + j**2 if self.isotropic else np.round(np.log(self.norm(i, j)), 10)
-
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance C dq^2 of each mode of the band."""
-        norm = dq * self.norm(i, j)
+        norm = dq * self.ellipse.norm(i, j)
         return self.psd_of_norm(np.clip(norm, self.q0, self.q1)) * dq**2
 
 

@@ -1,22 +1,22 @@
-"""Power spectral densities of rough surfaces and their moments.
-
-One convention throughout: the two-dimensional power spectral density C(q) [length^4] has
-h_rms^2 = double integral of C d^2q, with no factor 1/(4 pi^2); averaged over directions,
-h_rms^2 = 2 pi * integral of q C(q) dq. Theories know a surface by that average: it has the same
-heights, gradients, curvatures and energy of full contact.
-"""
+"""Kinds of spectra: power laws, tables, shells of a periodic window, and sums of these."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property
+from copy import copy
+from functools import cached_property, reduce
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative, number
 from stickiness.spectrum.direction import CIRCLE, ROUNDING, Ellipse, PowerLaws
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_cut
+
+_ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
+_STEPS = 64  # of the table in ln q that inversion of a sum starts from, besides the knots
+_PRECISION = 4e-16  # of ln q
 
 
 class PowerLawSegments(Spectrum):
@@ -38,8 +38,6 @@ class PowerLawSegments(Spectrum):
         laws = (np.asarray(values, dtype=float) for values in (knots, level, exponent))
         self.ellipse, self._laws = ellipse, PowerLaws(*laws)
         self.q0, self.q1 = self._laws.ends
-        self.isotropic, self.anisotropy = ellipse.is_circle, ellipse.ratio
-        self.angle = ellipse.angle  # of the long correlation length from x [rad]
 
     @cached_property
     def _mean(self) -> PowerLaws:
@@ -51,18 +49,9 @@ class PowerLawSegments(Spectrum):
         """Wave numbers, both ends included, between which C is one power law each."""
         return self._laws.knots.copy()
 
-    @property
-    def band(self) -> tuple[float, float]:
-        return self.q0 / self.ellipse.reach, self.q1 * self.ellipse.reach
-
     def psd(self, q: ArrayLike) -> NDArray:
         """C(q) [length^4], averaged over directions; zero outside the band."""
-        if self.isotropic:
-            return self._laws.psd(q)
         return self.ellipse.mean_psd(self._laws, q)
-
-    def norm(self, qx: ArrayLike, qy: ArrayLike) -> NDArray:
-        return self.ellipse.norm(qx, qy)
 
     def psd_of_norm(self, norm: ArrayLike) -> NDArray:
         return self._laws.psd(norm)
@@ -88,8 +77,10 @@ class PowerLawSegments(Spectrum):
     def truncated(self, q1: float) -> PowerLawSegments:
         """Return the same spectrum cut at `q1` (q0 < q1 <= the present end) of the norm."""
         check_cut(self, q1)
-        cut = self._laws.truncated(q1)
-        return PowerLawSegments(cut.knots, cut.level, cut.exponent, self.ellipse)
+        cut = copy(self)
+        vars(cut).pop("_mean", None)
+        cut._laws, cut.q1, cut.prescribed = self._laws.truncated(q1), float(q1), "C"
+        return cut
 
 
 class SelfAffine(PowerLawSegments):
@@ -154,10 +145,14 @@ class SelfAffine(PowerLawSegments):
         name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
         size = number(name, size)
         self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
+        plateau = [] if q_rolloff is None else [q_rolloff]
+        knots, slope = [q0, *plateau, q1], -2 * (hurst + 1)
+        exponents = [*(0.0 for _ in plateau), slope]
         with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
-            self._build(q0, q1, np.float64(1.0))
+            levels = np.full(len(exponents), np.float64(knots[-2]) ** slope)
+            super().__init__(knots, levels, exponents, self.ellipse)
             self.C0 = size if h_rms is None else float(size**2 / self.total_variance())
-            self._build(q0, q1, np.float64(self.C0))
+            super().__init__(knots, self.C0 * levels, exponents, self.ellipse)
             variances = np.array([self.total_variance(power) for power in (0, 2, 4)])
         if not np.all(np.isfinite(variances) & (variances > 0)):
             raise ValueError(
@@ -165,39 +160,16 @@ class SelfAffine(PowerLawSegments):
                 "unit of length in which they are nearer to 1"
             )
 
-    def _build(self, q0: float, q1: float, prefactor: float) -> None:
-        slope = -2 * (self.hurst + 1)
-        bend = q0 if self.q_rolloff is None else self.q_rolloff
-        level = prefactor * np.float64(bend) ** slope
-        if self.q_rolloff is None:
-            super().__init__([q0, q1], [level], [slope], self.ellipse)
-        else:
-            super().__init__([q0, bend, q1], [level, level], [0.0, slope], self.ellipse)
-
     @property
     def q_longest(self) -> float:
         """See `Spectrum.q_longest`; with a direction the geometric mean of along and across."""
-        return self.q0 if self.q_rolloff is None else self.q_rolloff
-
-    def truncated(self, q1: float) -> SelfAffine:
-        """Return the same spectrum (same C0) cut at `q1`."""
-        check_cut(self, q1)
-        if self.q_rolloff is not None and self.q_rolloff >= q1:
-            return super().truncated(q1)
-        return SelfAffine(
-            hurst=self.hurst,
-            q0=self.q0,
-            q1=q1,
-            C0=self.C0,
-            q_rolloff=self.q_rolloff,
-            anisotropy=self.anisotropy,
-            angle=self.angle,
-        )
+        bends = self.q_rolloff is not None and self.q_rolloff < self.q1
+        return self.q_rolloff if bends else self.q0
 
     def __repr__(self) -> str:
         rest = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
         if not self.isotropic:
-            rest += f", anisotropy={self.anisotropy:.6g}, angle={self.angle:.6g}"
+            rest += f", anisotropy={self.anisotropy:.6g}, angle={self.ellipse.angle:.6g}"
         size = f"h_rms={self.h_rms:.6g}" if self.prescribed == "h_rms" else f"C0={self.C0:.6g}"
         return f"SelfAffine(hurst={self.hurst}, q0={self.q0:.6g}, q1={self.q1:.6g}, {size}{rest})"
 
@@ -273,9 +245,8 @@ class Shells(Spectrum):
         gradient = np.cumsum(self.variance * self.q**2)
         (variance,) = nonnegative(variance=variance)
         i = np.minimum(np.searchsorted(gradient, variance, side="left"), len(self.q) - 1)
-        after = np.concatenate([np.cumsum(self.variance[::-1])[::-1], [0.0]])
         rest = np.maximum(gradient[i] - variance, 0.0) / self.q[i] ** 2
-        return self.q[i], after[i + 1] + rest
+        return self.q[i], self.variance_above(self.q[i]) + rest
 
     def truncated(self, q1: float) -> Shells:
         """Return the shells up to and including `q1`."""
@@ -289,7 +260,7 @@ class Shells(Spectrum):
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance of each mode of the band: its shell's variance in equal parts."""
-        norm = dq * self.norm(i, j)
+        norm = dq * np.hypot(i, j)
         middle = (self.q[1:] + self.q[:-1]) / 2
         shell = np.searchsorted(middle, norm)
         on_shell = np.abs(norm - self.q[shell]) <= LATTICE_ROUNDING * norm
@@ -298,6 +269,141 @@ class Shells(Spectrum):
             missing = self.q[np.argmin(count)]
             raise ValueError(f"no wave vector of the window lies on the shell at q = {missing:.6g}")
         return np.where(on_shell, (self.variance / count)[shell], 0.0)
+
+
+class Sum(Spectrum):
+    """Sum of the densities of independent surfaces; see `combine`.
+
+    Its surfaces have the sum of the mode variances of the parts, each part with a prescribed h_rms
+    being scaled to it.
+    """
+
+    def __init__(self, *parts: Spectrum):
+        self.parts = parts
+        self.q0, self.q1 = min(part.q0 for part in parts), max(part.q1 for part in parts)
+
+    @property
+    def isotropic(self) -> bool:
+        return all(part.isotropic for part in self.parts)
+
+    @property
+    def anisotropy(self) -> float:
+        """Of the parts that store the energy of full contact, like `q_longest`."""
+        return self._weigh([part.anisotropy for part in self.parts])
+
+    @property
+    def knots(self) -> NDArray:
+        """Wave numbers, both ends included, between which C is smooth if it is isotropic."""
+        q = np.sort(np.concatenate([part.knots for part in self.parts]))
+        kept = q[_find_first(q)]
+        kept[-1] = q[-1]
+        return kept
+
+    @property
+    def band(self) -> tuple[float, float]:
+        low, high = zip(*(part.band for part in self.parts), strict=True)
+        return min(low), max(high)
+
+    @property
+    def q_longest(self) -> float:
+        """See `Spectrum.q_longest`: of the parts that store the energy of full contact."""
+        return self._weigh([part.q_longest for part in self.parts])
+
+    def _weigh(self, values: list[float]) -> float:
+        """Geometric mean, by the energies of full contact of the parts."""
+        energies = np.array([part.elastic_energy() for part in self.parts])
+        return float(np.exp(np.average(np.log(values), weights=energies)))
+
+    def psd(self, q: ArrayLike) -> NDArray:
+        """C(q) [length^4], averaged over directions; zero off all bands."""
+        return sum(part.psd(q) for part in self.parts)
+
+    def averaged(self) -> Spectrum:
+        return self if self.isotropic else Sum(*(part.averaged() for part in self.parts))
+
+    def total_variance(self, power: float = 0) -> float:
+        return sum(part.total_variance(power) for part in self.parts)
+
+    def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
+        return sum(part.variance_below(q, power) for part in self.parts)
+
+    def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
+        return sum(part.variance_above(q, power) for part in self.parts)
+
+    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
+        (variance,) = nonnegative(variance=variance)
+        low, high = np.log(self.band)
+        table = np.union1d(np.log(self.averaged().knots), np.linspace(low, high, _STEPS))
+        known = self.variance_below(np.exp(table), 2)
+        i = np.clip(np.searchsorted(known, variance, side="right") - 1, 0, len(table) - 2)
+        # Rounding aside, each lies between its two of the table.
+        target = np.clip(variance, known[i], known[i + 1])
+
+        def excess(log_q, target):
+            return self.variance_below(np.exp(log_q), 2) - target
+
+        tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
+        found = elementwise.find_root(
+            excess, (table[i], table[i + 1]), args=(target,), tolerances=tolerances
+        )
+        # Bands that do not meet leave a range of q without waves.
+        log_q = np.where(known[i] == known[i + 1], table[i], found.x)
+        q = np.clip(np.exp(log_q), *self.band)
+        return q, self.variance_above(q)
+
+    def truncated(self, q1: float) -> Spectrum:
+        """Return the sum of the same spectra cut at `q1`, each of its norm."""
+        check_cut(self, q1)
+        kept = [part for part in self.parts if part.q0 < q1]
+        cut = [part.truncated(q1) if part.q1 > q1 else part for part in kept]
+        return Sum(*cut) if len(cut) > 1 else cut[0]
+
+    def modes_in_band(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Whether lattice vectors lie in the band of any part."""
+        return np.any([part.modes_in_band(i, j, dq) for part in self.parts], axis=0)
+
+    def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
+        """Sum of what the parts contribute, each scaled to its prescribed h_rms."""
+        total = 0
+        for part in self.parts:
+            inside = part.modes_in_band(i, j, dq)
+            variance = np.zeros(len(i))
+            variance[inside] = part.mode_variance(i[inside], j[inside], dq)
+            if part.prescribed == "h_rms" and variance.any():
+                variance *= part.h_rms**2 / (2 * variance.sum())
+            total = total + variance
+        return total
+
+
+def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
+    """Spectrum of rough solids that press on each other: their roughness is independent and adds.
+
+    Either all are discrete spectra of periodic windows (`Shells`), or none; ValueError otherwise.
+    The result, C = C_1 + C_2 + ..., is shells of shells, else a `Sum`.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> rough = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=3.0)
+    >>> round(combine(rough, SelfAffine(hurst=0.6, q0=2.0, q1=500.0, h_rms=4.0)).h_rms, 12)
+    5.0
+    """
+    spectra = (first, *others)
+    for one in spectra:
+        if not isinstance(one, Spectrum):
+            raise ValueError(
+                f"combine takes spectra one by one, combine(*spectra), got {type(one).__name__}"
+            )
+    shells = [one.is_discrete for one in spectra]
+    if all(shells):
+        return reduce(_merge_shells, spectra)
+    if any(shells):
+        raise ValueError(
+            "combine: shells and a density have no common form; take surface.lattice_spectrum of "
+            "the density on the window of the shells"
+        )
+    parts = [part for one in spectra for part in getattr(one, "parts", (one,))]
+    return Sum(*parts) if len(parts) > 1 else first
 
 
 def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tuple[NDArray, ...]:
@@ -321,3 +427,17 @@ def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> 
         raise ValueError(
             f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
         )
+
+
+def _merge_shells(one: Shells, other: Shells) -> Shells:
+    """Shells of both; those at one wave number, to rounding, hold the sum."""
+    q = np.concatenate([one.q, other.q])
+    order = np.argsort(q, kind="stable")
+    q, variance = q[order], np.concatenate([one.variance, other.variance])[order]
+    first = _find_first(q)
+    return Shells(q[first], np.add.reduceat(variance, first))
+
+
+def _find_first(q: NDArray) -> NDArray:
+    """Indices of the first of those, in ascending order, that are one to rounding."""
+    return np.flatnonzero(np.append(True, np.diff(q) > _ALIKE * q[1:]))

@@ -45,7 +45,7 @@ def table(tmp_path):
 
 
 def error_at(table, zeta=32, pressure=0.1, reach=1.0, strength=0.1, law="exponential", hurst=0.8):
-    return table.relative_error(law, hurst, zeta, pressure, reach, strength)
+    return model_choice.relative_error(table, law, hurst, zeta, pressure, reach, strength)
 
 
 def test_error_of_dmt_is_that_of_dmt_over_full(table):
@@ -149,7 +149,7 @@ def test_a_fresh_measurement_agrees_with_the_committed_table(committed, pressure
     full, dmt = np.transpose(ratios)
     best = full.mean() / dmt.mean()
     scatter = np.std(full - best * dmt, ddof=1) / np.sqrt(len(full)) / dmt.mean()
-    lattice = committed.lattices["exponential", 0.8]
+    lattice = committed["exponential", 0.8]
     ratio, error = interpolated(lattice, 32, pressure, reach, strength)
     # three standard errors; 4 points per wavelength add a few per cent
     assert abs(best - ratio) < 3 * np.hypot(scatter, error) + 0.02 * ratio

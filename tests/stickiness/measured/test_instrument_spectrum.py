@@ -61,8 +61,6 @@ def test_tip_cutoff_of_a_wave_is_known():
     found = tip_cutoff(heights, (0.02,), radius)
     assert found == pytest.approx(expected, rel=0.05)
     assert tip_cutoff(heights, (0.02,), radius=0.05) is None  # 10 > 6: sharp enough
-    with pytest.raises(ValueError, match="radius must be positive"):
-        tip_cutoff(heights, (0.02,), 0.0)
 
 
 @pytest.mark.slow
@@ -125,7 +123,7 @@ def scans():
 @pytest.mark.slow
 def test_stitched_spectrum_covers_its_truth(scans):
     truth, pairs = scans
-    fits = [stitching.stitch(pair).spectrum.fit for pair in pairs]
+    fits = [stitching.stitch(pair).fit for pair in pairs]
     hurst = np.array([(fit.hurst - 0.8) / fit.hurst_se for fit in fits])
     c0 = np.array([np.log(fit.c0 / truth.C0) * fit.c0 / fit.c0_se for fit in fits])
     # Twelve values of unit variance have a standard deviation of 1 ± 0.2; offsets are judged from
@@ -142,7 +140,7 @@ def test_an_offset_is_seen_and_widens_the_errors(scans):
     plain, off = stitching.stitch([large, small]), stitching.stitch([large, scaled])
     # ln 4 between two, the standard deviation of a difference is sqrt(2) that of each.
     assert off.scatter == pytest.approx(np.log(4) / np.sqrt(2), abs=2 * plain.scatter + 0.1)
-    assert off.spectrum.fit.hurst_se > 2 * plain.spectrum.fit.hurst_se
+    assert off.fit.hurst_se > 2 * plain.fit.hurst_se
 
 
 @pytest.mark.slow
@@ -152,9 +150,7 @@ def test_measurements_that_do_not_overlap_say_nothing_of_their_offset(scans):
     apart = replace(small, fit=replace(small.fit, q_min=1.3 * large.cutoff.q))
     found = stitching.stitch([large, apart])
     assert np.isnan(found.scatter)
-    assert np.isnan(found.offsets).all()
-    with pytest.raises(ValueError, match="two measurements at least, got 1"):
-        stitching.stitch([large])
+    assert stitching.stitch([large]) is large
 
 
 def test_a_map_and_a_profile_can_be_stitched():
@@ -162,8 +158,8 @@ def test_a_map_and_a_profile_can_be_stitched():
     plane = instrument_spectrum.analyse(Topography(h[::4, ::4], 4 * dx, 4 * dx, "map").detrended())
     line = instrument_spectrum.analyse(Profile(h[:, 100], dx, "line").detrended())
     whole = stitching.stitch([plane, line])
-    assert whole.spectrum.cutoff.q == pytest.approx(line.cutoff.q, rel=0.1)
-    fit = whole.spectrum.fit
+    assert whole.cutoff.q == pytest.approx(line.cutoff.q, rel=0.1)
+    fit = whole.fit
     assert abs(fit.hurst - 0.8) < 3 * fit.hurst_se
     # Both see the same spectrum, the profile by some tens of modes.
     assert whole.scatter < 0.5
@@ -201,7 +197,7 @@ def test_law_carried_on_adds_its_waves_and_their_uncertainty():
     end = 100 * found.cutoff.q
     plain = stitching.draw(found, 400, seed=1).moments
     more = stitching.draw(found, 400, seed=1, extend_to=end).moments
-    law = found.fit.spectrum(found.cutoff.q, end)
+    law = SelfAffine(hurst=found.fit.hurst, q0=found.cutoff.q, q1=end, C0=found.fit.c0)
     added = np.median(more["rms_slope"] ** 2) - np.median(plain["rms_slope"] ** 2)
     assert added == pytest.approx(law.rms_slope**2, rel=0.15)
     assert np.median(more["h_rms"]) == pytest.approx(np.median(plain["h_rms"]), rel=0.02)

@@ -9,7 +9,7 @@ import pytest
 from scipy import signal
 
 from stickiness import surface
-from stickiness.measured import instrument_spectrum, profiles, psd, topography
+from stickiness.measured import instrument_spectrum, psd, topography
 from stickiness.spectrum import SelfAffine
 
 SAMPLES = Path(
@@ -87,7 +87,7 @@ def test_convention_from_its_definition():
     plane = psd.power_spectrum(h, dx, dy)
     theirs = np.abs(dx * dy * np.fft.rfft2(h - h.mean())) ** 2 / (64 * dx * 48 * dy)
     np.testing.assert_allclose(4 * np.pi**2 * plane.psd, theirs, rtol=1e-9, atol=1e-18)
-    line = profiles.profile_spectrum(h[:, 3], dx, "none")
+    line = psd.profile_spectrum(h[:, 3], dx, "none")
     theirs = np.abs(dx * np.fft.rfft(h[:, 3] - h[:, 3].mean())) ** 2 / (64 * dx)
     np.testing.assert_allclose(2 * np.pi * line.psd, theirs[1:], rtol=1e-9, atol=1e-18)
 

@@ -255,7 +255,7 @@ def test_profiles_of_one_column_and_with_uneven_positions(tmp_path):
     path = tmp_path / "line.txt"
     path.write_text("\n".join(map(str, range(20))))
     p = topography.read(path, height_unit="nm", length="10 um")
-    assert (p.dx, p.length) == pytest.approx((0.5e-6, 10e-6))
+    assert (p.dx, *p.size) == pytest.approx((0.5e-6, 10e-6))
     np.testing.assert_allclose(p.heights, 1e-9 * np.arange(20), atol=1e-24)
     x = np.array([0.0, 1.0, 2.5, 3.0, 4.0, 6.0])
     path.write_text("\n".join(f"{a};{3 * a + 1}" for a in x[::-1]))

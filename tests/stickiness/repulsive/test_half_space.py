@@ -26,7 +26,7 @@ def rough(n, seed=1):
 )
 def test_operators_equal_plain_transforms(shape, solid):
     sides = (0.7, 1.9)
-    operator = half_space.HalfSpace(shape, sides, solid=solid)
+    operator = half_space.half_space(shape, sides, solid=solid)
     pressure = np.random.default_rng(3).standard_normal(shape)
     expected = displacement(pressure, sides, solid)
     np.testing.assert_allclose(operator.compliance(pressure), expected, rtol=1e-10, atol=1e-14)

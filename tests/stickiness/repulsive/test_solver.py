@@ -34,7 +34,6 @@ def test_any_grid(shape):
     for pressure in (0.01, 1.0):
         contact = repulsive.solve(heights, 1.0, pressure)
         assert_solves(contact, heights, sides)
-        assert contact.length == pytest.approx(sides)
 
 
 def test_solution_is_that_of_a_direct_method():
@@ -176,7 +175,6 @@ def test_failure_carries_the_best_iterate(options, worst):
         ({"length": (1.0, np.nan)}, "length must be"),
         ({"pressure": np.nan}, "pressure must be"),
         ({"max_iterations": 0}, "max_iterations must be"),
-        ({"start": repulsive.solve(np.eye(4), 1.0, 0.1)}, "same grid"),
         ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
         ({"periodic": "free"}, "periodic must be True or False"),
         ({"periodic": False, "solid": Layer(0.1, 0.3)}, "periodic=False is for a half-space only"),

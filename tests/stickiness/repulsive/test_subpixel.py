@@ -148,7 +148,7 @@ def test_attraction_of_a_short_range(kind):
     ("call", "message"),
     [
         (lambda: subpixel.attractive_area([0.0, 1.0], 1.0), "gap must be at least two-dim"),
-        (lambda: subpixel.boundary_strip([True]), "contact must be at least two-dim"),
+        (lambda: subpixel.boundary_strip([True]), "boolean array of two dimensions at least"),
     ],
 )
 def test_refusals_name_the_argument(call, message):

@@ -10,7 +10,7 @@ from scipy import integrate
 from stickiness import spectrum
 from stickiness.persson import theory
 from stickiness.remaining import prediction
-from stickiness.spectrum import SelfAffine, Shells, Tabulated, kinds, sums
+from stickiness.spectrum import SelfAffine, Shells, Tabulated, kinds
 
 
 def by_quadrature(s, a, b, power, breaks=()):
@@ -155,7 +155,7 @@ def test_elastic_energy():
     assert s.elastic_energy() == pytest.approx(want, rel=1e-12)
 
 
-@pytest.mark.parametrize("module", [spectrum, kinds, sums, theory, prediction])
+@pytest.mark.parametrize("module", [spectrum, kinds, theory, prediction])
 def test_examples_in_the_documentation(module):
     assert doctest.testmod(module).failed == 0
 
