@@ -3,14 +3,10 @@
 PAGE_PARTS = [project_file(f"report/{part}") for part in ("macros.html.j2", "page.css", "page.js")]
 
 
-def results_folder(wildcards, output):
-    """Folder of the results, with the prefix that a module may have, which parameters lack."""
-    return Path(output[0]).parents[1]
-
-
 def figure_sources(wildcards, output):
     """Datasets that each figure shows."""
-    moved = f"{results_folder(wildcards, output)}/"
+    # A module may put the results below a prefix, which parameters lack.
+    moved = f"{Path(output[0]).parents[1]}/"
     return {
         figure: [
             str(file).replace(f"{RESULTS}/", moved)
@@ -47,10 +43,8 @@ rule write_report:
         experiments_figure=f"{RESULTS}/figures/experiments.png",
         experiments_caption=project_file("report/experiments.rst"),
         ensembles=several("contact/ensembles/{case}.nc", case=COMPLETE),
-        comparisons=several("fits/theory/{case}.nc", case=COMPLETE),
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         answers=several("cases/{case}.nc", case=CASES),
-        laws=ERROR_MODELS,
         trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
         trade_caption=project_file("report/tradeoff.rst"),
@@ -67,8 +61,6 @@ rule write_report:
     conda:
         "../envs/environment.yaml"
     params:
-        benchmarks=lambda wildcards, output: str(results_folder(wildcards, output) / "benchmarks"),
-        presets=PRESETS,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
         code=source_hash("report/write_report.py"),

@@ -80,8 +80,6 @@ def follow_tension(pull_off):
         columns = {
             "gap": states.mean_gap.values * per_gap,
             "tension": states.mean_traction.values * per_tension,
-            "contact": list(map(percent, states.contact_area.values)),
-            "attracted": list(map(percent, states.attracted_area.values)),
         }
         curves.append((name, colour, columns))
     # The squeeze may press far harder than the surfaces attract each other.

@@ -49,31 +49,15 @@ SYMBOLS = {
 
 logging.getLogger("fontTools").setLevel(logging.ERROR)  # else pages about fonts in the log
 
-SETTINGS = {
-    "font.size": 8.5,
-    "axes.titlesize": 8.5,
-    "axes.labelsize": 8.5,
-    "legend.fontsize": 8,
-    "xtick.labelsize": 8,
-    "ytick.labelsize": 8,
-    "figure.titlesize": 9,
-    "axes.linewidth": 0.7,
-    "lines.linewidth": 1.2,
-    "lines.markersize": 4,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.top": True,
-    "ytick.right": True,
-    "legend.frameon": False,
-    "legend.handlelength": 1.7,
-    "legend.labelspacing": 0.3,
-    "legend.columnspacing": 1.0,
-    "legend.borderaxespad": 0.4,
-    "legend.title_fontsize": 8,
-    "figure.constrained_layout.use": True,
-    "savefig.dpi": 200,
-    "pdf.fonttype": 42,  # text stays text
-}
+mpl.rc("font", size=8.5)
+mpl.rc("axes", titlesize=8.5, labelsize=8.5, linewidth=0.7)
+mpl.rc("lines", linewidth=1.2, markersize=4)
+mpl.rc("xtick", direction="in", top=True, labelsize=8)
+mpl.rc("ytick", direction="in", right=True, labelsize=8)
+mpl.rc("legend", fontsize=8, title_fontsize=8, frameon=False, handlelength=1.7)
+mpl.rc("legend", labelspacing=0.3, columnspacing=1.0, borderaxespad=0.4)
+mpl.rc("savefig", dpi=200)
+mpl.rc("pdf", fonttype=42)  # text stays text
 
 
 def start_figure(names):
@@ -81,34 +65,22 @@ def start_figure(names):
     return start(names, Path(names["__file__"]).stem)
 
 
-def make_panels(rows, height, **grid):
-    """Figure of `height` inches with lettered panels laid out as in ``subplot_mosaic("AB;CC")``."""
-    mpl.rcParams.update(SETTINGS)
-    return plt.subplot_mosaic(rows, figsize=(WIDTH, height), **grid)
-
-
 @contextmanager
 def open_figure(outputs, rows, height, **grid):
-    """Panels to draw in; at the end those named by a letter show it and the files are written."""
-    figure, panels = make_panels(rows, height, **grid)
+    """Panels to draw in, laid out as in ``subplot_mosaic("AB;CC")``; then write the files.
+
+    Panels named by a letter show it. Files are whole or not there, and free of the time of writing.
+    """
+    look = {"figsize": (WIDTH, height), "layout": "constrained"} | grid
+    figure, panels = plt.subplot_mosaic(rows, **look)
     yield panels
     for name, ax in panels.items():
         if name in string.ascii_uppercase:
             ax.set_title(name, loc="left", fontweight="bold", fontsize=10)
-    save(figure, outputs)
-
-
-def save(figure, outputs):
-    """Write the figure to every path, whole or not at all, free of the time of writing."""
-    if (engine := figure.get_layout_engine()) is not None:
-        engine.execute(figure)  # once for all paths
-        figure.set_layout_engine("none")
-    # Saving would put the layout engine of the settings in place of none.
-    with mpl.rc_context({"figure.constrained_layout.use": False}):
-        for path in outputs:
-            with datasets.whole_file(path) as temporary:
-                undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}
-                figure.savefig(temporary, metadata=undated)
+    for path in outputs:
+        with datasets.whole_file(path) as temporary:
+            undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}
+            figure.savefig(temporary, metadata=undated)
     plt.close(figure)
 
 
@@ -172,15 +144,6 @@ def draw_guide(ax, x, y, text, at):
     ax.text(*at, text, color=GREY, fontsize=8)
 
 
-def push_apart(positions, factor):
-    """Heights of labels on a log axis, pushed up until neighbours differ by `factor`."""
-    positions = list(positions)
-    below = 0.0
-    for index in np.argsort(positions):
-        below = positions[index] = max(positions[index], below * factor)
-    return positions
-
-
 def interpolate(data, name, value):
     """Values between those tabulated along a coordinate, by a power law from point to point."""
     logs = np.log(data).assign_coords({name: np.log(data[name])})
@@ -201,3 +164,8 @@ def make_key(label, **look):
 
 def make_dot(label, **look):
     return make_key(label, **({"linestyle": "none", "marker": "o"} | look))
+
+
+def add_legend(ax, *keys, **place):
+    """Legend of what is labelled, and of these keys."""
+    return ax.legend(handles=[*ax.get_legend_handles_labels()[0], *keys], **place)

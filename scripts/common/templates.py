@@ -1,7 +1,5 @@
 """Pages and tables from the templates in `report/`, with filters that write numbers and symbols."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path
@@ -14,7 +12,7 @@ from markupsafe import Markup, escape
 from common import formatting
 from stickiness import datasets
 
-FORMATS = ("number", "percent", "change", "interval", "with_error", "amount")
+FORMATS = ("number", "percent", "change", "interval", "with_error", "amount", "quantity")
 DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
 # Symbols as texts of datasets and labels spell them, escaped: h_rms, q0, x^2, m^(2/3).
 LOWERED = re.compile(
@@ -42,11 +40,7 @@ def write_page(template: str | Path, page: str | Path, **values: Any) -> None:
 
 
 def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.Environment:
-    """Environment for the templates in a folder; a name that nobody gives is an error.
-
-    Templates of HTML escape what they show. Their links are relative to the folder of `page`:
-    ``{{ path | href }}``, or as the reader sees it ``{{ path | place }}``.
-    """
+    """Environment for the templates in a folder; links are relative to the folder of `page`."""
 
     def href(target: str | Path) -> str:
         return Path(os.path.relpath(target, Path(page).parent)).as_posix()
@@ -54,7 +48,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader(folder),
         autoescape=lambda name: ".html" in (name or ""),
-        undefined=jinja2.StrictUndefined,
+        undefined=jinja2.StrictUndefined,  # a name that nobody gives is an error
         finalize=keep_whole,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -63,12 +57,14 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     environment.filters |= {name: getattr(formatting, name) for name in FORMATS} | {
         "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
         "typeset": typeset,
+        "parameters": datasets.parameters,
         "capital": lambda text: text[0].upper() + text[1:],
         "breakable": lambda text: Markup(re.sub("([/_])", r"\1<wbr>", str(escape(text)))),
         "href": href,
         "place": lambda target: re.sub(r"^(\.\./)+", "", href(target)),
     }
     environment.tests["finite"] = np.isfinite
+    environment.globals["np"] = np
     environment.globals["table"] = lambda columns, rows: formatting.table(columns, rows).rstrip()
     return environment
 

@@ -13,10 +13,11 @@ LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel C
 REFERENCE_GAP = 0.03  # over h_rms, where the power law u^(-1/3) of panel B is anchored
 LARGEST_POWER_LAW_GAP = 0.1  # over h_rms, beyond which that power law does not hold
 LOWEST_DENSITY = 1e-6  # a band down to zero has no lower end on a log axis
-VARIANTS = {
-    "afferrante2018": ("-", "Afferrante et al. 2018"),
-    "almqvist2011": ("--", "Almqvist et al. 2011"),
-}
+LINES = {"afferrante2018": "-", "almqvist2011": "--"}
+VARIANT_KEYS = [
+    make_key("Afferrante et al. 2018"),
+    make_key("Almqvist et al. 2011", linestyle="--"),
+]
 DENSITY = r"probability density $h_\mathrm{rms}P(u)$"
 
 
@@ -37,41 +38,43 @@ def draw_magnifications(ax, theory):
     for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
         density = theory.gap_density.sel(magnification=magnification)
         plotting.draw_band(ax, theory.gap, *between_corrections(density), colour)
-        draw_variants(ax, density, color=colour)
-        ax.plot([], [], color=colour, label=state(magnification=magnification))
+        draw_variants(ax, density, state(magnification=magnification), color=colour)
     u = np.array([1e-3, 1e-1])
     plotting.draw_guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
+    finish(ax, (2e-2, 3), state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    plotting.add_legend(ax, *VARIANT_KEYS, loc="lower left")
+
+
+def draw_variants(ax, density, label, **look):
+    for variant, line in LINES.items():
+        (drawn,) = ax.plot(density.gap, density.sel(variant=variant), line, **look)
+        drawn.set_label(label if line == "-" else None)
+
+
+def finish(ax, limits, title):
     ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
-    ax.set(xlim=(1e-4, 10), ylim=(2e-2, 3))
-    ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
-    handles, _ = ax.get_legend_handles_labels()
-    ax.legend(handles=handles + make_variant_keys(), loc="lower left")
-
-
-def draw_variants(ax, density, **look):
-    for variant, (line, _) in VARIANTS.items():
-        ax.plot(density.gap, density.sel(variant=variant), line, **look)
-
-
-def make_variant_keys():
-    return [make_key(text, linestyle=line) for line, text in VARIANTS.values()]
+    ax.set(xlim=(1e-4, 10), ylim=limits, title=title)
 
 
 def draw_convergence(ax, theory):
     """P at fixed gaps against magnification, and where u^(-1/3) would put the limits."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
     zeta, density = theory.magnification, theory.gap_density
-    corrections = between_corrections(density)
-    curves = [interpolate(density.sel(variant=VARIANT), "gap", gap).values for gap in GAPS]
-    limit, last = curves[GAPS.index(REFERENCE_GAP)][-1], float(zeta[-1])
-    heights = plotting.push_apart([curve[-1] for curve in curves], 1.15)
-    for (colour, gap), curve, height in zip(plotting.shade(GAPS), curves, heights, strict=True):
-        ax.plot(zeta, curve, ".-", color=colour)
-        ends = (interpolate(end, "gap", gap).values for end in corrections)
-        plotting.draw_band(ax, zeta, *ends, colour)
-        ax.text(1.7 * last, height, f"{gap:g}", color=colour, va="center", fontsize=8)
+    curves, lows, highs = (
+        [interpolate(values, "gap", gap).values for gap in GAPS]
+        for values in (density.sel(variant=VARIANT), *between_corrections(density))
+    )
+    last = float(zeta[-1])
+    # Labels stand at the ends of their curves, pushed up until neighbours differ by 15 %.
+    ends, steps = np.array(curves)[:, -1], 1.15 ** np.arange(len(GAPS))
+    heights, order = ends.copy(), ends.argsort()
+    heights[order] = np.maximum.accumulate(ends[order] / steps) * steps
+    for index, (colour, gap) in enumerate(plotting.shade(GAPS)):
+        ax.plot(zeta, curves[index], ".-", color=colour)
+        plotting.draw_band(ax, zeta, lows[index], highs[index], colour)
+        ax.text(1.7 * last, heights[index], f"{gap:g}", color=colour, va="center", fontsize=8)
         if gap <= LARGEST_POWER_LAW_GAP:
-            level = limit * (gap / REFERENCE_GAP) ** (-1 / 3)
+            level = ends[GAPS.index(REFERENCE_GAP)] * (gap / REFERENCE_GAP) ** (-1 / 3)
             ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
     ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
     ax.set(xscale="log", yscale="log", xlabel=plotting.MAGNIFICATION, ylabel=DENSITY)
@@ -88,23 +91,17 @@ def draw_simulation(ax, ensemble, lattice):
         measured = ensemble.sel(pressure=load, method="nearest")
         draw_measured(ax, measured, colour)
         theory = lattice.gap_density.sel(pressure=load, method="nearest")
-        draw_variants(ax, theory, color=colour, linewidth=0.9)
-        ax.plot([], [], color=colour, label=state(pressure=float(measured.pressure)))
+        label = state(pressure=float(measured.pressure))
+        draw_variants(ax, theory, label, color=colour, linewidth=0.9)
     made = datasets.parameters(ensemble)
-    ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
-    ax.set(xlim=(1e-4, 10), ylim=(1e-2, 20))
     surface = state(hurst=made["hurst"], magnification=made["magnification"])
     fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
     count = f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
-    ax.set_title(
-        f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
-    )
-    handles, _ = ax.get_legend_handles_labels()
-    dots = [
-        make_dot("BEM, ensemble mean", marker="."),
-        make_dot("by the edge law", mfc="white", markersize=3),
-    ]
-    ax.legend(handles=[*handles, *dots, *make_variant_keys()], loc="upper right", ncols=2)
+    title = f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
+    finish(ax, (1e-2, 20), title)
+    mean = make_dot("BEM, ensemble mean", marker=".")
+    below = make_dot("by the edge law", mfc="white", markersize=3)
+    plotting.add_legend(ax, mean, below, *VARIANT_KEYS, loc="upper right", ncols=2)
 
 
 def draw_measured(ax, measured, colour):

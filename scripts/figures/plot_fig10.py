@@ -39,9 +39,11 @@ def draw_weak(ax, points):
     """Weak edges: effect against the attractive area, with the closed form."""
     t = np.geomspace(0.05, 200, 200)
     ax.plot(t, equivalent_sphere.weak_effect(t), color=BLACK, label="equivalent sphere")
-    small = t[t < 1.5]
+    small, wide = t[t < 1.5], t[t > 0.7]
     formula = r"$(4/\pi)\,t^{-1/2}$"
     plotting.draw_guide(ax, small, 4 / np.pi * small**-0.5, formula, (0.05, 1.95))
+    at_approach = equivalent_sphere.weak_effect_at_approach(wide)
+    plotting.draw_guide(ax, wide, at_approach, "at equal approach", (3, 0.4))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
     for index, (name, (area, strength, effect, ratio, error)) in enumerate(points.items()):
@@ -51,9 +53,6 @@ def draw_weak(ax, points):
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
-    wide = t[t > 0.7]
-    at_approach = equivalent_sphere.weak_effect_at_approach(wide)
-    plotting.draw_guide(ax, wide, at_approach, "at equal approach", (3, 0.4))
     plotting.write_ticks(ax.yaxis, [0.4, 0.6, 1, 1.5, 2, 3, 4, 5])
     ax.set_title(rf"weak edges, $\tau$ < {equivalent_sphere.WEAK:g}")
     ax.legend()
@@ -68,15 +67,8 @@ def draw_ratios(ax, points):
     for index, (_, strength, _, ratio, error) in enumerate(points):
         ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index), alpha=0.5)
     ax.axhline(1, color=GREY, linewidth=0.9)
-    draw_means(ax, *np.concatenate(points, axis=1)[[1, 3]])
-    ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))
-    plotting.write_ticks(ax.yaxis, [0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6])
-    ax.set(xlabel=r"Tabor parameter of the edges $\tau = l_ad/\epsilon^2$")
-    ax.set_ylabel("simulation over equivalent sphere")
-
-
-def draw_means(ax, strength, ratio):
-    """Means of ratios between the strengths of `BINS`, as steps with their standard errors."""
+    # Means between the strengths of `BINS`, as steps with their standard errors.
+    _, strength, _, ratio, _ = np.concatenate(points, axis=1)
     look = {"color": BLACK, "linewidth": 2}
     for low, high in pairwise(BINS):
         inside = ratio[(strength >= low) & (strength < high)]
@@ -86,6 +78,10 @@ def draw_means(ax, strength, ratio):
             ax.errorbar(np.sqrt(low * high), inside.mean(), error, **look)
     ax.plot([], [], **look, label="means, with standard errors")
     ax.legend(loc="upper left")
+    ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))
+    plotting.write_ticks(ax.yaxis, [0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.4, 1.6])
+    ax.set(xlabel=r"Tabor parameter of the edges $\tau = l_ad/\epsilon^2$")
+    ax.set_ylabel("simulation over equivalent sphere")
 
 
 if __name__ == "__main__":

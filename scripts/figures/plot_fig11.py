@@ -13,6 +13,7 @@ GOAL = 0.25  # error that a theory may have where more than LEAST remains
 LEAST = 0.05
 HURST_COLOURS = {0.3: PURPLE, 0.5: RED, 0.6: ORANGE, 0.7: GREEN, 0.8: BLUE, 0.9: BLACK}
 MARKERS = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
+WORKS = {"approach": "v", "separation": "^"}
 ENERGY_RATIO = r"$w/U_\mathrm{full}$"
 FINE, PALE = 3.9, 0.3  # pixels in the cohesive zone that resolve it; look of points with fewer
 RANGES = np.geomspace(0.05, 5, 100)  # over h_rms
@@ -52,18 +53,14 @@ def draw_errors(ax, table):
     table = table[remaining_table.is_wide(table) & (table.separation > LEAST)]
     ax.axhspan(1 - GOAL, 1 + GOAL, color=GREY, alpha=0.2, linewidth=0)
     ax.axhline(1, color=GREY, linewidth=0.9)
-    for name, marker in (("approach", "v"), ("separation", "^")):
+    for name, marker in WORKS.items():
         for held, colour in ((False, BLUE), (True, RED)):
             rows = table[(remaining_table.is_held(table) == held) & (table[name] > LEAST)]
             look = {"marker": marker, "color": colour, "mfc": colour if held else "white"}
             ratio = rows.predicted / rows[name]
             draw_works(ax, rows.energy_ratio, ratio, rows, **look, markersize=3.5)
-    keys = [
-        make_dot("approach", color=GREY, marker="v"),
-        make_dot("separation", color=GREY, marker="^"),
-        make_dot("not used in the fit", color=RED),
-    ]
-    ax.legend(handles=keys, loc="lower left")
+    keys = [make_dot(name, marker=marker) for name, marker in WORKS.items()]
+    ax.legend(handles=[*keys, make_dot("not used in the fit", color=RED)], loc="lower left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 1.6))
 
 
@@ -78,22 +75,17 @@ def draw_ranges(ax, table):
     """Works and energy against the width of the cohesive zone, on one surface."""
     rows = table[table["set"] == "H0.8_zeta8_2x2"]
     zone = np.geomspace(0.01, 0.3, 50)
-    ratios = sorted(rows.energy_ratio.unique())
-    for colour, ratio in plotting.shade(ratios):
+    for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
         line = tough_share(ratio, find_onset(zone))
         ax.plot(zone, line, color=colour)
         here = rows[rows.energy_ratio == ratio].sort_values("zone")
         ax.plot(here.zone, here.bound, "o", color=colour)
-        for name, marker in (("approach", "v"), ("separation", "^")):
+        for name, marker in WORKS.items():
             draw_works(ax, here.zone, here[name], here, marker=marker, color=colour, mfc="white")
         ax.text(0.32, line[-1], f"{ratio:g}", color=colour, fontsize=8, va="center")
-    keys = [
-        make_dot("energy"),
-        make_dot("separation", marker="^", mfc="white"),
-        make_dot("approach", marker="v", mfc="white"),
-        make_dot("two pixels in the zone", marker="^", mfc="white", alpha=PALE),
-    ]
-    ax.legend(handles=keys, loc="upper left", ncols=2)
+    keys = [make_dot(name, marker=marker, mfc="white") for name, marker in WORKS.items()]
+    keys.append(make_dot("two pixels in the zone", marker="^", mfc="white", alpha=PALE))
+    ax.legend(handles=[make_dot("energy"), *keys], loc="upper left", ncols=2)
     ax.set(xscale="log", ylim=(0, 0.7), xlim=(0.01, 0.5))
     plotting.write_ticks(ax.xaxis, [0.01, 0.03, 0.1, 0.3])
     ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")

@@ -16,13 +16,14 @@ SIZE = 3.5  # of markers
 
 
 def main(job):
-    kappas = read_all(job.input.kappa, ["kappa", "area_fraction"])
-    ensembles = read_all(job.input.ensembles, ["area_fraction_mean", "rms_slope"])
-    lattices = read_all(job.input.lattices, ["area_fraction", "kappa"])
-    maps = datasets.read(job.input.maps, ["gap"])
-    limit = datasets.read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
-    adhesive = datasets.read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
-    adhesive_maps = datasets.read(job.input.adhesive_maps, ["gap"])
+    read = datasets.read
+    kappas = [read(path, ["kappa", "area_fraction"]) for path in job.input.kappa]
+    ensembles = [read(path, ["area_fraction_mean", "rms_slope"]) for path in job.input.ensembles]
+    lattices = [read(path, ["area_fraction", "kappa"]) for path in job.input.lattices]
+    maps = read(job.input.maps, ["gap"])
+    limit = read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
+    adhesive = read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
+    adhesive_maps = read(job.input.adhesive_maps, ["gap"])
     rows = "ABC;DEF;GHI"
     with plotting.open_figure(job.output, rows, 7.9, height_ratios=[1.15, 1, 1]) as panels:
         draw_slopes(panels["A"], kappas, lattices)
@@ -31,35 +32,24 @@ def main(job):
         draw_maps(panels, maps, adhesive_maps)
 
 
-def read_all(paths, variables):
-    """Datasets of all cases in the order of their magnification."""
-    return sorted((datasets.read(path, variables) for path in paths), key=magnification)
-
-
-def magnification(dataset):
-    return datasets.parameters(dataset)["magnification"]
-
-
 def draw_slopes(ax, kappas, lattices):
     """kappa_rep load by load; open symbols beyond the area that is called linear."""
-    handles = []
     for index, (kappa, lattice) in enumerate(zip(kappas, lattices, strict=True)):
-        look = pick_look(index)
+        look = pick_look(index, markersize=SIZE)
         # Both variants of the theory have the same area.
         theory = lattice.kappa.sel(variant=VARIANT)
         ax.plot(theory.pressure, theory, color=look["color"], linewidth=0.9)
         pressure = plotting.move_aside(kappa.pressure, index - 1)
-        plotting.draw_points(ax, pressure, kappa, "kappa", **look, markersize=SIZE)
+        label = state(magnification=datasets.parameters(kappa)["magnification"])
+        plotting.draw_points(ax, pressure, kappa, "kappa", **look, label=label)
         beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)
-        above = {"markersize": SIZE, "zorder": plotting.FILLED + 1}
-        plotting.draw_hollow(ax, pressure, beyond, **look, **above)
-        handles.append(make_dot(state(magnification=magnification(kappa)), **look))
+        plotting.draw_hollow(ax, pressure, beyond, **look | {"zorder": plotting.FILLED + 1})
     ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
     ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=plotting.PRESSURE)
     ax.set(ylabel=r"$\kappa_\mathrm{rep}=A_\mathrm{rep}h'_\mathrm{rms}E^*/(A_\mathrm{nom}p)$")
     ax.set_title(f"open: area above {100 * LINEAR_UP_TO:.0f} %")
-    lines = [make_key("theory"), make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)]
-    ax.legend(handles=[*handles, *lines], loc="upper right")
+    straight = make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)
+    plotting.add_legend(ax, make_key("theory"), straight, loc="upper right")
 
 
 def draw_threshold(ax, limit, adhesive):
@@ -73,20 +63,16 @@ def draw_threshold(ax, limit, adhesive):
         ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=colour)
         ax.plot(lengths, full.inverse_kappa_fit, "-", color=colour, linewidth=0.9)
         plotting.draw_hollow(ax, lengths, full.inverse_kappa_net, **look)
-        label = state(range=range_)
-        plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=label)
-    kinds = [
-        make_key("fit over loads", linewidth=0.9),
-        make_dot("compressed", markersize=SIZE, mfc="white"),
-        make_key("DMT limit", linestyle=":"),
-    ]
+        plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=state(range=range_))
+    compressed = make_dot("compressed", markersize=SIZE, mfc="white")
+    fit, dmt = make_key("fit over loads", linewidth=0.9), make_key("DMT limit", linestyle=":")
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     ax.axhspan(-0.35, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
     ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
     ax.set(ylim=(-0.35, 0.68), xscale="log")
     ax.set_title(state(q0_h_rms=float(adhesive.q0_h_rms), pressure=load))
-    ax.legend(handles=kinds, loc="lower left", bbox_to_anchor=(0, 0.08))
+    ax.legend(handles=[fit, compressed, dmt], loc="lower left", bbox_to_anchor=(0, 0.08))
 
 
 def draw_areas(ax, ensembles, lattices):
@@ -109,13 +95,12 @@ def draw_maps(panels, maps, adhesive):
     loads = maps.pressure.values
     middle = maps.gap.sel(pressure=loads[len(loads) // 2]).transpose("y", "x").values
     x, y = find_densest(middle == 0)
-    for name, load in zip("DEF", loads, strict=False):
-        draw_contact(panels[name], maps.sel(pressure=load), None)
-        panels[name].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
-        panels[name].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
-    for name, load in zip("GHI", loads, strict=False):
-        draw_contact(panels[name], adhesive.sel(pressure=load, method="nearest"), range_)
-        panels[name].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
+    for whole, detail, load in zip("DEF", "GHI", loads, strict=False):
+        draw_contact(panels[whole], maps.sel(pressure=load), None)
+        panels[whole].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
+        panels[whole].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
+        draw_contact(panels[detail], adhesive.sel(pressure=load, method="nearest"), range_)
+        panels[detail].set(xlim=(x, x + DETAIL), ylim=(y, y + DETAIL))
     panels["D"].set_ylabel("repulsive contact\n$y/L$")
     panels["G"].set_ylabel("blue frame, with adhesion\n$y/L$")
 

@@ -1,6 +1,6 @@
 """Figure 3: attractive area against range, and the prefactor a_V of its power law."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -20,8 +20,7 @@ WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
 THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
 
-@dataclass(frozen=True)
-class Case:
+class Case(NamedTuple):
     """A simulated case: its areas, its fits of a_V and those of theory on its spectrum."""
 
     areas: xr.Dataset
@@ -66,29 +65,28 @@ def draw_magnifications(ax, theory, cases):
     for colour, magnification in plotting.shade(theory.magnification.values):
         area = theory.attractive_area.sel(magnification=magnification)
         draw_theory(ax, area["range"] ** EXPONENT, area, colour, label=number(magnification))
-    for index, case in enumerate(cases):
-        area = case.areas.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
-        area = area.isel(range=slice(None, None, 4))
-        x = area["range"] ** EXPONENT + 0.004 * (index - 1)  # sideways
-        plotting.draw_points(ax, x, area, "attractive_area_mean", **pick_look(index))
-    x = np.array([0, LARGEST_RANGE**EXPONENT])
-    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", color=BLACK, zorder=5)
     dress_areas(ax, 0.22)
     ax.set_title(state(hurst=hurst, pressure=pressure))
     place = {"loc": "upper left", "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(title=r"theory, $\zeta$ =", **place))
-    law = make_key(state(a_v=CONVERGED_A_V), linestyle=":", color=BLACK)
-    ax.legend(handles=[*make_case_keys(cases), law], loc="upper right", title="BEM")
+    for index, case in enumerate(cases):
+        area = case.areas.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
+        area = area.isel(range=slice(None, None, 4))
+        x = area["range"] ** EXPONENT + 0.004 * (index - 1)  # sideways
+        look = pick_look(index, label=case.label)
+        plotting.draw_points(ax, x, area, "attractive_area_mean", **look)
+    x = np.array([0, LARGEST_RANGE**EXPONENT])
+    look = {"color": BLACK, "zorder": 5, "label": state(a_v=CONVERGED_A_V)}
+    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", **look)
+    handles, _ = ax.get_legend_handles_labels()
+    handles = handles[theory.sizes["magnification"] :]
+    ax.legend(handles=handles, loc="upper right", title="BEM")
 
 
 def draw_theory(ax, x, values, colour, **look):
     """Quoted variant of the theory, and a band between its corrections."""
     plotting.draw_band(ax, x, *between_corrections(values), colour)
     ax.plot(x, values.sel(variant=VARIANT), color=colour, **look)
-
-
-def make_case_keys(cases):
-    return [make_dot(case.label, **pick_look(index)) for index, case in enumerate(cases)]
 
 
 def dress_areas(ax, top):
@@ -98,13 +96,11 @@ def dress_areas(ax, top):
 
 
 def draw_pressures(ax, theory):
-    """Areas at one magnification for a few pressures."""
     hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, magnification=0)
     for colour, load in plotting.shade(range(theory.sizes["load"])):
         at = theory.isel(load=load)
-        pressure = float(at.pressure.sel(variant=VARIANT))
-        x = at["range"] ** EXPONENT
-        draw_theory(ax, x, at.attractive_area, colour, label=f"{pressure:g}")
+        label = f"{float(at.pressure.sel(variant=VARIANT)):g}"
+        draw_theory(ax, at["range"] ** EXPONENT, at.attractive_area, colour, label=label)
     dress_areas(ax, 0.75)
     ax.set_title(f"{state(hurst=hurst, magnification=float(theory.magnification))}, theory")
     ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left")
@@ -115,31 +111,24 @@ def draw_a_v(ax, sweep, fit, cases):
     a_v, sweep = fit.a_v.isel(load=0), sweep.sel(variant=VARIANT).isel(load=0)
     for index, hurst in enumerate(fit.hurst.values):
         look = pick_look(index)
-        colour = look["color"]
+        draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), look["color"])
         moments = sweep.sel(hurst=hurst)
-        draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), colour)
         slope, curvature = moments.rms_slope.values, moments.rms_curvature.values
         robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
-        ax.plot(fit.magnification, robbins, "--", color=colour, linewidth=0.9)
-        for case in cases:
-            own, window, magnification = case.order
-            if own == hurst:
-                x = plotting.move_aside(magnification, 2 * (index - 1))
-                marker = WIDE_MARKER if window > 1 else look["marker"]
-                draw_case(ax, case, x, [LOAD], color=colour, marker=marker)
+        ax.plot(fit.magnification, robbins, "--", color=look["color"], linewidth=0.9)
         ax.plot([], [], label=state(hurst=hurst), **look)
+        for case in cases:
+            if case.order[0] == hurst:
+                x = plotting.move_aside(case.order[2], 2 * (index - 1))
+                wide = {"marker": WIDE_MARKER} if case.order[1] > 1 else {}
+                draw_case(ax, case, x, [LOAD], **look | wide)
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
     ax.set(xlabel=plotting.MAGNIFICATION, ylabel=r"$a_V$")
     ax.set_title(state(pressure=float(sweep.pressure[0, 0])))
-    handles, _ = ax.get_legend_handles_labels()
-    kinds = [
-        make_key("theory"),
-        make_dot("BEM"),
-        make_dot("BEM, wide window", marker=WIDE_MARKER),
-        THEORY_ON_WINDOW,
-        make_key("Pastewka & Robbins", linestyle="--"),
-    ]
-    ax.legend(handles=[*handles, *kinds], loc="upper left")
+    wide = make_dot("BEM, wide window", marker=WIDE_MARKER)
+    kinds = [make_key("theory"), make_dot("BEM"), wide, THEORY_ON_WINDOW]
+    kinds.append(make_key("Pastewka & Robbins", linestyle="--"))
+    plotting.add_legend(ax, *kinds, loc="upper left")
 
 
 def draw_intervals(ax, x, a_v, colour):
@@ -149,35 +138,31 @@ def draw_intervals(ax, x, a_v, colour):
     draw_theory(ax, x, a_v.isel(window=0), colour)
 
 
-def draw_case(ax, case, x, pressures, **look):
+def draw_case(ax, case, x, pressures, label=None, **look):
     """a_V of a case at some pressures, with theory on its spectrum."""
-    fit, lattice = (
-        data.isel(window=0).sel(pressure=pressures, method="nearest")
-        for data in (case.fit, case.lattice)
-    )
+    at = {"pressure": pressures, "method": "nearest"}
+    fit, lattice = (data.isel(window=0).sel(**at) for data in (case.fit, case.lattice))
     x = np.broadcast_to(x, fit.pressure.shape)
     plotting.draw_hollow(ax, x, lattice.a_v.sel(variant=VARIANT), **look)
-    plotting.draw_points(ax, x, fit, "a_v_mean", **look)
+    plotting.draw_points(ax, x, fit, "a_v_mean", **look, label=label)
 
 
 def draw_a_v_of_pressure(ax, sweep, fit, cases):
-    """a_V against pressure."""
     hurst = float(sweep.hurst[0])
     sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     draw_intervals(ax, sweep.pressure, fit.a_v.isel(hurst=0, magnification=0), GREY)
     for index, case in enumerate(cases):
         pressures = case.fit.pressure.values
         x = plotting.move_aside(pressures, index - 1)
-        draw_case(ax, case, x, pressures, **pick_look(index))
+        draw_case(ax, case, x, pressures, case.label, **pick_look(index))
     ax.set(xscale="log", yscale="log", ylim=(0.8, 25), xlabel=plotting.PRESSURE, ylabel=r"$a_V$")
     plotting.write_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
     ax.set_title(state(hurst=hurst))
     theory = make_key(f"theory, {state(magnification=float(sweep.magnification))}")
-    ax.legend(handles=[theory, *make_case_keys(cases), THEORY_ON_WINDOW], loc="upper right")
+    plotting.add_legend(ax, theory, THEORY_ON_WINDOW, loc="upper right")
 
 
 def draw_exponents(ax, fit, cases):
-    """Local exponent of the attractive area against the range."""
     hurst, exponents = float(fit.hurst[0]), fit.exponent.isel(hurst=0, load=0)
     for colour, magnification in plotting.shade(fit.magnification.values):
         curve = exponents.sel(magnification=magnification)
@@ -185,7 +170,7 @@ def draw_exponents(ax, fit, cases):
     for index, case in enumerate(cases):
         exponent = case.fit.exponent.sel(pressure=LOAD, method="nearest")
         exponent = exponent.isel(range=slice(None, None, 2))
-        look = pick_look(index, linestyle="none", markersize=3)
+        look = pick_look(index, linestyle="none", markersize=3, label=case.label)
         ax.plot(exponent["range"], exponent, **look)
     for x, level, text, side in (
         (9, EXPONENT, "2/3: edges", "right"),
@@ -195,7 +180,7 @@ def draw_exponents(ax, fit, cases):
         ax.text(x, level + 0.015, text, ha=side, fontsize=8)
     ax.set(xscale="log", xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=plotting.RANGE)
     ax.set_ylabel(r"$\mathrm{d}\,\ln A_\mathrm{ad}\,/\,\mathrm{d}\,\ln\epsilon$")
-    ax.legend(handles=make_case_keys(cases), loc="upper left", title="BEM")
+    ax.legend(loc="upper left", title="BEM")
     ax.set_title(f"{state(hurst=hurst, pressure=LOAD)}, theory as in A")
 
 

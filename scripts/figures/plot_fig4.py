@@ -3,81 +3,77 @@
 import xarray as xr
 
 from common import plotting
-from common.plotting import BLACK, GREY, MARKERS, RED, make_dot, make_key, state
+from common.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state
 from stickiness import criteria, datasets
 
 PAPER_A_V = 2.8
 THRESHOLD = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
 PROPORTIONAL_UP_TO = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
-LOOP_COLOURS = (plotting.BLUE, RED, plotting.GREEN, plotting.ORANGE)
 SMALL = 3  # size of open markers
 
 
 def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
-    pressure = job.params.pressure
-    surfaces = [read_at(paths, pressure) for paths in (job.input.rough, [job.input.smooth])]
+    at = {"pressure": job.params.pressure, "method": "nearest"}
+    surfaces = [read_ranges(paths).sel(**at) for paths in (job.input.rough, [job.input.smooth])]
     # In the fit interval that is quoted.
     fits = (datasets.read(path, ["a_v_mean"]).isel(window=0) for path in job.input.a_v)
-    a_v = [float(fit.a_v_mean.sel(pressure=pressure, method="nearest")) for fit in fits]
+    a_v = [float(fit.a_v_mean.sel(**at)) for fit in fits]
     with plotting.open_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
         draw_loops(panels["A"], loop.isel(resolution=-1))
         draw_lengths(panels["B"], surfaces, a_v)
         draw_ranges(panels["C"], surfaces, a_v)
 
 
-def read_at(paths, pressure):
-    """Averages of one surface at a pressure, its ranges from one file or several."""
+def read_ranges(paths):
+    """Averages of one surface, its ranges from one file or several."""
     parts = [datasets.read(path, ["inverse_kappa_ad", "q0_h_rms"]) for path in paths]
     data = xr.concat(parts, "range_over_h_rms", data_vars="minimal", join="exact")
-    data = data.sortby("range_over_h_rms")
-    return data.sel(pressure=pressure, method="nearest")
+    return data.sortby("range_over_h_rms")
 
 
 def draw_loops(ax, loop):
     """Repulsive area on approach and separation, at given mean gap and under a press."""
     lengths = loop.adhesion_length_over_range.values
-    for length, colour in zip(lengths, LOOP_COLOURS, strict=False):
+    for length, colour in zip(lengths, COLOURS, strict=False):
         curves = loop.sel(adhesion_length_over_range=length)
         gap, press = curves.sel(control="mean_gap"), curves.sel(control="pressure")
         turn = int(press.separating.sum("state") and press.separating.argmax("state"))
-        for leg, line, width in (
-            (gap, "-", 0.6),
-            (press.isel(state=slice(None, turn)), "-", 1.2),
-            (press.isel(state=slice(turn - 1, None)), "--", 1.2),
+        loading, unloading = slice(None, turn), slice(turn - 1, None)
+        for leg, line, look in (
+            (gap, "-", {"linewidth": 0.6}),
+            (press.isel(state=loading), "-", {"label": f"{length:g}"}),
+            (press.isel(state=unloading), "--", {}),
+            (press.dropna("state").isel(state=-1), "o", {}),
         ):
-            area = leg.repulsive_area_fraction
-            ax.plot(leg.mean_pressure, area, line, color=colour, linewidth=width)
-        last = press.dropna("state").isel(state=-1)
-        ax.plot(last.mean_pressure, last.repulsive_area_fraction, "o", color=colour)
-        ax.plot([], [], color=colour, label=f"{length:g}")
+            ax.plot(leg.mean_pressure, leg.repulsive_area_fraction, line, color=colour, **look)
     ax.axvline(0, color=GREY, linewidth=0.7)
     made = datasets.parameters(loop)
     ax.set_xlabel(r"mean pressure $p_\mathrm{ext}/(E^*q_0h_\mathrm{rms})$")
     ax.set_ylabel(plotting.CONTACT_AREA)
     ax.locator_params(axis="x", nbins=5)
     ax.set_title(state(magnification=made["magnification"], range=made["range_over_h_rms"]))
-    kinds = [
-        make_key("loading"),
-        make_key("unloading", linestyle="--"),
-        make_key("at given gap", linewidth=0.6),
-        make_dot("pull-off"),
-    ]
+    kinds = [make_key("loading"), make_key("unloading", linestyle="--")]
+    kinds += [make_key("at given gap", linewidth=0.6), make_dot("pull-off")]
     ax.add_artist(ax.legend(handles=kinds, loc="lower right"))
     ax.legend(title=r"$l_a/\epsilon$", loc="upper left")
 
 
 def draw_lengths(ax, surfaces, a_v):
     """1/kappa_ad by slopes and directly, beside the formula with either a_V."""
+    keys = []
     for marker, data, measured in zip(MARKERS, surfaces, a_v, strict=False):
+        made = datasets.parameters(data)
+        height = made["h_rms"].replace("um", "µm")
+        label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
+        keys.append(make_dot(label, color=BLACK, marker=marker))
         lengths = data.adhesion_length_over_range.values
         for colour, range_ in plotting.shade(data.range_over_h_rms.values):
             here = data.sel(range_over_h_rms=range_)
             for value, line in ((PAPER_A_V, "-"), (measured, "--")):
                 formula = by_formula(data, lengths, range_, value)
                 ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
-            look = {"color": colour, "marker": marker}
-            direct = here.inverse_kappa_ad_direct
+            look, direct = {"color": colour, "marker": marker}, here.inverse_kappa_ad_direct
             plotting.draw_hollow(ax, lengths, direct, **look, markersize=SMALL)
             draw_slopes(ax, lengths, here, "inverse_kappa_ad_fit", **look)
             chosen = here.inverse_kappa_ad.where(here.model == "dmt")
@@ -91,7 +87,15 @@ def draw_lengths(ax, surfaces, a_v):
     families = [make_key(f"{range_:g}", color=colour) for colour, range_ in ranges]
     place = {"loc": "upper left", "bbox_to_anchor": (0, 0.95), "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(handles=families, title=r"$\epsilon/h_\mathrm{rms}$", **place))
-    ax.legend(handles=make_keys(surfaces), loc="lower right")
+    small = {"markersize": SMALL, "color": BLACK}
+    keys += [
+        make_dot("by fitted slopes", **small),
+        make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
+        make_dot("DMT limit chosen", marker="x", color=RED),
+        make_key(f"formula, {state(a_v=PAPER_A_V)}"),
+        make_key("formula, $a_V$ measured", linestyle="--"),
+    ]
+    ax.legend(handles=keys, loc="lower right")
 
 
 def by_formula(data, lengths, range_, a_v):
@@ -104,25 +108,6 @@ def draw_slopes(ax, x, data, name, scale=1.0, **look):
     _, total = plotting.read_errors(data, name)
     data = data[[name, f"{name}_error"]].where(total < data[name])
     plotting.draw_points(ax, x, data, name, scale, **look)
-
-
-def make_keys(surfaces):
-    """Handles of the surfaces by their markers, and of the kinds of points and lines."""
-    keys = []
-    for marker, data in zip(MARKERS, surfaces, strict=False):
-        made = datasets.parameters(data)
-        height = made["h_rms"].replace("um", "µm")
-        label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
-        keys.append(make_dot(label, color=BLACK, marker=marker))
-    small = {"markersize": SMALL, "color": BLACK}
-    return [
-        *keys,
-        make_dot("by fitted slopes", **small),
-        make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
-        make_dot("DMT limit chosen", marker="x", color=RED),
-        make_key(f"formula, {state(a_v=PAPER_A_V)}"),
-        make_key("formula, $a_V$ measured", linestyle="--"),
-    ]
 
 
 def draw_ranges(ax, surfaces, a_v):

@@ -1,7 +1,7 @@
 """Figure 5: largest roughness that sticks, and the slope of the area-load line."""
 
 from common import plotting
-from common.plotting import BLACK, COLOURS, GREY, RED, interpolate, make_dot, make_key, state
+from common.plotting import BLACK, COLOURS, GREY, RED, interpolate, state
 from stickiness import datasets
 
 LENGTH = "adhesion_length_over_range"
@@ -9,13 +9,13 @@ LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]
 EMPHASISED = 0.05  # l_a/range of a crystal on itself
 CLAIMED = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
 EDGES = "h_rms_limit_edges"
-LOOKS = {
-    EDGES: {"color": RED, "linewidth": 2},
-    "h_rms_limit": {"color": BLACK, "linewidth": 1.0},
-    "h_rms_limit_constant": {"color": RED, "linewidth": 1.2, "linestyle": "-."},
-    "h_rms_limit_printed": {"color": RED, "linewidth": 1.2, "linestyle": "--"},
-    "jtb_limit": {"color": BLACK, "linewidth": 1.0, "linestyle": "-."},
-    "weak_limit": {"color": BLACK, "linewidth": 1.2, "linestyle": ":"},
+LOOKS = {  # line, colour, width and label
+    EDGES: ("-", RED, 2, f"edges, {state(adhesion_length=EMPHASISED)}, with error"),
+    "h_rms_limit": ("-", BLACK, 1.0, "DMT limit, $a_V$ as tabulated"),
+    "h_rms_limit_constant": ("-.", RED, 1.2, "DMT limit, constant $a_V$ = {a_v:.1f}"),
+    "h_rms_limit_printed": ("--", RED, 1.2, "DMT limit, 9/4 as printed"),
+    "jtb_limit": ("-.", BLACK, 1.0, "JTB: DMT valid above"),
+    "weak_limit": (":", BLACK, 1.2, "edges weak above, stronger below"),
 }
 ROUGHNESS = r"roughness $h_\mathrm{rms}/\epsilon$"
 
@@ -34,23 +34,16 @@ def draw_limits(ax, data):
         ax.plot(x, interpolate(data[EDGES], LENGTH, length), color=colour, label=f"{length:g}")
     ends = (interpolate(data[f"{EDGES}_{end}"], LENGTH, EMPHASISED) for end in ("low", "high"))
     plotting.draw_band(ax, x, *ends, RED, alpha=0.25)
-    for name, look in LOOKS.items():
-        ax.plot(x, interpolate(data[name], LENGTH, EMPHASISED), **look)
-    ax.plot(CLAIMED.keys(), CLAIMED.values(), "o", color=RED, mfc="white", zorder=5)
+    ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
+    drawn = []
+    for name, (line, colour, width, text) in LOOKS.items():
+        look = {"color": colour, "linewidth": width, "label": text.format(a_v=float(data.a_v))}
+        drawn += ax.plot(x, interpolate(data[name], LENGTH, EMPHASISED), line, **look)
+    look = {"color": RED, "mfc": "white", "zorder": 5, "label": "the paper's numbers"}
+    drawn[4:4] = ax.plot(CLAIMED.keys(), CLAIMED.values(), "o", **look)
+    ax.legend(handles=drawn, loc="upper right")
     ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
     ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=f"largest sticky {ROUGHNESS}")
-    ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
-    texts = {
-        EDGES: f"edges, {state(adhesion_length=EMPHASISED)}, with error",
-        "h_rms_limit": "DMT limit, $a_V$ as tabulated",
-        "h_rms_limit_constant": f"DMT limit, constant $a_V$ = {float(data.a_v):.1f}",
-        "h_rms_limit_printed": "DMT limit, 9/4 as printed",
-        "jtb_limit": "JTB: DMT valid above",
-        "weak_limit": "edges weak above, stronger below",
-    }
-    keys = [make_key(text, **LOOKS[name]) for name, text in texts.items()]
-    keys.insert(4, make_dot("the paper's numbers", color=RED, mfc="white"))
-    ax.legend(handles=keys, loc="upper right")
 
 
 def draw_angles(ax, data):

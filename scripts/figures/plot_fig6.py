@@ -15,9 +15,9 @@ WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 def main(job):
     surfaces = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
     # The lines of constant C0 are surfaces, too, but drawn without ends.
-    surfaces = [surface for surface in surfaces if not name_surface(surface).startswith("C0 =")]
-    shape = {"sharex": True, "height_ratios": [1.25, 1]}
-    with plotting.open_figure(job.output, "A;B", 7.2, **shape) as panels:
+    surfaces = [s for s in surfaces if not datasets.parameters(s)["label"].startswith("C0 =")]
+    ratios = [1.25, 1]
+    with plotting.open_figure(job.output, "A;B", 7.2, sharex=True, height_ratios=ratios) as panels:
         draw_spectra(panels["A"], surfaces, 0)
         draw_spectra(panels["B"], surfaces, EXPONENT)
         panels["A"].set_ylabel(r"power spectral density $C(q)$ [m$^4$]")
@@ -27,21 +27,12 @@ def main(job):
         panels["B"].set_xlabel(r"wave number $q$ [1/m]")
 
 
-def name_surface(surface):
-    return datasets.parameters(surface)["label"]
-
-
 def draw_spectra(ax, surfaces, power):
     """All spectra times q to a power, so that the lines are steep (0) or level (2 H + 2)."""
-    draw_lines(ax, power)
     for index, surface in enumerate(surfaces):
         draw = draw_measured if "psd_fit" in surface else draw_parametric
         draw(ax, surface, power, COLOURS[index % len(COLOURS)])
     ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
-
-
-def draw_lines(ax, power):
-    """Lines of constant C0 with their names."""
     q = np.array(WAVE_NUMBERS)
     grey = {"color": GREY, "fontsize": 8}
     for c0, text in LINES.items():
@@ -55,13 +46,13 @@ def draw_lines(ax, power):
 
 
 def draw_parametric(ax, surface, power, colour):
-    """The range between the smooth and the rough end."""
     q = surface.wave_number
     smooth, rough = (surface.psd.sel(end=end) * q**power for end in ("smooth", "rough"))
     plotting.draw_band(ax, q, smooth, rough, colour)
-    for edge in (smooth, rough):
-        ax.plot(q, edge, color=colour, linewidth=0.9)
-    ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=name_surface(surface))
+    ax.plot(q, smooth, q, rough, color=colour, linewidth=0.9)
+    ax.plot(
+        [], [], color=colour, linewidth=4, alpha=0.6, label=datasets.parameters(surface)["label"]
+    )
 
 
 def draw_measured(ax, surface, power, colour):
@@ -72,11 +63,10 @@ def draw_measured(ax, surface, power, colour):
         surface = surface.isel(wave_number=np.flatnonzero(inside))
     scale = surface.wave_number**power
     psd, error = surface.psd.isel(end=0) * scale, surface.psd_standard_error * scale
-    plotting.draw_spectrum(ax, surface.wave_number, psd, error, color=colour)
+    look = {"color": colour, "label": datasets.parameters(surface)["label"]}
+    plotting.draw_spectrum(ax, surface.wave_number, psd, error, **look)
     fit = (surface.psd_fit * scale).where(surface.fitted == 1)
     ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)
-    look = {"color": colour, "marker": "o", "linestyle": "none", "markersize": 2.5}
-    ax.plot([], [], label=name_surface(surface), **look)
 
 
 if __name__ == "__main__":

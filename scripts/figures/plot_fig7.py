@@ -13,6 +13,7 @@ ACCURACY = 0.15  # of the DMT limit, as Figure 4B asks
 LARGEST_RATIO = 4.0  # up or down, that the colours tell apart
 DARK_RATIO = 2.2  # up or down, beyond which a cell's colour asks for white text
 RATIO = r"$1/\kappa_\mathrm{ad}$, full over DMT"
+SMALL = {"ha": "center", "va": "center", "fontsize": 7}
 PLANE = "adhesion_length_over_range", "range_over_h_rms"
 
 
@@ -24,15 +25,22 @@ def main(job):
 
 
 def draw_plane(ax, data):
-    """Ratio in colour and in figures, with the conditions under which DMT is taken to hold."""
+    """Ratio in colour and in figures, bold where DMT is good enough, and where it should hold."""
     ranges, lengths = data.range_over_h_rms.values, data.adhesion_length_over_range.values
     ratio = data.dmt_ratio.transpose(*PLANE).values
     good = (error_of_dmt(data) <= ACCURACY).transpose(*PLANE).values
     norm = mpl.colors.LogNorm(1 / LARGEST_RATIO, LARGEST_RATIO)
     mesh = ax.pcolormesh(find_cells(ranges), find_cells(lengths), ratio, norm=norm, cmap="RdYlBu_r")
-    for row, length in enumerate(lengths):
-        for column, range_ in enumerate(ranges):
-            write_ratio(ax, (range_, length), ratio[row, column], good[row, column], mesh)
+    for (row, column), value in np.ndenumerate(ratio):
+        ax.text(
+            ranges[column],
+            lengths[row],
+            f"{value:.2f}" if np.isfinite(value) else "·",
+            color="white" if abs(np.log(value)) > np.log(DARK_RATIO) else BLACK,
+            weight="bold" if good[row, column] else "normal",
+            bbox={"facecolor": mesh.to_rgba(value), "linewidth": 0, "pad": 0.7},
+            **SMALL,
+        )
     ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=plotting.ADHESION_LENGTH)
     limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()}
     strength = data.zone_strength.transpose(*PLANE).values
@@ -40,29 +48,13 @@ def draw_plane(ax, data):
     contour = make_key(r"$l_ad/\epsilon^2$ = 1", color=BLACK)
     ax.legend(handles=[contour], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
-    if limits["ylim"][0] < jtb < limits["ylim"][1]:
-        ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
+    ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
     ax.set(**limits)
     bar = ax.figure.colorbar(mesh, ax=ax, label=RATIO)
     plotting.write_ticks(bar.ax.yaxis, [0.25, 0.5, 1, 2, 4])
     bar.ax.minorticks_off()
-    made, pressure = datasets.parameters(data), float(data.pressure)
-    surface = {"magnification": made["magnification"], "q0_h_rms": float(data.q0_h_rms)}
-    ax.set_title(state(**surface, pressure=pressure))
-
-
-def write_ratio(ax, place, value, good, mesh):
-    """A ratio on the colour of its cell, bold where the DMT limit is good enough."""
-    look = {"ha": "center", "va": "center", "fontsize": 7}
-    if not np.isfinite(value):
-        ax.text(*place, "·", **look)
-        return
-    if abs(np.log(value)) > np.log(DARK_RATIO):
-        look["color"] = "white"
-    if good:
-        look["weight"] = "bold"
-    ground = {"facecolor": mesh.to_rgba(value), "linewidth": 0, "pad": 0.7}
-    ax.text(*place, f"{value:.2f}", bbox=ground, **look)
+    zeta = datasets.parameters(data)["magnification"]
+    ax.set_title(state(magnification=zeta, q0_h_rms=data.q0_h_rms, pressure=data.pressure))
 
 
 def error_of_dmt(data):

@@ -37,12 +37,13 @@ SMALL = {"va": "center", "fontsize": 7}
 
 
 def main(job):
-    cases = [datasets.read(path, ["window_holds"]) for path in job.input.comparisons]
-    cases.sort(key=read_surface)
+    files = (datasets.read(path, ["window_holds"]) for path in job.input.comparisons)
+    cases = sorted((file.interp({"range": RANGE}) for file in files), key=read_surface)
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
     rows, heights = "AABBCC;DDDEEE;FFFFFF", [0.3 * len(cases) + 0.6, 2.2, 2.2]
-    height = sum(heights) + 0.9
-    with plotting.open_figure(job.output, rows, height, height_ratios=heights) as panels:
+    with plotting.open_figure(
+        job.output, rows, sum(heights) + 0.9, height_ratios=heights
+    ) as panels:
         for letter, name in zip("ABC", TITLES, strict=True):
             draw_ratios(panels[letter], name, cases)
         labels = [
@@ -56,7 +57,12 @@ def main(job):
         draw_theories(panels["D"], cases)
         draw_gamma(panels["E"], gamma)
         draw_windows(panels["F"], cases)
-        keys = make_load_keys(cases)
+        keys = []
+        for load, (colour, marker) in LOADS.items():
+            near = [float(find_nearest(case, load).pressure) for case in cases]
+            text = rf"$\hat{{p}}$ = {interval(min(near), max(near), 2)}"
+            keys.append(make_dot(text, color=colour, marker=marker))
+        keys.append(make_dot("cell too small for the load", mfc="white"))
         panels["A"].figure.legend(handles=keys, loc="outside upper center", ncols=len(keys))
 
 
@@ -67,27 +73,15 @@ def read_surface(case):
 
 
 def find_nearest(case, load):
-    """Place of the load that is nearest on a log axis."""
-    return int(np.argmin(np.abs(np.log(case.pressure.values / load))))
-
-
-def make_load_keys(cases):
-    """Handles of the loads, each with the range of its cases' nearest ones."""
-    keys = []
-    for load, (colour, marker) in LOADS.items():
-        near = [float(case.pressure[find_nearest(case, load)]) for case in cases]
-        text = rf"$\hat{{p}}$ = {interval(min(near), max(near), 2)}"
-        keys.append(make_dot(text, color=colour, marker=marker))
-    return [*keys, make_dot("cell too small for the load", mfc="white")]
+    """The case at the load that is nearest on a log axis."""
+    return case.isel(pressure=int(np.argmin(np.abs(np.log(case.pressure.values / load)))))
 
 
 def draw_ratios(ax, name, cases):
     """Theory over simulation: a row for every case, a point for every load, open as in the key."""
     for row, case in enumerate(cases):
-        at = case.sel(variant=VARIANT)
-        at = at.interp({"range": RANGE}) if name == "attractive_area" else at
         for place, (load, (colour, marker)) in enumerate(LOADS.items()):
-            one, height = at.isel(pressure=find_nearest(case, load)), row + 0.25 * (place - 1)
+            one, height = find_nearest(case, load).sel(variant=VARIANT), row + 0.25 * (place - 1)
             ratio = 1 + float(one[f"{name}_difference"])
             error = float(np.nan_to_num(one[f"{name}_difference_total_error"]))
             ax.errorbar(ratio, height, xerr=error, color=colour, elinewidth=0.8, alpha=0.6)
@@ -133,7 +127,6 @@ def root_mean_square(name, theory, cases):
             known = (error < KNOWN_TO * (1 + difference)) & (one.gap < LARGEST_GAP)
             found.append(difference.where(known).values)
             continue
-        at = at.interp({"range": RANGE}) if name == "attractive_area" else at
         found.append(at[f"{name}_difference"].values[case.window_holds.values == 1])
     return 100 * np.sqrt(np.nanmean(np.concatenate(found) ** 2))
 
@@ -163,7 +156,7 @@ def draw_gamma(ax, gamma):
 def draw_windows(ax, cases):
     """Attractive area, simulation over theory, against what of the highest summit is in reach."""
     for case in cases:
-        at = case.sel(variant=VARIANT).interp({"range": RANGE})
+        at = case.sel(variant=VARIANT)
         over = 1 / (1 + at.attractive_area_difference)
         error = np.nan_to_num(over**2 * at.attractive_area_difference_total_error)
         below = at.highest_summit - at.theory_mean_gap
@@ -173,16 +166,13 @@ def draw_windows(ax, cases):
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
     margin = float(cases[0].margin)
     ax.axvline(margin, color=GREY, linestyle=":")
-    ax.set(yscale="log", xlim=(-0.8, 3.2))
     ax.text(margin, 0.93, "too few summits ", ha="right", transform=ax.get_xaxis_transform())
+    label = f"simulation/theory, {SYMBOLS['attractive_area']}"
+    ax.set(yscale="log", xlim=(-0.8, 3.2), ylabel=label)
     plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
-    ax.set_ylabel(f"simulation/theory, {SYMBOLS['attractive_area']}")
-    keys = [
-        make_dot("cell of one longest wave", color=RED),
-        make_dot("of several", color=BLUE, marker="s"),
-    ]
-    ax.legend(handles=keys, loc="upper right")
+    several = make_dot("of several", color=BLUE, marker="s")
+    ax.legend(handles=[make_dot("cell of one longest wave", color=RED), several])
 
 
 if __name__ == "__main__":

@@ -4,11 +4,9 @@ import numpy as np
 
 from common import plotting
 from common.formatting import number
+from common.plotting import GREY, RED, make_key
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, REMAINING
-
-LENGTH_LABEL = r"adhesion length at the threshold $l_a/\epsilon$"
-LIMITS = 1e-4, 1e4
 
 
 def main(job):
@@ -23,8 +21,6 @@ def main(job):
         panels["A"].set_xlabel(r"roughness $h_\mathrm{rms}/\epsilon$")
         panels["B"].set_xlabel(r"magnification $\zeta = q_1/q_0$")
         draw_surfaces(panels["C"], verdicts)
-        keys = list(make_keys(select_criteria(verdicts.threshold_by_criterion)))
-        panels["C"].legend(handles=keys, loc="upper left", ncols=2, handlelength=2.6)
 
 
 def draw_thresholds(ax, thresholds, made, held):
@@ -32,11 +28,12 @@ def draw_thresholds(ax, thresholds, made, held):
     (along,) = set(thresholds.dims) - {"criterion"}
     x = thresholds[along].values
     low, high = (thresholds.sel(criterion=f"{REMAINING}_{end}") for end in ("low", "high"))
-    plotting.draw_band(ax, x, low, high, plotting.RED, alpha=0.2)
+    plotting.draw_band(ax, x, low, high, RED, alpha=0.2)
     for criterion in select_criteria(thresholds):
         ax.plot(x, thresholds.sel(criterion=criterion.name), **look_of(criterion))
-    ax.set(xscale="log", yscale="log", ylim=LIMITS, ylabel=LENGTH_LABEL)
-    ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=plotting.GREY)
+    label = r"adhesion length at the threshold $l_a/\epsilon$"
+    ax.set(xscale="log", yscale="log", ylim=(1e-4, 1e4), ylabel=label)
+    ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=GREY)
     both = rf"$H$ = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
     ax.text(0.97, 0.04, f"{both}\n{held}", transform=ax.transAxes, ha="right")
 
@@ -45,17 +42,6 @@ def select_criteria(thresholds):
     """Criteria with a line: those that know an adhesion length."""
     names = set(map(str, thresholds.criterion.values))
     return [c for c in CRITERIA.values() if c.has_length and c.name in names]
-
-
-def make_keys(criteria):
-    """Legend handles: the lines of A and B with the points of C; the verdict's has no points."""
-    others = [criterion for criterion in criteria if criterion.name != REMAINING]
-    for criterion in criteria:
-        look = look_of(criterion)
-        if criterion in others:
-            face = look["color"] if criterion.line.filled else "white"
-            look |= {"marker": plotting.pick_look(others.index(criterion))["marker"], "mfc": face}
-        yield plotting.make_key(**look)
 
 
 def look_of(criterion):
@@ -71,18 +57,21 @@ def draw_surfaces(ax, verdicts):
     ratio = np.log10(by / by.sel(criterion=REMAINING))
     others = [criterion for criterion in select_criteria(by) if criterion.name != REMAINING]
     places = np.arange(by.sizes["surface"])
+    keys = [make_key(**look_of(CRITERIA[REMAINING]))]
     for index, criterion in enumerate(others):
         found = ratio.sel(criterion=criterion.name)
         middle = 10 ** found.mean(("material", "end"))
         low, high = (10 ** end(("material", "end")) for end in (found.min, found.max))
         x = places + 0.09 * (index - (len(others) - 1) / 2)
-        colour, marker = look_of(criterion)["color"], plotting.pick_look(index)["marker"]
-        ax.vlines(x, low, high, color=colour, linewidth=1.2)
-        face = colour if criterion.line.filled else "white"
-        ax.plot(x, middle, marker, color=colour, markerfacecolor=face, markersize=4.5)
-    ax.axhline(1, color=plotting.RED, linewidth=2)
+        look, marker = look_of(criterion), plotting.pick_look(index)["marker"]
+        mark = {"marker": marker, "mfc": look["color"] if criterion.line.filled else "white"}
+        ax.vlines(x, low, high, color=look["color"], linewidth=1.2)
+        ax.plot(x, middle, color=look["color"], linestyle="none", markersize=4.5, **mark)
+        keys.append(make_key(**look, **mark))
+    ax.axhline(1, color=RED, linewidth=2)
     ax.set_xticks(places, [name.replace("_", "\n") for name in by.surface.values])
     ax.set(yscale="log", ylim=(1e-5, 3e8), ylabel="threshold of E* over that of the verdict")
+    ax.legend(handles=keys, loc="upper left", ncols=2, handlelength=2.6)
 
 
 if __name__ == "__main__":

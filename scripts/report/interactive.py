@@ -1,14 +1,32 @@
 """Interactive figures in a page of one file that needs no network: Bokeh, written into the page."""
 
 import numpy as np
+import pandas as pd
 from bokeh.embed import components
-from bokeh.models import ColumnDataSource, HoverTool, Legend, Span
+from bokeh.layouts import column, row
+from bokeh.models import (
+    ColorBar,
+    ColumnDataSource,
+    CustomJS,
+    DataRange1d,
+    Div,
+    HoverTool,
+    Legend,
+    LinearColorMapper,
+    Slider,
+    Span,
+    TabPanel,
+    Tabs,
+)
 from bokeh.plotting import figure
 from bokeh.resources import Resources
 from markupsafe import Markup
 
-from common.plotting import BLUE, GREEN, ORANGE, RED
+from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sides_of
+from common.formatting import unit_for
+from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from common.verdicts import find_limits
+from report.surface_figures import DASHES, LABELS, REMAINS, SHOWN
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = (  # of the verdicts, in the order of their codes
@@ -19,14 +37,25 @@ LOOKS = (  # of the verdicts, in the order of their codes
     ("square", BLUE),
 )
 LEAST_RATIO, MOST_RATIO = 1e-6, 1e3  # w/U_full; pairs beyond stand at the edges
-TOLD = [
+TOLD_OF_PAIR = [
     ("", "@material on @surface"),
     ("verdict", "@word"),
     ("remains", "@remaining"),
-    ("work over energy", "@energy_ratio"),
     ("pull-off [kPa]", "@pull_off"),
     ("E* threshold [MPa]", "@threshold; the material: @modulus"),
 ]
+POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
+LEGEND_ROW = 17  # px
+# One column below the figure: long names fit a phone.
+LEGEND = {"location": "left", "label_text_font_size": "12px", "border_line_color": None}
+LEGEND |= {"glyph_height": LEGEND_ROW - 2, "label_height": LEGEND_ROW - 2}
+LEGEND |= {"spacing": 2, "padding": 2}
+FIRST_LOAD = 4  # that the slider shows at first
+SHOW_LOAD = """
+const k = slider.value;
+shown.data = {code: [stored[k]]};
+text.text = texts[k];
+"""
 
 
 def library():
@@ -69,7 +98,7 @@ def draw_pairs(verdicts, pairs):
         x_range=(LEAST_RATIO / 1.5, MOST_RATIO * 1.5),
         y_range=(-3, 103),
         x_axis_label="work of adhesion over energy of full contact",
-        y_axis_label="remaining share [%]",
+        y_axis_label=REMAINS,
     )
     draw_wanted_share(plot)
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
@@ -78,33 +107,119 @@ def draw_pairs(verdicts, pairs):
     line = plot.line(ratios, 100 * rough.share(ratios, SHORT_RANGE), **model)
     items = [("the model, short range", [line])]
     for code, (marker, colour) in enumerate(LOOKS):
-        rows = [row for row in pairs if row["code"] == code]
-        if not rows:
+        ends = [end for pair in pairs if pair["code"] == code for end in locate(verdicts, pair)]
+        if not ends:
             continue
-        ends = [locate(verdicts.sel(material=row["key"], surface=row["name"])) for row in rows]
-        points = [
-            end | {name: row[name] for name in ("material", "surface", "word")} | row["text"]
-            for row, pair in zip(rows, ends, strict=True)
-            for end in pair
-        ]
-        source = ColumnDataSource({name: [point[name] for point in points] for name in points[0]})
+        points = pd.DataFrame(ends)
+        source = ColumnDataSource(points.to_dict("list"))
         look = {"line_color": colour, "line_alpha": 0.6}
-        joined = plot.multi_line(
-            *([[end[name] for end in pair] for pair in ends] for name in ("ratio", "share")), **look
-        )
+        pairwise = (points[name].values.reshape(-1, 2).tolist() for name in ("ratio", "share"))
+        joined = plot.multi_line(*pairwise, **look)
         bars = plot.segment("ratio", "low", "ratio", "high", source=source, **look)
         look = {"marker": marker, "size": 9, "color": colour, "fill_alpha": 0.8}
         marks = plot.scatter("ratio", "share", source=source, **look)
-        plot.add_tools(HoverTool(renderers=[marks], tooltips=TOLD, visible=False))
-        items.append((rows[0]["word"], [marks, bars, joined]))
+        plot.add_tools(HoverTool(renderers=[marks], tooltips=TOLD_OF_PAIR, visible=False))
+        items.append((ends[0]["word"], [marks, bars, joined]))
     plot.add_layout(Legend(items=items, click_policy="hide", location="top_left"))
     return plot
 
 
-def locate(pair):
-    """Ends of what is known, the less share first: w/U_full, share [%] and its bar."""
+def locate(verdicts, row):
+    """Ends of what is known of a pair, the less share first: w/U_full, share [%] and its bar."""
+    pair = verdicts.sel(material=row["key"], surface=row["name"])
+    told = {name: row[name] for name in ("material", "surface", "word")} | row["text"]
     ratios = np.clip(pair.energy_ratio.values, LEAST_RATIO, MOST_RATIO)
     ends = sorted(zip(100 * pair.remaining.values, ratios, strict=True))
-    ends = [{"ratio": ratio, "share": share, "low": share, "high": share} for share, ratio in ends]
+    ends = [told | {"ratio": x, "share": share, "low": share, "high": share} for share, x in ends]
     ends[0]["low"], ends[-1]["high"] = (100 * float(limit) for limit in find_limits(pair))
     return ends
+
+
+def draw_curves(found):
+    """Tabs with a figure of all `found` curves of a surface for each axis."""
+    panels = [
+        TabPanel(title=axis.capitalize(), child=draw_axis(axis, found[axis])) for axis in found
+    ]
+    return Tabs(tabs=panels, sizing_mode="stretch_width")
+
+
+def draw_axis(axis, curves):
+    """Curves along one axis: both ends of the surface, limits, and the pair as it is."""
+    plot = make_plot(
+        height=340 + LEGEND_ROW * len(curves),
+        x_axis_type="log",
+        x_range=DataRange1d(only_visible=True, range_padding=0.02),
+        y_range=(-2, 102),
+        x_axis_label=LABELS[axis],
+        y_axis_label=REMAINS,
+    )
+    draw_wanted_share(plot)
+    told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@rough{0.0} … @smooth{0.0}")]
+    told.append(("limits [%]", "@low{0.0} to @high{0.0}"))
+    items = []
+    for rank, (label, place, points, own) in enumerate(curves):
+        source = ColumnDataSource(points.to_dict("list"))
+        look = {"color": COLOURS[place % len(COLOURS)], "visible": rank < SHOWN}
+        band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
+        style = look | {"line_dash": DASHES[place % len(DASHES)], "line_width": 2, "name": label}
+        lines = [plot.line("x", end, source=source, **style) for end in ("rough", "smooth")]
+        plot.add_tools(HoverTool(renderers=lines, tooltips=told, visible=False))
+        marker = POINTS[place % len(POINTS)]
+        shares = [own.rough, own.smooth]
+        marks = plot.scatter([own.x] * 2, shares, marker=marker, size=10, **look)
+        items.append((label, [*lines, marks, band]))
+    plot.add_layout(Legend(items=items, click_policy="hide", **LEGEND), "below")
+    return plot
+
+
+def draw_contact(contact, pull_off, texts):
+    """Contact under a slider over the loads, each with its text, and the curve of tension."""
+    codes, widest = code_maps(contact)
+    first = min(FIRST_LOAD, len(texts) - 1)
+    shown = ColumnDataSource({"code": [codes[first]]})
+    text = Div(text=texts[first], sizing_mode="stretch_width")
+    look = {"title": "Load, from light to heavy", "show_value": False}
+    look |= {"name": "load", "sizing_mode": "stretch_width"}
+    slider = Slider(start=0, end=len(texts) - 1, value=first, **look)
+    passed = {"slider": slider, "shown": shown, "stored": list(codes), "text": text, "texts": texts}
+    slider.js_on_change("value", CustomJS(args=passed, code=SHOW_LOAD))
+    plots = [draw_map(contact, shown, widest)]
+    if not pull_off.attrs["left_out"]:
+        plots.append(draw_tension(pull_off))
+    for plot in plots:
+        plot.styles = {"flex": "1 1 20rem", "min-width": "0", "max-width": "40rem"}
+    beside = row(*plots, sizing_mode="stretch_width", styles={"flex-wrap": "wrap"})
+    return column(slider, text, beside, sizing_mode="stretch_width")
+
+
+def draw_map(contact, source, widest):
+    """Gap as a shade of grey and contact in orange, in a box with the shape of the map."""
+    (width, height), unit = sides_of(contact)
+    plot = make_plot(
+        x_range=DataRange1d(range_padding=0),  # of fixed ranges a narrow window changes the shape
+        y_range=DataRange1d(range_padding=0),
+        match_aspect=True,
+        sizing_mode="scale_width",
+        aspect_ratio=max(width / height, 0.3) * 0.86,
+        x_axis_label=f"x [{unit}]",
+        y_axis_label=f"y [{unit}]",
+    )
+    plot.grid.visible = False
+    colours = LinearColorMapper(palette=[*GAPS, RED], low=0, high=CONTACT)
+    plot.image("code", x=0, y=0, dw=width, dh=height, source=source, color_mapper=colours)
+    per_gap, unit = unit_for(widest, "m")
+    scale = LinearColorMapper(palette=GAPS, low=0, high=widest * per_gap)
+    plot.add_layout(ColorBar(color_mapper=scale, title=f"gap [{unit}]", height=12), "below")
+    return plot
+
+
+def draw_tension(pull_off):
+    """Mean tension against mean gap, on approach and separation."""
+    curves, gap, tension, limits = follow_tension(pull_off)
+    plot = make_plot(height=400, y_range=limits, x_axis_label=gap, y_axis_label=tension)
+    plot.add_layout(Span(location=0, dimension="width", line_color="#737373"))
+    for name, colour, curve in curves:
+        look = {"color": colour, "line_width": 2, "legend_label": name}
+        plot.line("gap", "tension", source=ColumnDataSource(curve), **look)
+    plot.legend.location = "bottom_right"
+    return plot

@@ -5,7 +5,7 @@ import re
 import struct
 from pathlib import Path
 
-from docutils.core import publish_doctree, publish_parts
+from docutils.core import publish_parts
 from docutils.writers.html5_polyglot import Writer
 from markupsafe import Markup
 
@@ -30,12 +30,11 @@ def embed_png(path):
 
 def embed_figure(path, caption):
     """A PNG with its caption, a file in reStructuredText, as HTML; its first sentence as `alt`."""
-    text = Path(caption).read_text(encoding="utf-8")
-    words = " ".join(publish_doctree(text, settings_overrides=RST).astext().split())
+    shown = convert_rst(Path(caption).read_text(encoding="utf-8"))
     return embed_png(path) | {
         "title": f"Figure {Path(path).stem.removeprefix('fig')}",
-        "caption": convert_rst(text),
-        "alt": re.split(r"(?<=[\w)%]{2}\.)\s(?=[A-Z])", words, maxsplit=1)[0],
+        "caption": shown,
+        "alt": re.split(r"(?<=[\w)%]{2}\.)\s(?=[A-Z])", shown.striptags(), maxsplit=1)[0],
     }
 
 

@@ -4,44 +4,27 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
-from bokeh.models import ColumnDataSource, DataRange1d, HoverTool, Legend, Tabs
-from bokeh.models.layouts import TabPanel
 
 from common import plotting
-from common.formatting import number, quantity, unit_for
+from common.formatting import unit_for
 from common.plotting import BLACK, COLOURS, GREY, MARKERS
-from common.verdicts import MPA, round_share, show_shares, show_stress
-from report.interactive import draw_wanted_share, make_plot
+from common.verdicts import MPA
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 
 HURST = 0.8  # of the paper's lines
-LINES = (1e-3, 1e-5)  # C0 of these [m^0.4]
-
+LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
 SHOWN = 3  # materials at first, and in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
-PRINTED_DASHES = ("-", "--", ":")
-POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
-TABS = {"modulus": "Modulus", "roughness": "Roughness", "rate": "Rate"}
 LABELS = {
     "modulus": "plane-strain modulus E* [MPa]",
     "roughness": "factor on the heights",
     "rate": "frequency [Hz]",
 }
 REMAINS = "remaining share [%]"
-LEGEND_ROW = 17  # px
-LEGEND = {  # one column below the figure: long names fit a phone
-    "location": "left",
-    "label_text_font_size": "12px",
-    "glyph_height": LEGEND_ROW - 2,
-    "label_height": LEGEND_ROW - 2,
-    "spacing": 2,
-    "padding": 2,
-    "border_line_color": None,
-}
 
 
 def draw_surface(surface, output):
@@ -80,10 +63,9 @@ def draw_spectrum(ax, surface):
     else:
         plotting.draw_band(ax, q, low, high, COLOURS[0])
         ax.plot(q, low, q, high, color=COLOURS[0], linewidth=0.9)
-    for c0 in LINES:
-        ax.plot(q, c0 * q ** (-2 * (HURST + 1)), "--", color=GREY, linewidth=0.8)
-    text = " and ".join(f"$10^{{{np.log10(c0):.0f}}}$" for c0 in LINES)
-    ax.plot([], [], "--", color=GREY, linewidth=0.8, label=rf"$C_0$ = {text} m$^{{0.4}}$")
+    for c0, label in LINES.items():
+        line = c0 * q ** (-2 * (HURST + 1))
+        ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
     ax.set_ylim(bottom=low.min() / 1e3)  # room for the legend
     ax.legend(loc="lower left")
@@ -109,9 +91,9 @@ def draw_measured(ax, surface, q, low, high):
     text += ", roll-off" if "q_rolloff" in surface else ""
     ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)
     # The instrument's cutoff and, if found, the end of the plateau.
+    text = "cutoff (found)" if int(surface.cutoff_detected) else "cutoff"
     look = {"color": COLOURS[1], "linewidth": 0.9, "linestyle": ":"}
-    ax.axvline(float(surface.q_cutoff), **look)
-    ax.plot([], [], **look, label="cutoff (found)" if int(surface.cutoff_detected) else "cutoff")
+    ax.axvline(float(surface.q_cutoff), **look, label=text)
     if "q_rolloff" in surface:
         q, error = float(surface.q_rolloff), float(surface.q_rolloff_total_error)
         ax.axvspan(max(q - error, q / 3), q + error, color=COLOURS[2], alpha=0.25, linewidth=0)
@@ -122,15 +104,15 @@ class Curve(NamedTuple):
 
     label: str
     place: int  # among all materials of the page, for its look
-    points: pd.DataFrame  # x, the same in words, and shares [%]: at both ends and their limits
-    pair: int  # row of the pair as it is
+    points: pd.DataFrame  # x, and shares [%]: at both ends of the surface and their limits
+    own: pd.Series  # the point of the pair as it is
 
 
 def find_curves(pairs, labels):
     """Curves of the judged materials by axis, in the order of the `labels` by name."""
     judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
     found = {}
-    for axis in TABS:
+    for axis in LABELS:
         for place, name in enumerate(judged):
             pair = pairs.sel(material=name)
             known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())
@@ -142,77 +124,21 @@ def find_curves(pairs, labels):
 
 def follow(axis, pair):
     """Points of the curve along an axis, where it is known and says something, and the pair's."""
-    if axis == "modulus":
-        factors = pair.modulus_factor.values
-        x = float(pair.modulus_quoted) * factors / MPA
-        at = [f"E* = {show_stress(modulus * MPA, MPA)} MPa" for modulus in x]
-    elif axis == "roughness":
-        x = factors = pair.roughness_factor.values
-        heights = pair.pair_h_rms.values
-        at = [f"rms height {quantity(*(factor * heights), 'm', 2)}" for factor in factors]
-    else:
-        x = factors = pair.frequency.values  # the modulus is quoted at 1 Hz
-        moduli = [show_stress(modulus, MPA) for modulus in pair.modulus.values]
-        at = [f"{number(f, 2)} Hz, E* = {e} MPa" for f, e in zip(x, moduli, strict=True)]
-    own = int(np.argmin(abs(np.log(factors))))
     share = f"remaining_by_{axis}"
-    low, high = pair[f"{share}_low"].values, pair[f"{share}_high"].values
-    kept = np.isfinite(low)
-    if axis == "modulus":
-        telling = (low < MATTERS[0]) & (high > MATTERS[1])
-        telling[own] = True
-        kept &= (x >= x[telling].min() / ROOM) & (x <= x[telling].max() * ROOM)
+    (dim,) = pair[f"{share}_low"].dims
     shares = {end: pair[share].sel(end=end).values for end in ("rough", "smooth")}
-    percents = {n: 100 * values for n, values in (shares | {"low": low, "high": high}).items()}
-    points = pd.DataFrame({"x": x, "at": at} | percents)[kept]
-    return points.reset_index(drop=True), int(np.count_nonzero(kept[:own]))
-
-
-def draw_interactive(found):
-    """Tabs with a figure for each axis."""
-    panels = [TabPanel(title=TABS[axis], child=draw_axis(axis, found[axis])) for axis in found]
-    return Tabs(tabs=panels, sizing_mode="stretch_width")
-
-
-def draw_axis(axis, curves):
-    """Interactive figure of all curves along one axis."""
-    plot = make_plot(
-        height=340 + LEGEND_ROW * len(curves),
-        x_axis_type="log",
-        x_range=DataRange1d(only_visible=True, range_padding=0.02),
-        y_range=(-2, 102),
-        x_axis_label=LABELS[axis],
-        y_axis_label=REMAINS,
-    )
-    draw_wanted_share(plot)
-    items = [(one.label, draw_curve(plot, one, k < SHOWN)) for k, one in enumerate(curves)]
-    plot.add_layout(Legend(items=items, click_policy="hide", **LEGEND), "below")
-    return plot
-
-
-def draw_curve(plot, one, visible):
-    """Limits, both ends of the surface and the pair as it is, as renderers."""
-    points = one.points.assign(
-        label=one.label,
-        share=[show(*sorted(ends)) for ends in one.points[["rough", "smooth"]].values],
-        limits=[show(*ends, " to ") for ends in one.points[["low", "high"]].values],
-    )
-    source = ColumnDataSource(points.to_dict("list"))
-    look = {"color": COLOURS[one.place % len(COLOURS)], "visible": visible}
-    band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
-    style = look | {"line_dash": DASHES[one.place % len(DASHES)], "line_width": 2}
-    lines = [plot.line("x", end, source=source, **style) for end in ("rough", "smooth")]
-    told = [("", "@label"), ("at", "@at"), ("remains", "@share"), ("limits", "@limits")]
-    plot.add_tools(HoverTool(renderers=lines, tooltips=told, visible=False))
-    own = points.loc[one.pair]
-    marker = POINTS[one.place % len(POINTS)]
-    marks = plot.scatter([own.x] * 2, [own.rough, own.smooth], marker=marker, size=10, **look)
-    return [*lines, marks, band]
-
-
-def show(low, high, between=" … "):
-    """Two shares [%] as text."""
-    return show_shares(round_share(low / 100), round_share(high / 100), between)
+    shares |= {limit: pair[f"{share}_{limit}"].values for limit in ("low", "high")}
+    factor = pair[dim].values  # a rate of 1 Hz, at which the modulus is quoted, counts as 1
+    x = factor * float(pair.modulus_quoted) / MPA if axis == "modulus" else factor
+    points = 100 * pd.DataFrame(shares, index=x)
+    points = points.rename_axis("x").reset_index()
+    own = points.loc[np.argmin(abs(np.log(factor)))]
+    kept = points.low.notna()
+    if axis == "modulus":
+        telling = (points.low < 100 * MATTERS[0]) & (points.high > 100 * MATTERS[1])
+        reach = [own.x, *points.x[telling]]
+        kept &= points.x.between(min(reach) / ROOM, max(reach) * ROOM)
+    return points[kept], own
 
 
 def draw_still(found, output):
@@ -223,16 +149,14 @@ def draw_still(found, output):
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
             return
         for ax, (axis, curves) in zip(panels.values(), found.items(), strict=True):
-            for one in curves[:SHOWN]:
-                points, own = one.points, one.points.loc[[one.pair]]
-                look = {"color": COLOURS[one.place % len(COLOURS)]}
-                plotting.draw_band(ax, points.x, points.low, points.high, look["color"], alpha=0.15)
-                look["linestyle"] = PRINTED_DASHES[one.place % SHOWN]
-                look["marker"] = MARKERS[one.place % len(MARKERS)]
+            for label, place, points, own in curves[:SHOWN]:
+                colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
+                plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
+                look = {"color": colour, "linestyle": DASHES[place % SHOWN]}
                 for end in ("rough", "smooth"):
-                    ax.plot(points.x, points[end], **look | {"marker": ""})
-                    ax.plot(own.x, own[end], **look)
-                ax.plot([], [], **look, label=one.label)
+                    ax.plot(points.x, points[end], **look)
+                    ax.plot(own.x, own[end], marker, color=colour)
+                ax.plot([], [], **look, marker=marker, label=label)
             ax.axhline(100 * DEFAULT_SHARE, color=GREY, linewidth=0.9, linestyle="--")
             ax.set(xscale="log", ylim=(-2, 102), xlabel=LABELS[axis], ylabel=REMAINS)
         handles, texts = panels["A"].get_legend_handles_labels()

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from common import verdicts as texts
 from common.formatting import (
     NOTHING,
     amount,
@@ -11,17 +12,6 @@ from common.formatting import (
     quantity,
     quantity_with_error,
     with_error,
-)
-from common.verdicts import (
-    MOST_STRAIN,
-    MPA,
-    describe_pull_off,
-    describe_share,
-    describe_threshold,
-    find_limits,
-    round_share,
-    show_probability,
-    show_stress,
 )
 from stickiness.criteria.pair import NOT_JUDGED, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -45,36 +35,30 @@ def describe_pair(pair):
     code = int(pair.verdict)
     row = {"code": code, "word": WORDS[code], "tone": TONES[code], "stiffening": "", "strain": ""}
     if code == NOT_JUDGED:
-        return row | {
-            "code": -1,
-            "not_judged": str(pair.not_judged.item()),
-            "text": dict.fromkeys(COLUMNS, NOTHING),
-            "sort": dict.fromkeys(COLUMNS, -1.0),
-        }
+        nothing = {"text": dict.fromkeys(COLUMNS, NOTHING), "sort": dict.fromkeys(COLUMNS, -1.0)}
+        return row | nothing | {"code": -1, "not_judged": str(pair.not_judged.item())}
     if abs(pair.stiffening - 1).max() >= LEAST_EFFECT:
         row["stiffening"] = interval(*pair.stiffening.values, 2)
-    if pair.layer_strain.max() > MOST_STRAIN:
+    if pair.layer_strain.max() > texts.MOST_STRAIN:
         row["strain"] = number(pair.layer_strain.max(), 2)
     margin, onset = (pair.margin.sel(criterion=name) for name in (REMAINING, EDGES))
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
+    total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
     errors = f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
     cells = {
-        "remaining": (describe_share(pair), pair.remaining.mean()),
-        "pull_off": (describe_pull_off(pair), pair.pull_off.mean()),
-        "threshold": (describe_threshold(pair), pair.modulus_threshold.sel(end="rough")),
+        "remaining": (texts.describe_share(pair), pair.remaining.mean()),
+        "pull_off": (texts.describe_pull_off(pair), pair.pull_off.mean()),
+        "threshold": (texts.describe_threshold(pair), pair.modulus_threshold.sel(end="rough")),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
-        "margin": (interval(*find_limits(pair, "margin"), 2), np.sqrt(margin.prod("end"))),
+        "margin": (interval(*texts.find_limits(pair, "margin"), 2), np.sqrt(margin.prod("end"))),
         "onset": (interval(*onset.values, 2), onset.mean()),
-        "probability": (show_probability(pair) if drawn else NOTHING, pair.probability),
-        "errors": (
-            errors if drawn else NOTHING,
-            np.hypot(pair.error_of_spectrum, pair.error_of_model),
-        ),
-        "modulus": (show_stress(float(pair.modulus_quoted), MPA), pair.modulus_quoted),
+        "probability": (texts.show_probability(pair) if drawn else NOTHING, pair.probability),
+        "errors": (errors if drawn else NOTHING, total),
+        "modulus": (texts.show_stress(float(pair.modulus_quoted), texts.MPA), pair.modulus_quoted),
     }
     return row | {
         "not_judged": "",
-        "nothing": round_share(find_limits(pair)[1]) == 0,
+        "nothing": texts.round_share(texts.find_limits(pair)[1]) == 0,
         "text": {name: text for name, (text, _) in cells.items()},
         "sort": {name: float(value) for name, (_, value) in cells.items()},
     }
@@ -103,7 +87,7 @@ def gather_facts(pair, work_of_adhesion):
     curvature = float(rough.pair_rms_curvature)
     intervals = ("attractive_over_contact", "edge_strength", "over_dmt")
     return {name: interval(*pair[name].values, 2) for name in intervals} | {
-        "remaining": describe_share(pair),
+        "remaining": texts.describe_share(pair),
         "wanted": percent(DEFAULT_SHARE),
         "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
         "h_rms": quantity(*pair.pair_h_rms.values, "m"),
@@ -123,15 +107,15 @@ def describe_surface(surface):
     """Rms height, rms slope and C0 at H = 0.8 of a surface, rounded to what is known of them."""
     height, slope = (surface[name].values for name in ("h_rms", "rms_slope"))
     if "draw" in surface.dims:  # both ends are one standard error off; errors shown cover 90 %
-        texts = {
+        found = {
             "height": quantity_with_error(height.mean(), COVERS * np.ptp(height) / 2, "m"),
             "slope": with_error(slope.mean(), COVERS * np.ptp(slope) / 2),
         }
     else:
-        texts = {"height": quantity(*height, "m"), "slope": interval(*slope)}
+        found = {"height": quantity(*height, "m"), "slope": interval(*slope)}
     if "C0_reference" in surface:
         line = with_error(surface.C0_reference, surface.C0_reference_total_error)
     else:  # the highest line with H = 0.8 that the spectrum touches
         bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
         line = bound + interval(*surface.C0_reference_upper.values, 2)
-    return texts | {"line": line}
+    return found | {"line": line}

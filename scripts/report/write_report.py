@@ -1,11 +1,9 @@
-"""The report: one self-contained page of figures, claims, verdicts, errors and run times."""
+"""The report: one self-contained page of figures, claims, verdicts and errors."""
 
-import dataclasses
 from collections import Counter
 from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from common import experiment_outcomes as experiments
 from common import provided
@@ -16,10 +14,7 @@ from common.templates import write_page
 from report import interactive, pages
 from report.table_rows import TONES, describe_pair, describe_surface
 from stickiness import datasets, error_budget
-from stickiness.accuracy import plan
-from stickiness.accuracy.error_models import Surface, read_models
-from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
-from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
+from stickiness.accuracy.quantities import COLUMNS
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -30,12 +25,6 @@ CLAIM_TONES = {
     "not reproduced": "no",
 }
 WORD_TONES = dict(zip(WORDS[NOT_JUDGED - 1 :: -1], TONES[NOT_JUDGED - 1 :: -1], strict=True))
-COMPARED_RANGE = 0.03  # over h_rms, where attractive areas are compared: amid the fit interval
-COMPARED = {
-    "area_fraction": COLUMNS["area"].label,
-    "mean_gap": COLUMNS["mean_gap"].label,
-    "attractive_area": f"attractive area at range {COMPARED_RANGE:g}",
-}
 
 
 def main(job):
@@ -43,13 +32,13 @@ def main(job):
     claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "sources"])
     verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin", "disagrees"])
     tested = datasets.read(inputs.experiments, ["outcome", "criterion_outcome"])
-    surfaces, ensembles, comparisons, answers = (
+    surfaces, ensembles, answers = (
         {Path(path).stem: datasets.read(path) for path in inputs[kind]}
-        for kind in ("surfaces", "ensembles", "comparisons", "answers")
+        for kind in ("surfaces", "ensembles", "answers")
     )
     pairs = arrange_pairs(verdicts, surfaces)
     materials = datasets.parameters(verdicts)["materials"]
-    figures = zip(inputs.figures, inputs.captions, strict=True)
+    embed = pages.embed_figure
     write_page(
         inputs.template,
         job.output[0],
@@ -58,7 +47,7 @@ def main(job):
             kind: path if isinstance(path, str) else {Path(one).stem: one for one in path}
             for kind, path in inputs.items()
         },
-        figures=[pages.embed_figure(*figure) for figure in figures],
+        figures=list(map(embed, inputs.figures, inputs.captions)),
         figure_sources=params.figure_sources,
         criterion=datasets.read(inputs.criterion, ["a_v"]),
         claims=describe_claims(claims),
@@ -78,24 +67,13 @@ def main(job):
         every_pair=interactive.embed(interactive.draw_pairs(verdicts, pairs)),
         disagreements=find_disagreements(verdicts),
         experiments=experiments.describe(tested),
-        experiments_figure=pages.embed_figure(
-            inputs.experiments_figure, inputs.experiments_caption
-        ),
-        surfaces={
-            name: {
-                "data": surface,
-                "made": datasets.parameters(surface),
-                "sizes": describe_surface(surface),
-            }
-            for name, surface in surfaces.items()
-        },
-        budgets=list(map(describe_budget, answers.values())),
-        trade_figure=pages.embed_figure(inputs.trade_figure, inputs.trade_caption),
-        presets=describe_presets(read_models(inputs.laws), **params.presets),
-        modelled=[COLUMNS[n].label if n in COLUMNS else n.replace("_", " ") for n in MODELLED],
-        comparisons=compare_theory(comparisons.values()),
-        compared=COMPARED,
-        run_times=read_run_times(params.benchmarks),
+        experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),
+        surfaces=surfaces,
+        sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
+        answers={name: at_load(answer) for name, answer in answers.items()},
+        columns=COLUMNS,
+        dominant_source=error_budget.dominant,
+        trade_figure=embed(inputs.trade_figure, inputs.trade_caption),
         versions=list_versions([claims, verdicts, tested, *surfaces.values(), *ensembles.values()]),
         ensembles=list(map(datasets.parameters, ensembles.values())),
     )
@@ -103,35 +81,15 @@ def main(job):
 
 def describe_claims(claims):
     """Every claim with its errors, the largest first, and the files behind it."""
-    rows = []
-    for number in claims.claim.values:
-        claim = claims.sel(claim=number)
-        errors = claim.value_error.fillna(np.inf)  # one that is not known counts as the largest
-        errors = errors.where(errors > 0, drop=True).sortby(-errors)
-        texts = ("statement", "quantity", "remark")
-        rows.append(
-            {name: str(claim[name].item()) for name in texts}
-            | {
-                "number": int(number),
-                "grade": str(claim.verdict.item()),
-                "tone": CLAIM_TONES.get(claim.verdict.item(), "open"),
-                "value": float(claim.value),
-                "error": float(claim.value_total_error),
-                "errors": dict(zip(errors.source.values, errors.values, strict=True)),
-                "dominant": name_dominant(claim),
-                "claimed": float(claim.claimed),
-                "files": group_seeds(str(claim.sources.item()).split()),
-            }
-        )
+    # An error that is not known counts as the largest.
+    errors = claims.value_error.fillna(np.inf).transpose("claim", "source").to_pandas()
+    rows = claims.drop_dims("source").to_dataframe().reset_index().to_dict("records")
+    for row in rows:
+        by_source = errors.loc[row["claim"]].sort_values(ascending=False, kind="stable")
+        row["errors"] = by_source[by_source > 0].to_dict()
+        row["tone"] = CLAIM_TONES.get(row["verdict"], "open")
+        row["files"] = group_seeds(row["sources"].split())
     return rows
-
-
-def name_dominant(data):
-    """Source of the largest error of the value."""
-    source = error_budget.dominant(data, "value")
-    if source == "none":
-        return "–"
-    return source if np.isfinite(data.value_total_error) else f"{source}, not known"
 
 
 def group_seeds(paths):
@@ -173,99 +131,12 @@ def choose_mine(pairs):
 
 def find_disagreements(verdicts):
     """Number of pairs, by word, on which each criterion contradicts the verdict."""
-    words = [WORDS[int(code)] for code in verdicts.verdict.values.ravel()]
-    return [
-        {
-            "criterion": CRITERIA[name].label,
-            "counts": Counter(
-                word
-                for word, against in zip(
-                    words, verdicts.disagrees.sel(criterion=name).values.ravel(), strict=True
-                )
-                if against
-            ),
-        }
-        for name in map(str, verdicts.criterion.values)
-        if name != REMAINING
-    ]
-
-
-def describe_budget(answer):
-    """Error budget of every column of a case at the load of the paper's figures."""
-    at, made = at_load(answer), datasets.parameters(answer)
-    relative = at.value_error / at.value.where(at.value != 0)
+    words = np.array(WORDS)[verdicts.verdict.values.astype(int)]
+    others = [name for name in map(str, verdicts.criterion.values) if name != REMAINING]
     return {
-        "case": made["case"],
-        "load": float(at.pressure),
-        "accuracy": made["accuracy"],
-        "missed": "missed" in answer.attrs,
-        "rows": [
-            {
-                "quantity": COLUMNS[str(name)].label,
-                "value": float(at.value.sel(column=name)),
-                "error": float(at.value_total_error.sel(column=name)),
-                "errors": relative.sel(column=name, source=list(error_budget.SOURCES)).values,
-                "dominant": name_dominant(at.sel(column=name)),
-            }
-            for name in at.column.values
-        ],
+        CRITERIA[name].label: Counter(words[verdicts.disagrees.sel(criterion=name) == 1].tolist())
+        for name in others
     }
-
-
-def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
-    """Settings of every preset, with their predicted cost and errors."""
-    given = models, Surface.of(surface), presets["pressures"]
-    rows = []
-    for name, error in presets["accuracy"].items():
-        chosen = plan.preset(fidelities[name])
-        problems = [Problem(*given, columns_of([one]), descriptor_seeds) for one in MODELLED]
-        whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
-        rows.append(
-            {
-                "name": name,
-                "asked": error,
-                "settings": dataclasses.asdict(chosen),
-                "cost": predicted_cost(whole, chosen),
-                "errors": [worst_error(problem, chosen)[0] for problem in problems],
-            }
-        )
-    return rows
-
-
-def compare_theory(comparisons):
-    """Relative difference of theory from simulation [%] for every case, at three of its loads."""
-    rows = []
-    for comparison in comparisons:
-        at = 100 * comparison.isel(variant=0).interp({"range": COMPARED_RANGE})
-        case = datasets.parameters(comparison)["case"]
-        count = at.sizes["pressure"]
-        for index in np.unique(np.linspace(0, count - 1, 5).astype(int)[1:4]):
-            here = at.isel(pressure=index)
-            found = [
-                (here[f"{name}_difference"], here[f"{name}_difference_total_error"])
-                for name in COMPARED
-            ]
-            rows.append({"case": case, "load": float(here.pressure), "differences": found})
-    return rows
-
-
-def read_run_times(folder):
-    """Jobs, times [s] and memory [MB] of each rule, from Snakemake's benchmarks."""
-    runs = [
-        pd.read_csv(path, sep="\t", na_values=["-"]).assign(
-            rule=path.relative_to(folder).parts[0].removesuffix(".tsv")
-        )
-        for path in sorted(Path(folder).rglob("*.tsv"))
-    ]
-    if not runs:
-        return pd.DataFrame(columns=["jobs", "total", "processor", "longest", "memory"])
-    # A benchmark of the report is of an earlier run. Runs too short to tell have no numbers.
-    table = pd.concat(runs).query("rule != 'write_report'")
-    numbers = ["s", "cpu_time", "max_rss"]
-    table[numbers] = table[numbers].apply(pd.to_numeric, errors="coerce")
-    columns = {"jobs": ("s", "size"), "total": ("s", "sum"), "processor": ("cpu_time", "sum")}
-    columns |= {"longest": ("s", "max"), "memory": ("max_rss", "max")}
-    return table.groupby("rule").agg(**columns).sort_values("total", ascending=False)
 
 
 def list_versions(files):

@@ -37,8 +37,8 @@ FACTORS = [1.0, 1.2, 0.5]  # of the variants, so that the band is from 1 to 1.2
 
 @pytest.fixture
 def ax():
-    figure, panels = plotting.make_panels("A", 3)
-    yield panels["A"]
+    figure, ax = plt.subplots(figsize=(plotting.WIDTH, 3))
+    yield ax
     plt.close(figure)
 
 
@@ -268,7 +268,8 @@ def test_figure_5_interpolates_limits_between_adhesion_lengths(ax):
     plot_fig5.draw_limits(ax, dataset(coords, variables))
     for colour, length in plotting.shade(plot_fig5.LENGTHS):
         drawn(ax, x, x**-0.6 * length**0.5, color=colour, linewidth=1.2)
-    for k, look in enumerate(plot_fig5.LOOKS.values()):
+    for k, (line, colour, width, _) in enumerate(plot_fig5.LOOKS.values()):
+        look = {"linestyle": line, "color": colour, "linewidth": width}
         drawn(ax, x, (1 + k) * x**-0.6 * 0.05**0.5, **look)
     at, *ends = band_ends(ax)
     np.testing.assert_allclose(ends, np.outer([7, 8], at**-0.6 * 0.05**0.5))

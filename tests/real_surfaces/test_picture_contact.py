@@ -11,7 +11,7 @@ from common.materials import Material, read_material
 from real_surfaces import analyse_surface, contact_measured, measured_surface, picture_contact
 from real_surfaces.picture_contact import LeftOutError
 from remaining import measure_remaining
-from report import contact_figure, write_surface
+from report import interactive, write_surface
 from stickiness import repulsive, surface
 from stickiness.measured import periodic
 from stickiness.measured.topography import Topography
@@ -203,7 +203,7 @@ def test_what_is_not_simulated_says_why():
 def test_pressures_are_given_for_deep_and_smooth_solids(pressed):
     rated = Material(GEL.plane_strain, 0.05, 3e-10, depends_on_rate=True)
     rough = Material(GEL.plane_strain, 0.05, 3e-10, depends_on_rate=False, surface="plate")
-    rows = contact_figure.list_loads(pressed, {"gel": GEL, "rated": rated, "rough": rough})
+    rows = write_surface.list_loads(pressed, {"gel": GEL, "rated": rated, "rough": rough})
     assert [list(row["pressures"]) for row in rows] == [["gel", "rated at 1 Hz"]] * 8
     first = float(pressed.mean_pressure[0]) * 0.1e6
     assert rows[0]["pressures"]["gel"].startswith(f"{first:.2g} ")
@@ -216,17 +216,16 @@ def test_both_figures_show_the_contact_and_the_curve(pressed, pulled, tmp_path):
     for shown in ((pressed, pulled), (pressed, nothing), (nothing, nothing)):
         contact_picture.draw_still(*shown, tmp_path / "still.png")
         assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
-    codes, widest = contact_figure.code_maps(pressed)
+    codes, widest = contact_picture.code_maps(pressed)
     assert codes.shape == (8, 64, 64)
-    touching = (codes == contact_figure.CONTACT).transpose(0, 2, 1)
+    touching = (codes == contact_picture.CONTACT).transpose(0, 2, 1)
     assert np.all(pressed.contact.values[touching] >= 0.5)
     gaps = np.minimum(pressed.gap.values, widest)[~touching]
-    shown = codes.transpose(0, 2, 1)[~touching] * widest / (contact_figure.CONTACT - 1)
+    shown = codes.transpose(0, 2, 1)[~touching] * widest / (contact_picture.CONTACT - 1)
     np.testing.assert_allclose(shown, gaps, atol=0.002 * widest)
-    loads = contact_figure.list_loads(pressed, {})
-    drawn = contact_figure.draw_interactive(pressed, pulled, loads)
+    drawn = interactive.draw_contact(pressed, pulled, list("abcdefgh"))
     slider = drawn.select_one({"name": "load"})
     assert (slider.start, slider.end) == (0, 7)
-    curves, _, _, (lowest, highest) = contact_figure.follow_tension(pulled)
+    curves, _, _, (lowest, highest) = contact_picture.follow_tension(pulled)
     assert sum(len(curve["gap"]) for _, _, curve in curves) == pulled.sizes["state"]
     assert lowest < 0 < max(curves[1][2]["tension"]) < highest

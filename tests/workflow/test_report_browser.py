@@ -170,8 +170,8 @@ def test_fits_and_is_legible(page, scratch, width, change, smallest):
     # Only the matrix, a column for every material, may scroll in its frame, and not on paper.
     assert width == 500 or set(found["scrolling"]) <= ({"DIV#matrix.wide"} if not change else set())
     assert found["loaded"] == console == []
-    letters = ("font.size", "titlesize", "labelsize", "fontsize")
-    size = min(size for name, size in plotting.SETTINGS.items() if name.endswith(letters))
+    letters = ("font.size", "axes.titlesize", "xtick.labelsize", "legend.fontsize")
+    size = min(plotting.mpl.rcParams[name] for name in letters)
     assert found["images"]
     for complete, natural, shown in found["images"]:
         assert complete
