@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections import Counter
 from pathlib import Path
 
 from snakemake.utils import update_config
@@ -75,10 +76,10 @@ try:
     # What a user leaves out is as in the project.
     given, config = config, load.defaults(PROJECT, project_file)
     update_config(config, given)
-    TRADE, REMAINING_CAMPAIGN = (load.campaign(PROJECT, name) for name in ("tradeoff", "remaining"))
+    campaigns = {name: load.load(Path(PROJECT, path)) for name, path in load.CAMPAIGNS.items()}
+    TRADE, REMAINING_CAMPAIGN = campaigns["tradeoff"], campaigns["remaining"]
     if workflow.is_main_process:  # whose jobs read what was checked here
         name = f"config of module {MODULE}" if MODULE else load.USER
-        campaigns = {"tradeoff": TRADE, "remaining": REMAINING_CAMPAIGN}
         load.check_all(config, campaigns, given, name, made=bool(MODULE))
     MATERIALS, REAL_SURFACES, EXPERIMENTS = (
         load.load(config[table])[table] for table in load.TABLES
@@ -180,12 +181,32 @@ def a_v_of_simulation(case):
 
 
 def summarise():
-    """Say where the results are and what they hold."""
-    from common.run_summary import summary
+    """Say where the report is, how claims and pairs came out, and which cases missed their accuracy."""
+    from stickiness import datasets
+    from stickiness.criteria.pair import WORDS
+
+    def find(pattern):  # files of this run, not of an earlier one
+        return [path for path in results.glob(pattern) if path.stat().st_mtime >= STARTED]
+
+    def count(words):
+        return "; ".join(f"{n} {word}" for word, n in Counter(map(str, words)).most_common())
 
     results = Path(rules.write_report.output[0]).parents[1]  # with the prefix of a module
-    answers = [results / f"cases/{case}.nc" for case in CASES if "accuracy" in CASES[case]]
-    print(summary(str(results), STARTED, answers), file=sys.stderr)
+    lines = [("results", results)]
+    lines += [("report", path) for path in find("report/report.html")]
+    for path in find("claims/claims.nc"):
+        lines.append(("claims", count(datasets.read(path, ["verdict"]).verdict.values)))
+    for path in find("criteria/verdicts.nc"):
+        codes = datasets.read(path, ["verdict"]).verdict.values.ravel()
+        lines.append(("pairs", count(WORDS[code] for code in codes)))
+    for case in CASES:
+        path = results / f"cases/{case}.nc"
+        if "accuracy" in CASES[case] and path.exists():
+            missed = datasets.read(path).attrs.get("missed")
+            lines += [("missed", missed)] if missed else []
+    if pages := find("report/surfaces/*.html"):
+        lines.append(("pages", ", ".join(sorted(map(str, pages)))))
+    print("\n".join(f"  {what:<9} {text}" for what, text in lines), file=sys.stderr)
 
 
 onsuccess:

@@ -12,17 +12,8 @@ from typing import Any
 def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     """Return the job's `snakemake` object, open its log and report errors to it.
 
-    Run by hand, from the project's top folder, a script looks its job up in the workflow:
-    ``PYTHONPATH=scripts python scripts/fits/fit_a_v.py case=H0.8_zeta128 fidelity=draft``.
-
-    Parameters
-    ----------
-    names : dict
-        The ``globals()`` of the script, which hold `snakemake` if Snakemake runs it.
-    rule : str
-        Name of the rule, for a run by hand.
-    wildcards
-        Wildcards for a run by hand, unless the command line has others.
+    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. Run by
+    hand, from the project's top folder, a script looks its job up in the workflow.
     """
     job = names.get("snakemake")
     if job is None:

@@ -61,17 +61,16 @@ def read_modulus(entry):
         return Constant(si(entry["plane_strain_modulus"], "Pa"))
     factor = 1 / (1 - entry["poisson_ratio"] ** 2)
     if "youngs_modulus_table" in entry:
-        frequencies, moduli = zip(*entry["youngs_modulus_table"], strict=True)
-        return Table(
-            tuple(si(frequency, "Hz") for frequency in frequencies),
-            tuple(factor * si(modulus, "Pa") for modulus in moduli),
-        )
+        pairs = [
+            (si(hertz, "Hz"), factor * si(e, "Pa")) for hertz, e in entry["youngs_modulus_table"]
+        ]
+        return Table(*zip(*pairs, strict=True))
     if "youngs_modulus_prony" in entry:
         series = entry["youngs_modulus_prony"]
-        return Prony(
-            factor * si(series["equilibrium"], "Pa"),
-            tuple((factor * si(modulus, "Pa"), si(time, "s")) for modulus, time in series["terms"]),
+        terms = tuple(
+            (factor * si(modulus, "Pa"), si(time, "s")) for modulus, time in series["terms"]
         )
+        return Prony(factor * si(series["equilibrium"], "Pa"), terms)
     return Constant(factor * si(entry["youngs_modulus"], "Pa"))
 
 
@@ -79,27 +78,22 @@ def describe_modulus(entry):
     """Modulus as the configuration states it, with the layer and the roughness of the solid."""
     if "plane_strain_modulus" in entry:
         text = f"E* = {entry['plane_strain_modulus']}"
+    elif "youngs_modulus_table" in entry:
+        (first, low), *_, (last, high) = entry["youngs_modulus_table"]
+        text = f"E′ = {low} at {first} … {high} at {last}"
+    elif "youngs_modulus_prony" in entry:
+        series = entry["youngs_modulus_prony"]
+        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
     else:
-        text = f"{describe_youngs_modulus(entry)}, ν = {entry['poisson_ratio']}"
-        text += describe_layer(entry) if "thickness" in entry else ""
+        text = f"E = {entry['youngs_modulus']}"
+    if "plane_strain_modulus" not in entry:
+        text += f", ν = {entry['poisson_ratio']}"
+    if "thickness" in entry:
+        backing = entry.get("backing", "bonded")
+        if isinstance(backing, str):
+            base = {"bonded": " on", "slip": ", free to slip on"}[backing] + " a rigid base"
+        else:
+            base = f" on a film of {backing['thickness']} and {backing['youngs_modulus']}"
+        text += f", {entry['thickness']} thick{base}"
     text = text.replace(" um", " µm")
     return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
-
-
-def describe_youngs_modulus(entry):
-    if "youngs_modulus_table" in entry:
-        pairs = entry["youngs_modulus_table"]
-        return f"E′ = {pairs[0][1]} at {pairs[0][0]} … {pairs[-1][1]} at {pairs[-1][0]}"
-    if "youngs_modulus_prony" in entry:
-        series = entry["youngs_modulus_prony"]
-        return f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
-    return f"E = {entry['youngs_modulus']}"
-
-
-def describe_layer(entry):
-    text, backing = f", {entry['thickness']} thick", entry.get("backing", "bonded")
-    if backing == "slip":
-        return f"{text}, free to slip on a rigid base"
-    if backing == "bonded":
-        return f"{text} on a rigid base"
-    return f"{text} on a film of {backing['thickness']} and {backing['youngs_modulus']}"

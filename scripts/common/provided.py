@@ -8,13 +8,7 @@ SURFACES += ("polished_steel", "jacksboro")
 
 
 def user_defined_first(names, provided):
-    """The names, those that do not come with the project first.
-
-    Examples
-    --------
-    >>> user_defined_first(["steel", "my_tape", "psa"], MATERIALS)
-    ['my_tape', 'steel', 'psa']
-    """
+    """The names, those that do not come with the project first."""
     return sorted(names, key=lambda name: name in provided)
 
 

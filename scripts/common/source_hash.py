@@ -13,14 +13,9 @@ CACHE = Path(".snakemake/source_hashes.json")  # below the folder of the run
 
 
 def source_hash(script: str) -> str:
-    """Return a hash of a script and of all modules below ``scripts/`` that it imports.
+    """Return a hash of a script, given by its path below ``scripts/``, and of its imports there.
 
     A rule has it among its parameters, so that a job runs again when its code changes.
-
-    Parameters
-    ----------
-    script : str
-        Path below ``scripts/``, such as ``"adhesion/solve_adhesive.py"``.
     """
     digests, queue = {}, [SCRIPTS / script]
     while queue:
@@ -58,10 +53,9 @@ def imported_names(tree: ast.Module) -> set[str]:
     """Dotted names of everything imported, and of the packages on the way to it."""
     names = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Import):
-            names |= {alias.name for alias in node.names}
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+        if isinstance(node, ast.Import | ast.ImportFrom):
+            package = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+            names |= {package + alias.name for alias in node.names}
     parts = (name.split(".") for name in names)
     return {".".join(each[: end + 1]) for each in parts for end in range(len(each))}
 

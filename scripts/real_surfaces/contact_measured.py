@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from common import conventions
-from common.config.entries import MOST_POINTS, has_units, measurements
+from common.config.entries import MOST_POINTS, measurements
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
@@ -111,7 +111,7 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     scaled, lengths = (limited - limited.mean()) / h_rms, tuple(q0 * s for s in sides)
     material = read_material(bem["adhesion"]) if "adhesion" in bem else None
     pressures = np.sort(bem["pressures"])
-    if has_units(bem["pressures"]):
+    if any(isinstance(pressure, str) for pressure in bem["pressures"]):
         over_modulus = [si(pressure, "Pa") / material.modulus for pressure in bem["pressures"]]
         pressures = np.sort(over_modulus) / (q0 * h_rms)
     block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)[SOLVED_VARIABLES]

@@ -68,10 +68,8 @@ def number(name: str, value: float, *, zero: bool = False, most: float = np.inf)
 
 def integer(name: str, value: int, least: int) -> int:
     """Return `value` as an int; ValueError unless it is a whole number of at least `least`."""
-    whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-    if not whole and isinstance(value, float):
-        whole = value.is_integer()
-    if not whole or value < least:
+    known = isinstance(value, int | float | np.integer) and not isinstance(value, bool)
+    if not (known and value % 1 == 0 and value >= least):
         raise ValueError(f"{name} must be an integer of at least {least}, got {value!r}")
     return int(value)
 

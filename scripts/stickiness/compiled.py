@@ -13,20 +13,18 @@ _FREEDOMS = {"reassoc", "contract", "nsz"}
 
 
 def compiled(function):
-    """Compile a function of arrays and numbers at its first call.
-
-    Imports numba then: most programs of a workflow solve nothing and start faster without it.
-    """
+    """Compile a function of arrays and numbers at its first call."""
     made = None
 
     @wraps(function)
     def call(*arguments):
         nonlocal made
         if made is None:
-            made = _compile(function, cache=True)
             try:
+                made = _compile(function, cache=True)
                 return made(*arguments)
-            except OSError:  # a full or vanished folder, found before the function runs
+            # No folder, a full or a vanished one, found before the function runs.
+            except (OSError, RuntimeError):
                 made = _compile(function, cache=False)
         return made(*arguments)
 
@@ -34,10 +32,7 @@ def compiled(function):
 
 
 def _compile(function, *, cache):
-    import numba  # noqa: PLC0415 - see `compiled`
+    import numba  # noqa: PLC0415 - most programs of a workflow solve nothing, and start faster
 
     options = {"fastmath": _FREEDOMS, "error_model": "numpy", "nogil": True}
-    try:
-        return numba.njit(cache=cache, **options)(function)
-    except RuntimeError:  # no folder for it can be written
-        return numba.njit(**options)(function)
+    return numba.njit(cache=cache, **options)(function)

@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import os
 import shutil
-import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
+from uuid import uuid4
 
 import numpy as np
 import xarray as xr
@@ -31,11 +31,10 @@ class WriteError(DatasetError, OSError):
 
 def provenance() -> dict[str, str]:
     """Versions of this package and of the codes that its numbers depend on."""
-    codes = {f"version_{name.lower()}": version(name) for name in _CODES}
     import pyfftw  # here, not above: figures and reports need no FFTW
 
-    fftw = str(pyfftw.fftw_version)
-    return {"version_stickiness": __version__, **codes, "version_fftw": fftw}
+    codes = {f"version_{name.lower()}": version(name) for name in _CODES}
+    return {"version_stickiness": __version__} | codes | {"version_fftw": str(pyfftw.fftw_version)}
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
@@ -57,37 +56,28 @@ def write(
 ) -> None:
     """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
-    Variables that are texts are written without units.
-
-    Raises
-    ------
-    DatasetError
-        If a variable lacks `long_name`, `units` though it holds numbers, or `nan_means` though it
-        holds values that are not finite.
-    WriteError
-        If the disk is full, may not be written to, or fails; an old file is left as it was.
+    Every variable needs `long_name`, numbers need `units`, and `nan_means` if some are not finite.
     """
     path = Path(path)
-    for name in dataset.variables:
-        values, attributes = dataset[name].values, dataset[name].attrs
-        demanded = {"long_name"} if _is_text(values) else {"units", "long_name"}
-        missing = demanded - attributes.keys()
-        if missing:
-            raise DatasetError(f"{path}: variable {name!r} lacks {', '.join(sorted(missing))}")
-        unexplained = values.dtype.kind == "f" and "nan_means" not in attributes
-        if unexplained and not np.isfinite(values).all():
-            raise DatasetError(f"{path}: variable {name!r} holds values that are not finite")
+    # Last parts of a path tell a result from others, wherever all of them are moved.
+    relative = not path.is_absolute() and len(path.parts) > 1
     dataset = dataset.assign_attrs(
         title=title,
         Conventions="CF-1.11",
         parameters=json.dumps(parameters, sort_keys=True),
-        written_as="/".join(_place(path)),
+        written_as="/".join(path.parts[1:] if relative else path.parts[-2:]),
         **provenance(),
     )
     for name in dataset.variables:
-        if _is_text(dataset[name]):
-            dataset[name].attrs.pop("units", None)
+        kind, attributes = dataset[name].dtype.kind, dataset[name].attrs
+        if is_text := kind in "OU":
+            attributes.pop("units", None)
             dataset[name].encoding = {}  # texts joined keep the width of the first one's file
+        for text in ("long_name",) if is_text else ("units", "long_name"):
+            if text not in attributes:
+                raise DatasetError(f"{path}: variable {name!r} lacks {text}")
+        if kind == "f" and "nan_means" not in attributes and not np.isfinite(dataset[name]).all():
+            raise DatasetError(f"{path}: variable {name!r} holds values that are not finite")
     with whole_file(path) as temporary:
         try:
             dataset.to_netcdf(temporary, engine="netcdf4")
@@ -96,13 +86,7 @@ def write(
 
 
 def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
-    """Read a dataset into memory, check that it is the one of this name and holds `variables`.
-
-    Raises
-    ------
-    DatasetError
-        Naming the file and, if one is missing, the variable.
-    """
+    """Read a dataset into memory, check that it is the one of this name and holds `variables`."""
     path = Path(path)
     try:
         with xr.open_dataset(path, engine="netcdf4") as opened:
@@ -129,42 +113,23 @@ def parameters(dataset: xr.Dataset) -> dict[str, Any]:
     return json.loads(dataset.attrs["parameters"])
 
 
-def _is_text(values: Any) -> bool:
-    return values.dtype.kind in "OU"
-
-
-def _place(path: Path) -> tuple[str, ...]:
-    """Last parts of a path: what tells a result from others, wherever all of them are moved."""
-    return path.parts[1:] if not path.is_absolute() and len(path.parts) > 1 else path.parts[-2:]
-
-
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
-    """Give a temporary path that replaces `path` on success and vanishes on failure.
-
-    What the operating system refuses is raised as a `WriteError` that names `path`.
-    """
+    """Give a temporary path that replaces `path` on success and vanishes on failure."""
     path = Path(path)
-    temporary = None
+    temporary = path.with_name(f".{path.name}.{uuid4().hex[:8]}{path.suffix}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         # What a killed job left. Should an orphan still write to it, only its own end fails.
         for leftover in path.parent.glob(f".{path.name}.????????{path.suffix}"):
             leftover.unlink(missing_ok=True)
-        handle, name = tempfile.mkstemp(
-            dir=path.parent, prefix=f".{path.name}.", suffix=path.suffix
-        )
-        os.close(handle)
-        temporary = Path(name)
         yield temporary
-        os.umask(mask := os.umask(0))
-        temporary.chmod(0o666 & ~mask)
         temporary.replace(path)
     except OSError as error:
         raise WriteError(_explain(path, error)) from None
     finally:
-        if temporary is not None:
-            temporary.unlink(missing_ok=True)
+        with suppress(OSError):
+            temporary.unlink()
 
 
 def _explain(path: Path, error: OSError) -> str:

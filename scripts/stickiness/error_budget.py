@@ -2,8 +2,7 @@
 
 A quoted variable ``q`` has three more beside it: ``q_error`` along `SOURCES`, each covering 90 % (0
 where a source does not apply, NaN where it is not known; ``comment`` says why), ``q_total_error``
-in quadrature, and ``q_dominant``, a flag of the largest. One that is not known counts as the
-largest.
+in quadrature, and ``q_dominant``, a flag of the largest, which is one that is not known if any is.
 """
 
 from __future__ import annotations
@@ -30,31 +29,19 @@ class ErrorComponent:
 
 
 def not_applicable(why: str) -> ErrorComponent:
-    """ErrorComponent of a source that does not apply."""
     return ErrorComponent(0.0, f"none, {why}")
 
 
 def unknown_error(why: str) -> ErrorComponent:
-    """ErrorComponent of a source that contributes, by an amount that is not known."""
     return ErrorComponent(np.nan, f"not known, {why}")
 
 
-def with_budget(
-    dataset: xr.Dataset,
-    name: str,
-    *,
-    discretisation: ErrorComponent,
-    solver: ErrorComponent,
-    sampling: ErrorComponent,
-    bandwidth: ErrorComponent,
-    model: ErrorComponent,
-) -> xr.Dataset:
-    """Add the budget of a variable that has `units` and `long_name`.
+def with_budget(dataset: xr.Dataset, name: str, **components: ErrorComponent) -> xr.Dataset:
+    """Add the budget of a variable that has `units` and `long_name`: a component by each source.
 
-    Parts are of the shape of the variable, or of one that broadcasts to it.
+    Components are of the shape of the variable, or of one that broadcasts to it.
     """
-    value = dataset[name]
-    parts = (discretisation, solver, sampling, bandwidth, model)
+    value, parts = dataset[name], [components[source] for source in SOURCES]
     whole = xr.zeros_like(value, dtype=float).where(value.notnull())
     errors = [
         (whole + abs(part.error)).transpose(*value.dims).reset_coords(drop=True) for part in parts

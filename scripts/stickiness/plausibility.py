@@ -1,8 +1,7 @@
 """Warnings of numbers that are probably in another unit, or beyond what a grid can show.
 
-Contact scales: heights times a factor only take pressures with them, so that surfaces of unit
-height and slopes of 30 are as good as any. The limits here hold in all such units, and therefore
-catch gross mistakes only: pascals for units of E*, micrometres beside metres.
+Contact scales with the heights, so that slopes of 30 are as good as any. The limits here hold in
+all such units, and catch gross mistakes only: pascals for units of E*, micrometres beside metres.
 """
 
 from __future__ import annotations
@@ -32,11 +31,8 @@ class PlausibilityWarning(UserWarning):
 
 
 def warn_of_pressure(pressure: float, rms_slope: float) -> None:
-    """Warn if a mean pressure [E*] exceeds all that contact of a rms slope could need.
-
-    Beyond 1000 times the slope contact is full anyway. In units in which heights stand for lengths
-    larger than they are, pressures may be above 1.
-    """
+    """Warn if a mean pressure [E*] is far above that at which contact is full anyway."""
+    # Heights in units larger than those of lengths have pressures above 1.
     if pressure > max(1.0, _MOST_PRESSURE * rms_slope):
         warnings.warn(
             f"pressure = {pressure!r} is in units of E* and closes any gap of this surface "
@@ -58,10 +54,7 @@ def warn_of_heights(rms_height: float, length: float) -> None:
 
 
 def warn_of_si(stacklevel: int = 3, **values: float) -> None:
-    """Warn of a length, modulus, work of adhesion, range or rms slope no real pair has in SI units.
-
-    A slope far from 1 means that heights and lengths are in different units.
-    """
+    """Warn of a value, by its name in `_SI_LIMITS`, that no real pair has in SI units."""
     for name, value in values.items():
         low, high, remedy = _SI_LIMITS[name]
         if not low <= value <= high:

@@ -8,56 +8,37 @@ import math
 import os
 import re
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # else where it is used: most jobs read no units, and importing takes 0.3 s
     import pint
 
-# Quantities that messages name: SI unit, words, example. The first of a dimension is its name.
+# Quantities that messages name: SI unit, words, example, and units that a misspelt one may mean.
 _QUANTITIES = (
-    ("m", "a length", "10 um"),
-    ("Pa", "a pressure", "2 MPa"),
-    ("J/m^2", "an energy per area", "50 mJ/m^2"),
-    ("1/m", "a wave number", "1e3 1/m"),
-    ("s", "a time", "1 ms"),
-    ("Hz", "a frequency", "1 Hz"),
-    ("m^2", "an area", "1 mm^2"),
-    ("m^3", "a volume", "1 mm^3"),
-    ("N", "a force", "5 mN"),
-    ("J", "an energy", "1 uJ"),
-    ("kg", "a mass", "1 g"),
-    ("m/s", "a velocity", "1 um/s"),
-    ("K", "a temperature", "300 K"),
-    ("Pa*s", "a viscosity", "1 Pa*s"),
-    ("mol/m^3", "a concentration", "1 mol/m^3"),
+    ("m", "a length", "10 um", "km m cm mm um nm pm"),
+    ("Pa", "a pressure", "2 MPa", "Pa kPa MPa GPa"),
+    ("J/m^2", "an energy per area", "50 mJ/m^2", "J/m^2 mJ/m^2 N/m mN/m uJ/m^2 erg/cm^2"),
+    ("1/m", "a wave number", "1e3 1/m", "1/m 1/mm 1/um 1/nm"),
+    ("s", "a time", "1 ms", "s ms us"),
+    ("Hz", "a frequency", "1 Hz", "Hz kHz MHz"),
+    ("N", "a force", "5 mN", ""),
+    ("J", "an energy", "1 uJ", ""),
 )
-# Spellings by which a unit that pint does not know is recognised, by the SI unit that is wanted.
-_SPELLINGS = {
-    "m": ["km", "m", "cm", "mm", "um", "nm", "pm"],
-    "Pa": ["Pa", "kPa", "MPa", "GPa"],
-    "J/m^2": ["J/m^2", "mJ/m^2", "N/m", "mN/m", "uJ/m^2", "erg/cm^2"],
-    "1/m": ["1/m", "1/mm", "1/um", "1/nm"],
-    "s": ["s", "ms", "us"],
-    "Hz": ["Hz", "kHz", "MHz"],
-}
 # Units that exist and are nearly always typing errors: what they are, and what is meant.
 _ASKED_BACK = {
     "mPa": ("millipascal, a thousandth of a pascal", "MPa", "1e-3 Pa"),
     "Mm": ("megametre, a thousand kilometres", "mm", "1e6 m"),
     "Pm": ("petametre", "pm", "1e15 m"),
 }
-_SECONDS = r"\s*[*·⋅\s]\s*s(?:econds?)?(?![A-Za-z])"  # behind mPa: a viscosity, where it is common
-
-
-CACHE = "STICKINESS_UNITS"  #: environment variable: folder in which pint keeps units, ready made
 
 
 @cache
 def _registry() -> pint.UnitRegistry:
     import pint
 
+    # Folder in which pint keeps units, ready made.
     with contextlib.suppress(Exception):  # no such variable, a folder or file that is of no use
-        return pint.UnitRegistry(cache_folder=os.environ[CACHE])
+        return pint.UnitRegistry(cache_folder=os.environ["STICKINESS_UNITS"])
     return pint.UnitRegistry()
 
 
@@ -69,74 +50,52 @@ def _parsed(value: str) -> pint.Quantity | float:
 def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
-    Raises
-    ------
-    ValueError
-        If `value` is not a number with a unit of that dimension. The message says which kind of
-        quantity it is and which is wanted. It suggests a unit for one that does not exist, and
-        asks back for units that are nearly always typing errors, such as mPa.
-
-    Examples
-    --------
-    >>> si("50 mJ/m^2", "J/m^2")
-    0.05
+    A ValueError says which kind of quantity the value is and which is wanted. It suggests a unit
+    for one that does not exist, and asks back for units that are nearly always typing errors.
     """
     import pint
 
-    wanted = _wanted(unit)
+    known = _known(_registry().Unit(unit).dimensionality)
+    _, words, example, units = known or (unit, f"a number in {unit}", f"1e-3 {unit}", "")
+    wanted = f"{words} is wanted, e.g. {example!r}"
     if not isinstance(value, str):
         raise ValueError(f"{value!r} has no unit: {wanted}, as a text with its unit")
     if "," in value:  # a comma would be dropped, and 2,5 nm become 25 nm
         raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
-    _ask_back(value)
+    for typed, (meaning, meant, instead) in _ASKED_BACK.items():
+        if re.search(rf"(?<![A-Za-z]){typed}(?![A-Za-z])", value):
+            raise ValueError(
+                f"{value!r}: {typed} is {meaning}; did you mean {value.replace(typed, meant)!r}? "
+                f"If not, write it in SI units, e.g. {instead!r}"
+            )
     try:
         quantity = _parsed(value)
         magnitude = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
-        raise ValueError(f"{value!r} {_kind(quantity)}; {wanted}") from None
+        found = _known(quantity.dimensionality)
+        kind = f"is {found[1]}" if found else f"is in {quantity.units:~P}"
+        kind = "has no unit" if quantity.dimensionless else kind
+        raise ValueError(f"{value!r} {kind}; {wanted}") from None
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
-        raise ValueError(f"{value!r} cannot be read: {_meant(value, unit) or wanted}") from None
+        raise ValueError(f"{value!r} cannot be read: {_meant(value, units) or wanted}") from None
     if not math.isfinite(magnitude):
         raise ValueError(f"{value!r} is not finite: {wanted}")
     return magnitude
 
 
 @cache
-def _wanted(unit: str) -> str:
-    """Say which quantity is wanted, by its SI unit."""
-    for name, words, example in _QUANTITIES:
-        if _registry().Unit(name).dimensionality == _registry().Unit(unit).dimensionality:
-            return f"{words} is wanted, e.g. {example!r}"
-    return f"a number in {unit} is wanted, e.g. '1e-3 {unit}'"
+def _known(dimension: Any) -> tuple[str, str, str, str] | None:
+    """Return what messages say of quantities of a dimension."""
+    units = _registry().Unit
+    return next((q for q in _QUANTITIES if units(q[0]).dimensionality == dimension), None)
 
 
-def _kind(quantity: pint.Quantity | float) -> str:
-    """Say which kind of quantity a value is, in words."""
-    dimension = getattr(quantity, "dimensionality", {})
-    if not dimension:
-        return "has no unit"
-    for name, words, _ in _QUANTITIES:
-        if _registry().Unit(name).dimensionality == dimension:
-            return f"is {words}"
-    return f"is in {quantity.units:~P}"
-
-
-def _ask_back(value: str) -> None:
-    """Refuse a unit that exists but is nearly always a typing error."""
-    for unit, (words, meant, instead) in _ASKED_BACK.items():
-        if re.search(rf"(?<![A-Za-z]){unit}(?![A-Za-z])(?!{_SECONDS})", value):
-            raise ValueError(
-                f"{value!r}: {unit} is {words}; did you mean {value.replace(unit, meant)!r}? "
-                f"If not, write it in SI units, e.g. {instead!r}"
-            )
-
-
-def _meant(value: str, unit: str) -> str | None:
+def _meant(value: str, units: str) -> str | None:
     """Ask whether the closest unit of the wanted kind is meant, if one is close."""
     match = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(\S.*?)\s*", value)
     if match is None:
         return None
     number, written = match.groups()
-    spellings = {known.lower().replace("^", ""): known for known in _SPELLINGS.get(unit, ())}
+    spellings = {known.lower().replace("^", ""): known for known in units.split()}
     close = difflib.get_close_matches(written.lower().replace("^", ""), spellings, n=1, cutoff=0.6)
     return f"did you mean '{number} {spellings[close[0]]}'?" if close else None

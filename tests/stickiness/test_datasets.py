@@ -108,10 +108,10 @@ def test_a_folder_that_may_not_be_written_to_is_named(dataset, tmp_path, monkeyp
     write(dataset, path, seed=1)
     content = path.read_bytes()
 
-    def refuse(**_):
+    def refuse(*_, **__):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr(datasets.tempfile, "mkstemp", refuse)
+    monkeypatch.setattr(xr.Dataset, "to_netcdf", refuse)
     message = r"file\.nc: could not be written .*allow writing in .*results and run"
     with pytest.raises(datasets.WriteError, match=message):
         write(dataset, path, seed=2)

@@ -7,8 +7,7 @@ from typing import Any
 
 MOST_POINTS = 2048  #: along a side of the grid that measured heights are pressed on, by default
 
-#: Conditions that a case of an experiment takes from the experiment unless it gives its own, and
-#: their units.
+#: Conditions of an experiment and of its cases, and their units.
 CONDITIONS = {
     "radius": "m",
     "plane_strain_modulus": "Pa",
@@ -39,12 +38,7 @@ def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]
     if "measurements" not in surface:
         return [("", dict(surface))]
     shared = {key: value for key, value in surface.items() if key != "measurements"}
-    several = enumerate(surface["measurements"])
-    return [(f"measurements[{index}].", shared | dict(one)) for index, one in several]
-
-
-def has_units(pressures: list[float | str]) -> bool:
-    return any(isinstance(pressure, str) for pressure in pressures)
+    return [(f"measurements[{i}].", shared | one) for i, one in enumerate(surface["measurements"])]
 
 
 def conditions_of(experiment: Mapping[str, Any], case: Mapping[str, Any]) -> dict[str, Any]:

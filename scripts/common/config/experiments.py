@@ -3,80 +3,62 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Generic, Literal
 
-from pydantic import Field, model_validator
+from pydantic import WithJsonSchema, model_validator
 
 from common.config import fields as f
-from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
+from common.config.entries import OBSERVED_UNITS, conditions_of
 from common.config.fields import Section, needed, optional
-from stickiness.units import si
+from stickiness.criteria.registry import CRITERIA
 
 _NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
+_WAVES = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
 # Quantity that a relation gives.
 _RELATIONS = {
     "conformal_contact": "work_of_approach",
     "cycle_loss": "work_of_separation",
     "energy_ratio": "limiting_roughness",
 }
-Criterion = Literal[
-    *("remaining_adhesion", "edge_adhesion", "violano", "violano_constant", "violano_printed"),
-    *("pastewka_robbins", "fuller_tabor", "bearing_area", "persson_tosatti", "dahlquist"),
-]
 
 
-class KnownValue(Section):
+def _ends(known):
+    """Return both ends of what is plausible, or the value twice."""
+    return known.get("between") or (known["value"], known["value"])
+
+
+class KnownValue(Section, Generic[f.T]):
     """A value and how it is known, e.g. `{value: "0.3 nm", known: assumed}`."""
 
     one_of = (("value", "between"),)
 
-    value: Any = optional("the value, with its unit if it has one")
-    between: f.Pair[Any] = optional("what is plausible, low and high; swept")
+    # The reference shows one table for the values of all keys.
+    value: Annotated[f.T, WithJsonSchema({})] = optional("the value, with its unit if it has one")
+    between: Annotated[f.Interval[f.T], WithJsonSchema({})] = optional("[low, high]; swept")
     known: Literal["measured", "read", "recalled", "assumed"] = needed(
         "measured: by you; read: stands in a public text that was read; recalled: known from the "
         "literature, not checked; assumed: chosen or inferred here"
     )
     note: f.Text = optional("where it stands or why it was assumed")
 
+    @classmethod
+    def model_parametrized_name(cls, params):
+        """Return one name for all types, by which the reference calls them."""
+        return cls.__name__
+
     @model_validator(mode="before")
     @classmethod
     def _require_its_source(cls, given):
         if not isinstance(given, dict):
             plain = f'"{given}"' if isinstance(given, str) else given
-            raise f.Refusal(
-                f" = {given!r} must say how it is known: write {{value: {plain}, known: "
+            raise ValueError(
+                f"{given!r} must say how it is known: write {{value: {plain}, known: "
                 "measured}, or read, recalled, assumed instead of measured"
             )
         return given
 
-    def values(self, unit: str | None) -> list[float]:
-        """Return the value, or the ends of what is plausible, in SI units."""
-        given = [self.value] if self.between is None else self.between
-        return given if unit is None else [si(one, unit) for one in given]
 
-    def _order_problems(self, unit):
-        values = self.values(unit)
-        if values[-1] <= values[0] and self.between is not None:
-            yield f"between = {self.between!r} must be [low, high] with low < high"
-
-
-def known(kind: Any, unit: str | None = None) -> type[KnownValue]:
-    """Return the model of a value of some type, in a unit, that says how it is known."""
-
-    class Checked(KnownValue):
-        value: kind = None
-        between: f.Pair[kind] = None
-
-        def _problems(self, context):
-            return self._order_problems(unit)
-
-    Checked.__name__ = "KnownValue"  # by which the reference calls it
-    return Checked
-
-
-KnownLength, KnownModulus = known(f.Length, "m"), known(f.Modulus, "Pa")
-KnownPoisson = known(f.Poisson)
-KnownHurst = known(Annotated[float, Field(ge=0.01, le=1)])
+KnownLength, KnownModulus = KnownValue[f.Length], KnownValue[f.Modulus]
 
 
 class Conditions(Section):
@@ -85,21 +67,17 @@ class Conditions(Section):
     radius: KnownLength = optional("radius of the sphere; without it the contact is flat on flat")
     plane_strain_modulus: KnownModulus = optional("E* of the pair")
     youngs_modulus: KnownModulus = optional("Young's modulus of the soft solid")
-    poisson_ratio: KnownPoisson = optional("Poisson's ratio of the soft solid")
-    work_of_adhesion: known(f.Energy, "J/m^2") = optional("work of adhesion on a smooth surface")
+    poisson_ratio: KnownValue[f.Poisson] = optional("Poisson's ratio of the soft solid")
+    work_of_adhesion: KnownValue[f.Energy] = optional("work of adhesion on a smooth surface")
     range: KnownLength = optional("range of the attraction")
-    hurst: KnownHurst = optional("Hurst exponent in (0, 1]")
+    hurst: KnownValue[f.number(ge=0.01, le=1)] = optional("Hurst exponent in (0, 1]")
     longest_wavelength: KnownLength = optional("longest wavelength of the roughness")
     rolloff_wavelength: KnownLength = optional("wavelength above which the spectrum is flat")
     shortest_wavelength: KnownLength = optional("shortest wavelength of the roughness")
     h_rms: KnownLength = optional("rms height")
 
-    def given(self) -> dict[str, KnownValue]:
-        """Return the conditions that are given."""
-        return {key: known for key in CONDITIONS if (known := getattr(self, key)) is not None}
 
-
-class Observed(KnownValue):
+class Observed(KnownValue[Any]):
     """What was observed.
 
     The quantity is the pull-off force over that from a smooth surface, the rms height at which it
@@ -115,45 +93,42 @@ class Observed(KnownValue):
 
     one_of = (("value", "between", "relation"),)
 
+    # In the unit of the quantity, by which the order is checked.
+    between: f.Pair[Any] = optional("what is plausible, [low, high]")
     quantity: Literal[(*OBSERVED_UNITS, "sticks")] = needed("what was observed")
     relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
-    level: Annotated[float, Field(gt=0, lt=1)] = optional(
-        "share of the adhesion that is left at the limiting roughness; default 0.1"
-    )
-    silent: f.Several[Criterion] = optional("criteria in whose terms the observation was stated")
+    level: f.number(gt=0, lt=1) = optional("share left at the limiting roughness; default 0.1")
+    silent: f.Several[Literal[tuple(CRITERIA)]] = optional("criteria in whose terms it is stated")
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
-    factor: f.Pair[f.Positive] = optional("limits of true over nominal area or of the energy ratio")
+    factor: f.Interval[f.Positive] = optional("limits of the ratio of areas or of energies")
 
     def _problems(self, context):
         field = "value" if self.between is None else "between"
-        given = getattr(self, field)
-        if self.quantity == "sticks":
-            if not isinstance(self.value, bool):
-                yield f"value = {given!r} must be true or false for 'sticks'"
-        elif self.relation is not None:
+        low, high = _ends(dict(self))
+        if self.relation is not None:
             quantity = _RELATIONS[self.relation]
             if self.quantity != quantity:
                 yield f"quantity = {self.quantity!r} must be {quantity!r} for {self.relation!r}"
             if self.factor is None:
                 yield f": the key 'factor' is missing, the limits of {self.relation!r}"
-            elif not self.factor[0] < self.factor[1]:
-                yield f"factor = {self.factor!r} must be [low, high] with low < high"
+        elif self.quantity == "sticks":
+            if not isinstance(low, bool) or field == "between":
+                yield f"{field} = {getattr(self, field)!r} must be true or false for 'sticks'"
         elif (unit := OBSERVED_UNITS[self.quantity]) is not None:
             try:
-                values = self.values(unit)
+                low, high = f.Quantity(low, unit), f.Quantity(high, unit)
             except ValueError as error:
                 yield f"{field} = {error}"
-                return
-            if not min(values) > 0:
-                yield f"{field} = {given!r} must be positive"
-            yield from self._order_problems(unit)
+            if not low > 0:
+                yield f"{field} = {getattr(self, field)!r} must be positive"
         else:
-            for value in self.values(None):
-                if isinstance(value, bool) or not isinstance(value, int | float):
-                    yield f"{field} = {value!r} must be a number"
-                elif not 0 <= value <= 10:
-                    yield f"{field} = {value!r} must be between 0 and 10"
-            yield from self._order_problems(None)
+            for end in (low, high):
+                if isinstance(end, bool) or not isinstance(end, int | float):
+                    yield f"{field} = {end!r} must be a number"
+                elif not 0 <= end <= 10:
+                    yield f"{field} = {end!r} must be between 0 and 10"
+        if field == "between" and not low < high:
+            yield f"between = {self.between!r} must be [low, high] with low < high"
 
 
 class ObservedCase(Conditions):
@@ -176,32 +151,27 @@ class Experiment(Conditions):
     cases: f.Names[ObservedCase] = needed("what was observed, by name")
 
     def _problems(self, context):
-        for name, case in self.cases.items():
-            conditions = conditions_of(self.given(), case.given())
-            problems = _condition_problems(conditions, case.observed.quantity)
-            yield from (f"cases.{name}{problem}" for problem in problems)
+        experiment = self.model_dump(exclude_unset=True)
+        for name, case in experiment["cases"].items():
+            given, path = conditions_of(experiment, case), f"cases.{name}"
+            is_limit = case["observed"]["quantity"] == "limiting_roughness"
+            for key in _NEEDED if is_limit else (*_NEEDED, "h_rms"):
+                if key not in given:
+                    yield f"{path}: the key {key!r} is missing, here and in the experiment"
+            if given.keys() >= {"plane_strain_modulus", "youngs_modulus"}:
+                yield f"{path}: give one of plane_strain_modulus and youngs_modulus"
+            of_one_solid = given.keys() >= {"youngs_modulus", "poisson_ratio"}
+            if not ("plane_strain_modulus" in given or of_one_solid):
+                yield f"{path}: give plane_strain_modulus, or youngs_modulus and poisson_ratio"
+            # The longest of the shorter waves must be below the shortest of the longer ones.
+            for shorter, longer in pairwise(key for key in _WAVES if key in given):
+                most, least = _ends(given[shorter])[1], _ends(given[longer])[0]
+                if not most < least:
+                    text = f"{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"
+                    yield f"{path}.{text}"
 
 
 class Experiments(Section):
     """The file of experiments."""
 
     experiments: f.Names[Experiment] = needed("published experiments by name")
-
-
-def _condition_problems(conditions, quantity):
-    for key in _NEEDED if quantity == "limiting_roughness" else (*_NEEDED, "h_rms"):
-        if key not in conditions:
-            yield f": the key {key!r} is missing, here and in the experiment"
-            return
-    if {"plane_strain_modulus", "youngs_modulus"} <= set(conditions):
-        yield ": give one of plane_strain_modulus and youngs_modulus"
-    elif "plane_strain_modulus" not in conditions and not (
-        {"youngs_modulus", "poisson_ratio"} <= set(conditions)
-    ):
-        yield ": give plane_strain_modulus, or youngs_modulus and poisson_ratio"
-    # The longest of the shorter waves must be below the shortest of the longer ones.
-    waves = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
-    for shorter, longer in pairwise(key for key in waves if key in conditions):
-        most, least = conditions[shorter].values("m")[-1], conditions[longer].values("m")[0]
-        if not most < least:
-            yield f".{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterable, Mapping
+import inspect
+import re
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
 from pydantic import (
     AfterValidator,
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Discriminator,
     Field,
+    PlainValidator,
     Tag,
     ValidationInfo,
+    WithJsonSchema,
     model_validator,
 )
 
@@ -24,15 +27,13 @@ from stickiness.units import si
 T = TypeVar("T")
 
 
-def _add_choices(schema, section):
-    """Put groups of keys that exclude each other into the JSON schema of a section."""
+def _complete_schema(schema, section):
+    """Give a JSON schema a title, a docstring, and groups of keys that exclude each other."""
+    schema["title"] = re.sub("(?<=[a-z])(?=[A-Z])", " ", section.__name__).capitalize()
+    schema["description"] = inspect.getdoc(section)
     for group in section.one_of:
         choices = [{"required": choice.split(" and ")} for choice in group]
         schema.setdefault("allOf", []).append({"oneOf": choices})
-
-
-class Refusal(ValueError):
-    """What is wrong, in words that go on where the path of the key ends."""
 
 
 class Section(BaseModel):
@@ -40,46 +41,53 @@ class Section(BaseModel):
 
     Models check a configuration and document it; rules and scripts receive the plain dictionaries
     that were checked. The docstring of a model introduces its table in docs/configuration.md.
+    An error goes on behind the path of the key: with a colon, a dot and a further key, or else with
+    its value.
     """
 
-    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_add_choices)
+    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_complete_schema)
     #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
-    #: Keys of earlier versions, and what to do about them.
-    old: ClassVar[Mapping[str, str]] = {}
 
     @model_validator(mode="before")
     @classmethod
     def _check_keys(cls, given):
-        for problem in cls._key_problems(given) if isinstance(given, dict) else ():
-            raise Refusal(f": {problem}")
-        return given
-
-    @classmethod
-    def _key_problems(cls, given):
+        if not isinstance(given, dict):
+            return given
         fields = cls.model_fields
-        for key in given:
-            if key in cls.old:
-                yield f"the key {key!r} {cls.old[key]}"
+        for key in given if cls.model_config["extra"] == "forbid" else ():
             if key not in fields:
-                yield f"unknown key {key!r}; {suggest(key, fields)}"
+                raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():
             if field.is_required() and key not in given:
-                yield f"the key {key!r} is missing ({field.description})"
-        for choices in cls.one_of:
-            met = [all(key in given for key in choice.split(" and ")) for choice in choices]
-            if sum(met) != 1:
-                yield f"give exactly one of: {'; '.join(choices)}"
+                raise ValueError(f": the key {key!r} is missing ({field.description})")
+        for group in cls.one_of:
+            if sum(given.keys() >= {*choice.split(" and ")} for choice in group) != 1:
+                raise ValueError(f": give exactly one of: {'; '.join(group)}")
+        return given
 
     @model_validator(mode="after")
     def _check_together(self, info: ValidationInfo):
         for problem in self._problems(info.context or {}):
-            raise Refusal(problem if problem.startswith(":") else f".{problem}")
+            raise ValueError(problem if problem.startswith(":") else f".{problem}")
         return self
 
     def _problems(self, context):
-        """Yield what is wrong with several keys together: ``key = value …`` or ``: …``."""
+        """Yield what is wrong with several keys together: ``: …`` or ``key = value …``."""
         return ()
+
+
+class Quantity(float):
+    """A value in SI units, written as it was given: ``'50 um'``."""
+
+    def __new__(cls, text: str, unit: str) -> Quantity:
+        """Read a text; a ValueError says what is wrong with it."""
+        value = super().__new__(cls, si(text, unit))
+        value.text = text
+        return value
+
+    def __repr__(self) -> str:
+        return repr(self.text)
 
 
 def unknown(key: str, value: str, known: Iterable[str]) -> str:
@@ -102,6 +110,17 @@ def optional(text: str) -> Any:
     return Field(None, description=text)
 
 
+def demand(test: Callable[[Any], bool], text: str) -> AfterValidator:
+    """Return the check of a value by a test; `text` says what the value must be."""
+
+    def check(value: Any) -> Any:
+        if not test(value):
+            raise ValueError(f"{value!r} {text}")
+        return value
+
+    return AfterValidator(check)
+
+
 def choose(test: Callable[[Any], bool], met: Any, otherwise: Any) -> Any:
     """Return the type of a value that is `met` if it passes the test, else `otherwise`."""
     return Annotated[
@@ -115,26 +134,12 @@ def by_type(kind: type, of_kind: Any, otherwise: Any) -> Any:
     return choose(lambda value: isinstance(value, kind), of_kind, otherwise)
 
 
-def both(first: Any, second: Any) -> Any:
-    """Return the type of a list of two values of different types."""
-    return Annotated[tuple[first, second], Field(strict=False)]
+def number(**limits: float) -> Any:
+    return Annotated[float, Field(**limits)]
 
 
-def quantity(word: str, unit: str, *limits: str) -> Any:
-    """Return the type of a text with a unit, positive and within `limits` if these are given."""
-
-    def check(value: Any) -> str:
-        try:
-            found = si(value, unit)
-        except ValueError as error:
-            raise Refusal(f" = {error}") from None
-        if not found > 0:
-            raise Refusal(f" = {value!r} must be positive")
-        if limits and not si(limits[0], unit) <= found <= si(limits[1], unit):
-            raise Refusal(f" = {value!r} must be in {' … '.join(limits)}; no solid is beyond")
-        return value
-
-    return Annotated[str, BeforeValidator(check), Field(json_schema_extra={"quantity": word})]
+def whole(**limits: int) -> Any:
+    return Annotated[int, Field(**limits)]
 
 
 def one_or_two(kind: Any) -> Any:
@@ -142,25 +147,49 @@ def one_or_two(kind: Any) -> Any:
     return by_type(list, Pair[kind], kind)
 
 
-def _refuse_repeated(values):
-    if len({str(value) for value in values}) < len(values):
-        raise Refusal(f" = {values!r} must not repeat a value")
-    return values
+def both(first: Any, second: Any) -> Any:
+    """Return the type of a list of two values of different types."""
+    return Annotated[tuple[first, second], Field(strict=False)]
+
+
+def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
+    """Return the type of a text with a unit, positive and within limits if these are given."""
+
+    def read(given: Any) -> Quantity:
+        value = Quantity(given, unit)
+        if not value > 0:
+            raise ValueError(f"{given!r} must be positive")
+        if low and not si(low, unit) <= value <= si(high, unit):
+            raise ValueError(f"{given!r} must be in {low} … {high}; no solid is beyond")
+        return value
+
+    schema = WithJsonSchema({"type": "string", "quantity": word})
+    return Annotated[Quantity, PlainValidator(read), schema]
+
+
+def _differ(values):
+    # Pressures in various units are equal within rounding.
+    texts = {f"{value:.9e}" if isinstance(value, float) else str(value) for value in values}
+    return len(texts) == len(values)
 
 
 Text = Annotated[str, Field(min_length=1)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 Names = Annotated[dict[Name, T], Field(min_length=1)]
-Several = Annotated[list[T], Field(min_length=1), AfterValidator(_refuse_repeated)]
+Several = Annotated[list[T], Field(min_length=1), demand(_differ, "must not repeat a value")]
+AtLeastTwo = Annotated[list[T], Field(min_length=2)]
 Pair = Annotated[list[T], Field(min_length=2, max_length=2)]
+Interval = Annotated[
+    Pair[T], demand(lambda pair: pair[0] < pair[1], "must be [low, high] with low < high")
+]
 
-Positive = Annotated[float, Field(gt=0)]
-Share = Annotated[float, Field(gt=0, le=1)]
-Poisson = Annotated[float, Field(ge=0, le=0.5)]
-Count = Annotated[int, Field(ge=1, le=10000)]
-CoarseCount = Annotated[int, Field(ge=32, le=10000)]
-Index = Annotated[int, Field(ge=0)]
-Pixels = Annotated[int, Field(ge=4, multiple_of=2)]
+Positive = number(gt=0)
+Share = number(gt=0, le=1)
+Poisson = number(ge=0, le=0.5)
+Count = whole(ge=1, le=10000)
+CoarseCount = whole(ge=32, le=10000)
+Index = whole(ge=0)
+Pixels = whole(ge=4, multiple_of=2)
 Values = Several[Positive]
 Loads = Annotated[Values, Field(description="mean pressures over E* q0 h_rms")]
 Hurst = Annotated[float, Field(gt=0, le=1, description="Hurst exponent in (0, 1]")]
@@ -193,7 +222,7 @@ class Grid(Section):
 
     minimum: Positive = needed("smallest value")
     maximum: Positive = needed("largest value")
-    per_decade: Annotated[int, Field(ge=1, le=200)] = needed("values per decade")
+    per_decade: whole(ge=1, le=200) = needed("values per decade")
 
     def _problems(self, context):
         if not self.minimum < self.maximum:

@@ -1,7 +1,7 @@
 """Reading the configuration, and checking it before any job starts.
 
 An error is one line that names file, key and value and says what would be right. The models are
-imported only where they are used, since jobs read a configuration that was checked before.
+imported where they are used, since jobs read a configuration that was checked before.
 """
 
 from __future__ import annotations
@@ -12,9 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import yaml
+from snakemake.utils import update_config
 
 TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
 USER, PAPER = "config/config.yaml", "config/campaigns/paper.yaml"  #: files that are read as one
+#: Files of what this project measures once, which users do not configure.
+CAMPAIGNS = {name: f"config/campaigns/{name}.yaml" for name in ("tradeoff", "remaining")}
 
 # What errors of pydantic say here, by its names of them.
 _REASONS = {
@@ -78,20 +81,9 @@ def defaults(project: str | Path, locate: Callable[[str], str] = str) -> dict[st
 
     `locate` turns the paths of the tables in the project into paths from the folder of the run.
     """
-    config = _merge(load(Path(project, PAPER)), load(Path(project, USER)))
+    config = load(Path(project, PAPER))
+    update_config(config, load(Path(project, USER)))
     return config | {table: str(locate(config[table])) for table in TABLES}
-
-
-def _merge(given: Any, other: Any) -> Any:
-    """Override single keys at any depth, as Snakemake does with its configuration files."""
-    if not (isinstance(given, dict) and isinstance(other, dict)):
-        return other
-    return given | {key: _merge(given.get(key), value) for key, value in other.items()}
-
-
-def campaign(project: str | Path, name: str) -> dict[str, Any]:
-    """Read a campaign, ``tradeoff`` or ``remaining``, which users do not configure."""
-    return load(Path(project, f"config/campaigns/{name}.yaml"))
 
 
 def check_all(
@@ -101,49 +93,33 @@ def check_all(
     name: str = USER,
     made: bool = False,
 ) -> None:
-    """Check the whole configuration and the files it names, without changing any of it.
+    """Check the configuration, with the defaults, and all files it names, without changing any.
 
-    Parameters
-    ----------
-    config : mapping
-        `defaults` with everything that overrides them.
-    campaigns : mapping
-        Content of the campaigns by their names.
-    given : mapping
-        What the user gives: errors in it name the file `name`, others that of the paper's figures.
-    name : str
-        File of the user's configuration in errors.
-    made : bool
-        Whether measured files may be missing, since another workflow makes them.
-
-    Raises
-    ------
-    ConfigError
-        One line on what is wrong first.
+    `given` is what the user gives: errors in it name the file `name`, others that of the paper's
+    figures. With `made`, measured files may be missing, since another workflow makes them.
     """
-    from common.config.reference import FILES
+    from common.config.models import MODELS
 
-    models = {name: model for name, (model, _) in FILES.items()}
     try:
-        check(models["config"], config, "")
+        check(MODELS["config"], config, "")
     except ConfigError as error:
         text = str(error).removeprefix(": ")
         top = re.match(r"\w*", text)[0]
-        paper = top in models["config"].model_fields and top not in given and top in config
-        raise ConfigError(f"{PAPER if paper else name}: {text}") from None
+        raise ConfigError(f"{PAPER if top in config.keys() - given else name}: {text}") from None
     tables = {table: load(config[table]) for table in TABLES}
     surfaces = tables["surfaces"].get("surfaces", {})
     for table, content in tables.items():
-        check(models[table], content, config[table], surfaces=surfaces, made=made)
-    for campaign_name, content in campaigns.items():
-        file = f"config/campaigns/{campaign_name}.yaml"
-        check(models[campaign_name], content, file, config=config)
+        check(MODELS[table], content, config[table], surfaces=surfaces, made=made)
+    for campaign, content in campaigns.items():
+        check(MODELS[campaign], content, CAMPAIGNS[campaign], config=config)
 
 
 def check(model: type, content: Mapping[str, Any], file: str, **context: Any) -> None:
     """Check the content of a file against its model; a ConfigError says what is wrong first."""
     from pydantic import ValidationError
 
+    for key in CAMPAIGNS.keys() & content.keys():
+        raise ConfigError(f"{file}: the key {key!r} is gone: {CAMPAIGNS[key]} holds that campaign")
     try:
         model.model_validate(content, context=context)
     except ValidationError as error:
@@ -159,7 +135,8 @@ def one_line(error: Mapping[str, Any]) -> str:
     path = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)[1:]
     value, details = error["input"], error.get("ctx", {})
     if error["type"] == "value_error":
-        return f"{path}{details['error']}".lstrip(":. ")
+        text = str(details["error"])
+        return f"{path}{text}".lstrip(":. ") if text[0] in ":." else f"{path} = {text}"
     if error["type"] == "literal_error":
         choices = (word for word in re.findall(r"[\w.]+", details["expected"]) if word != "or")
         return unknown(path, value, choices)

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-from typing import Annotated, Literal
-
-from pydantic import Field
+from typing import Literal
 
 from common.config import fields as f
 from common.config.fields import Section, needed, optional
-from stickiness.units import si
+
+_MODULI = ("plane_strain_modulus", "youngs_modulus and poisson_ratio")
 
 
 class ElasticPair(Section):
     """Elasticity and adhesion of a pair of solids."""
 
-    one_of = (("plane_strain_modulus", "youngs_modulus and poisson_ratio"),)
+    one_of = (_MODULI,)
 
     plane_strain_modulus: f.Modulus = optional('E* of the pair, e.g. "2 MPa"')
     youngs_modulus: f.Modulus = optional('Young\'s modulus, e.g. "3 GPa"')
-    poisson_ratio: Annotated[float, Field(gt=-1, le=0.5)] = optional("Poisson's ratio")
+    poisson_ratio: f.number(gt=-1, le=0.5) = optional("Poisson's ratio")
     work_of_adhesion: f.Energy = needed('work of adhesion of the pair, e.g. "50 mJ/m^2"')
     range: f.Range = needed('range of the attraction, e.g. "0.2 nm"')
 
@@ -43,14 +41,11 @@ class Material(ElasticPair, f.Labelled):
     """An elastic solid against a rigid rough counterface."""
 
     one_of = (
-        (
-            *("plane_strain_modulus", "youngs_modulus and poisson_ratio"),
-            *(f"youngs_modulus_{kind} and poisson_ratio" for kind in ("table", "prony")),
-        ),
+        (*_MODULI, *(f"youngs_modulus_{kind} and poisson_ratio" for kind in ("table", "prony"))),
     )
 
-    youngs_modulus_table: Annotated[list[f.both(f.Frequency, f.Modulus)], Field(min_length=2)] = (
-        optional('pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]')
+    youngs_modulus_table: f.AtLeastTwo[f.both(f.Frequency, f.Modulus)] = optional(
+        'pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]'
     )
     youngs_modulus_prony: Prony = optional("Prony series of Young's modulus")
     thickness: f.Thickness = optional("thickness of a layer; without it infinitely deep")
@@ -60,15 +55,14 @@ class Material(ElasticPair, f.Labelled):
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
 
     def _problems(self, context):
-        pairs = self.youngs_modulus_table or []
-        frequencies = [si(frequency, "Hz") for frequency, _ in pairs]
-        if any(b <= a for a, b in pairwise(frequencies)):
-            listed = ", ".join(frequency for frequency, _ in pairs)
+        frequencies = [frequency for frequency, _ in self.youngs_modulus_table or []]
+        if frequencies != sorted(set(frequencies)):
+            listed = ", ".join(frequency.text for frequency in frequencies)
             yield f"youngs_modulus_table = {listed}: frequencies must ascend"
-        if pairs and not frequencies[0] <= 1 <= frequencies[-1]:
+        if frequencies and not frequencies[0] <= 1 <= frequencies[-1]:
             yield (
-                f"youngs_modulus_table runs from {pairs[0][0]} to {pairs[-1][0]} and must cover "
-                "1 Hz, at which the verdict is quoted"
+                f"youngs_modulus_table runs from {frequencies[0].text} to {frequencies[-1].text} "
+                "and must cover 1 Hz, at which the verdict is quoted"
             )
         if self.surface is not None and self.surface not in context["surfaces"]:
             yield f.unknown("surface", self.surface, context["surfaces"])
@@ -76,16 +70,15 @@ class Material(ElasticPair, f.Labelled):
             if self.backing is not None:
                 yield f"backing = {self.backing!r} belongs to a layer: give its thickness, too"
             return
-        if self.plane_strain_modulus is not None or self.poisson_ratio is None:
+        if self.plane_strain_modulus is not None:
             yield (
                 f"thickness = {self.thickness!r}: a layer needs youngs_modulus and poisson_ratio "
                 "instead of plane_strain_modulus"
             )
         elif self.poisson_ratio < 0:
             yield f"poisson_ratio = {self.poisson_ratio:g} of a layer must be between 0 and 0.5"
-        for key in ("youngs_modulus_table", "youngs_modulus_prony"):
-            if isinstance(self.backing, Film) and getattr(self, key) is not None:
-                yield f"{key} with a film: give youngs_modulus, since the film has one modulus"
+        if isinstance(self.backing, Film) and self.youngs_modulus is None:
+            yield "backing: give youngs_modulus beside a film, which has one modulus"
 
 
 class Materials(Section):

@@ -1,32 +1,50 @@
-"""Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one."""
+"""Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one.
+
+Of the other campaigns, which users do not edit, they check surfaces and what must agree with the
+user's files.
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from operator import attrgetter
+from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import ConfigDict, Field
 
 from common.config import fields as f
+from common.config.experiments import Experiments
 from common.config.fields import Section, needed, optional
-from common.config.surfaces import Direction
+from common.config.materials import Materials
+from common.config.surfaces import Direction, Surfaces
 from stickiness.accuracy.quantities import QUANTITIES
 
 # What the figures and the claims read; may be edited but not removed.
-PAPER_CASES = ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide")
-PAPER_SWEEPS = ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d")
-PAPER_SETS = ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error")
+PAPER = {
+    "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"),
+    "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
+    "adhesion": ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error"),
+    "loops": ("fig4a",),
+}
+# Keys of criteria, and axes of the table of a_V within which they must lie.
+WITHIN_TABLE = (
+    ("a_v.pressure", "pressure"),
+    ("map.hurst", "hurst"),
+    ("compared.hurst", "hurst"),
+    ("compared.magnification.minimum", "magnification"),
+    ("compared.magnification.maximum", "magnification"),
+    ("compared.quoted_magnification", "magnification"),
+    ("compared.h_rms_over_range.minimum", "range, inverted:"),
+    ("compared.h_rms_over_range.maximum", "range, inverted:"),
+    ("compared.quoted_h_rms_over_range", "range, inverted:"),
+)
 
-AtMost = Annotated[int, Field(ge=2, le=128)]
+AtMost = f.whole(ge=2, le=128)
 Estimator = Literal["multilevel", "plain"]
-
-
-def _ascend(values):
-    if values != sorted(values):
-        raise f.Refusal(f" = {values!r} must be in increasing order")
-    return values
-
-
-Axis = Annotated[f.Values, Field(min_length=4), AfterValidator(_ascend)]
+Axis = Annotated[
+    f.Values,
+    Field(min_length=4),
+    f.demand(lambda values: values == sorted(values), "must be in increasing order"),
+]
 
 
 class Fidelity(Section):
@@ -38,7 +56,7 @@ class Fidelity(Section):
     """
 
     pixels_per_wavelength: f.Pixels = needed("grid points per shortest wavelength")
-    tolerance: Annotated[float, Field(gt=0, le=1e-3)] = needed("residual of the solver over h_rms")
+    tolerance: f.number(gt=0, le=1e-3) = needed("residual of the solver over h_rms")
     seeds: f.Count = needed("realisations of a case")
     coarse_seeds: f.CoarseCount = optional("realisations on the coarse grid only; default 64")
     comparisons: f.Several[str] = optional("which of comparisons.surfaces to compute; default all")
@@ -52,9 +70,7 @@ class Sampling(Section):
     """
 
     method: Estimator = needed("how the mean is estimated")
-    descriptor_seeds: Annotated[int, Field(ge=100, le=100000)] = needed(
-        "realisations of which only the long waves are used"
-    )
+    descriptor_seeds: f.whole(ge=100, le=100000) = needed("realisations for long waves alone")
     at_most: AtMost = optional("largest number of seeds chosen for an accuracy; default 128")
 
 
@@ -63,13 +79,17 @@ class Band(Section):
 
     hurst: f.Hurst
     magnification: f.Magnification
-    window: Annotated[float, Field(ge=1)] = optional("side of the cell over 2 pi/q0; default 1")
+    window: f.number(ge=1) = optional("side of the cell over 2 pi/q0; default 1")
 
 
-class BandWithPlateau(Band):
-    """A spectrum that may be flat at long waves."""
+class ModelSurface(Band, Direction):
+    """A random periodic surface.
+
+    Error models were measured with gaussian amplitudes (the default) and without a roll-off.
+    """
 
     rolloff: f.Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
+    amplitudes: Literal["gaussian", "fixed"] = optional("amplitudes of the modes")
 
     def _problems(self, context):
         if self.rolloff is not None and self.rolloff >= self.magnification:
@@ -77,19 +97,8 @@ class BandWithPlateau(Band):
             yield f"rolloff = {self.rolloff:g} must be below {limit}"
 
 
-class ModelSurface(BandWithPlateau, Direction):
-    """A random periodic surface.
-
-    Error models were measured with gaussian amplitudes (the default) and without a roll-off.
-    """
-
-    amplitudes: Literal["gaussian", "fixed"] = optional("amplitudes of the modes")
-
-
 class Case(Section):
     """A contact simulation."""
-
-    old = {"carry_to": "is gone: simulate the broad spectrum, or give model: theory"}
 
     surface: str = needed("name in model_surfaces")
     pressures: f.Loads
@@ -118,7 +127,7 @@ class Case(Section):
 class Comparison(Band):
     """A surface on which theory is compared with simulation."""
 
-    seeds: Annotated[int, Field(ge=2, le=10000)] = needed("realisations")
+    seeds: f.whole(ge=2, le=10000) = needed("realisations")
     coarse_seeds: f.CoarseCount = optional("realisations on the coarse grid only; default none")
     pixels_per_wavelength: f.Pixels = optional("upper limit of the number of the fidelity")
 
@@ -153,29 +162,21 @@ class Sweep(Section):
 class Theory(Section):
     """Persson's theory."""
 
-    variants: f.Several[Literal["afferrante2018", "almqvist2011"]] = needed(
-        "afferrante2018 is quoted and must be there; others show the spread"
-    )
+    variants: Annotated[
+        f.Several[Literal["afferrante2018", "almqvist2011"]],
+        f.demand(
+            lambda variants: "afferrante2018" in variants, "lacks 'afferrante2018', which is quoted"
+        ),
+    ] = needed("afferrante2018 is quoted and must be there; others show the spread")
     gamma: f.Share = needed("gamma of Yang & Persson's correction; 1 switches the correction off")
     table: Table = needed("points at which a_V is tabulated")
     sweeps: f.Names[Sweep] = needed("computations on continuous spectra, by name")
 
-    def _problems(self, context):
-        if "afferrante2018" not in self.variants:
-            yield f"variants = {self.variants!r} lacks 'afferrante2018', which is quoted"
-
 
 class FitIntervals(Section):
-    """Fit of a_V to attractive areas."""
+    """Intervals of the fit of a_V; others than the first show their influence."""
 
-    windows: f.Several[f.Pair[f.Positive]] = needed(
-        "fit intervals [low, high] of range/h_rms; the first is quoted, others show its influence"
-    )
-
-    def _problems(self, context):
-        for index, (low, high) in enumerate(self.windows):
-            if not low < high:
-                yield f"windows[{index}] = {[low, high]!r} must be [low, high] with low < high"
+    windows: f.Several[f.Interval[f.Positive]] = needed("of range/h_rms; the first is quoted")
 
 
 class Adhesive(Section):
@@ -236,8 +237,6 @@ class Loop(Adhesive):
 class ReferenceCase(Section):
     """Where the a_V of the paper's criterion is simulated; theory extrapolates it."""
 
-    old = {"measured": "is gone: a_V now comes from the run itself"}
-
     case: str = needed("name in cases")
     pressure: f.Positive = needed("one of the pressures of that case, over E* q0 h_rms")
 
@@ -267,8 +266,6 @@ class Compared(Section):
 class Criteria(Section):
     """Criteria of stickiness."""
 
-    old = {"ranges": "is gone: theory on real surfaces is evaluated at fixed ranges"}
-
     a_v: ReferenceCase = needed("where the a_V of the paper's criterion is simulated")
     frequencies: f.Grid = needed("frequencies [Hz] at which pairs are judged, beside 1 Hz")
     map: CriterionMap = needed("map of the paper's criterion, Figure 5")
@@ -277,12 +274,6 @@ class Criteria(Section):
 
 class Configuration(Section):
     """The user's configuration, together with that of the paper's figures."""
-
-    old = {
-        "tradeoff": "is gone: config/campaigns/tradeoff.yaml holds that campaign",
-        "remaining": "is gone: config/campaigns/remaining.yaml holds that campaign",
-        "dmt_error": "is gone: the file is always config/dmt_error.csv",
-    }
 
     results: f.Text = needed("folder for everything that is computed, with one for each fidelity")
     fidelity: str = needed("preset to use: draft, standard, fine or one of your own")
@@ -303,51 +294,33 @@ class Configuration(Section):
     criteria: Criteria = needed("criteria of stickiness")
 
     def _problems(self, context):
-        yield from self._paper_problems()
-        for key, name, known in self._references():
-            if name not in known:
-                yield f.unknown(key, name, known)
-        for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
-            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
-        a_v = self.criteria.a_v
-        loads = [
-            (f"adhesion.{key}.pressures", asked.case, pressure)
-            for key, asked in self.adhesion.items()
-            for pressure in asked.pressures
-        ]
-        for key, case, pressure in (*loads, ("criteria.a_v.pressure", a_v.case, a_v.pressure)):
-            if pressure not in self.cases[case].pressures:
-                yield f"{key} = {pressure:g} is not among the pressures of cases.{case}"
-        for key, value, axis, low, high in self._limits():
-            if not low <= value <= high:
-                yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
-
-    def _paper_problems(self):
-        """Require what the figures and the claims read."""
-        for table, present, names in (
-            ("cases", self.cases, PAPER_CASES),
-            ("theory.sweeps", self.theory.sweeps, PAPER_SWEEPS),
-            ("adhesion", self.adhesion, PAPER_SETS),
-            ("loops", self.loops, ["fig4a"]),
-        ):
+        for table, names in PAPER.items():
             for name in names:
-                if name not in present:
+                if name not in attrgetter(table)(self):
                     yield f"{table}: {name!r} is missing; the paper's figures and claims need it"
         if self.adhesion["fig2"].maps is None:
             yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
         if self.adhesion["dmt_error"].model != "full":
             yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured"
-        users = dict.fromkeys(PAPER_CASES, "the paper's figures and claims")
-        users |= {asked.case: f"adhesion.{key}" for key, asked in self.adhesion.items()}
-        users[self.criteria.a_v.case] = "criteria.a_v"
-        for name, user in users.items():
-            for key in ("quantities", "model"):
-                value = getattr(self.cases.get(name), key, None)
+        for key, name, known in self._references():
+            if name not in known:
+                yield f.unknown(key, name, known)
+        for name in sorted(self.comparisons.surfaces.keys() & self.cases.keys()):
+            yield f"comparisons.surfaces.{name} has the name of a case; give it another"
+        for user, key, case, loads in self._uses():
+            for key_of_case in ("quantities", "model"):
+                value = getattr(self.cases[case], key_of_case)
                 if value not in (None, "simulation"):
                     yield (
-                        f"cases.{name}.{key} = {value!r}: leave it out, {user} needs every "
+                        f"cases.{case}.{key_of_case} = {value!r}: leave it out, {user} needs every "
                         "quantity by simulation; or add a case"
                     )
+            for load in loads:
+                if load not in self.cases[case].pressures:
+                    yield f"{key} = {load:g} is not among the pressures of cases.{case}"
+        for key, value, axis, low, high in self._limits():
+            if not low <= value <= high:
+                yield f"{key} = {value:g} must lie within {axis} {low:g} … {high:g}"
 
     def _references(self):
         """Yield keys that name entries: key, name, and the entries that there are."""
@@ -355,13 +328,22 @@ class Configuration(Section):
         for key, fidelity in self.fidelities.items():
             for name in fidelity.comparisons or []:
                 yield f"fidelities.{key}.comparisons", name, self.comparisons.surfaces
-        for key, case in self.cases.items():
-            yield f"cases.{key}.surface", case.surface, self.model_surfaces
-        for key, loop in self.loops.items():
-            yield f"loops.{key}.surface", loop.surface, self.model_surfaces
+        for table in ("cases", "loops"):
+            for key, entry in getattr(self, table).items():
+                yield f"{table}.{key}.surface", entry.surface, self.model_surfaces
         for key, asked in self.adhesion.items():
             yield f"adhesion.{key}.case", asked.case, self.cases
         yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
+
+    def _uses(self):
+        """Yield what needs every quantity of a case: who does, and key, case and loads."""
+        a_v = self.criteria.a_v
+        yield "criteria.a_v", "criteria.a_v.pressure", a_v.case, [a_v.pressure]
+        for name, asked in reversed(self.adhesion.items()):
+            user = f"adhesion.{name}"
+            yield user, f"{user}.pressures", asked.case, asked.pressures
+        for case in PAPER["cases"]:
+            yield "the paper's figures and claims", "", case, []
 
     def _limits(self):
         """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
@@ -372,18 +354,70 @@ class Configuration(Section):
         for key, asked in self.adhesion.items():
             for value in asked.range_over_h_rms:
                 yield f"adhesion.{key}.range_over_h_rms", value, *gaps
-        table, criteria = self.theory.table, self.criteria
-        hurst, pressure, broad = (
-            (f"theory.table.{axis}", getattr(table, axis)[0], getattr(table, axis)[-1])
-            for axis in ("hurst", "pressure", "magnification")
-        )
-        rough = "theory.table.range, inverted:", 1 / table.range.maximum, 1 / table.range.minimum
-        yield "criteria.a_v.pressure", criteria.a_v.pressure, *pressure
-        yield "criteria.map.hurst", criteria.map.hurst, *hurst
-        compared = criteria.compared
-        yield "criteria.compared.hurst", compared.hurst, *hurst
-        for key, limits in (("magnification", broad), ("h_rms_over_range", rough)):
-            grid, quoted = getattr(compared, key), getattr(compared, f"quoted_{key}")
-            yield f"criteria.compared.{key}.minimum", grid.minimum, *limits
-            yield f"criteria.compared.{key}.maximum", grid.maximum, *limits
-            yield f"criteria.compared.quoted_{key}", quoted, *limits
+        table = self.theory.table
+        axes = dict(table)
+        axes["range, inverted:"] = 1 / table.range.maximum, 1 / table.range.minimum
+        for key, axis in WITHIN_TABLE:
+            limits = f"theory.table.{axis}", axes[axis][0], axes[axis][-1]
+            yield f"criteria.{key}", attrgetter(key)(self.criteria), *limits
+
+
+class Campaign(Section):
+    """Keys of which only some are checked."""
+
+    model_config = ConfigDict(extra="allow")
+
+
+class MeasuredSurfaces(Campaign):
+    """Surfaces on which settings are measured."""
+
+    surfaces: f.Names[ModelSurface]
+
+
+class Tradeoff(Campaign):
+    """What accuracy costs, as `snakemake tradeoff` measures it, and the rule of the presets."""
+
+    presets: dict[str, Any]
+    adhesion: MeasuredSurfaces
+    cases: MeasuredSurfaces
+    finer: MeasuredSurfaces
+    validation: MeasuredSurfaces
+
+    def _problems(self, context):
+        rule, user = self.presets, context["config"]
+        if rule["surface"] not in user["model_surfaces"]:
+            yield f.unknown("presets.surface", rule["surface"], user["model_surfaces"])
+        for name in rule["accuracy"]:
+            for table in (user["fidelities"], rule["adhesive"]["accuracy"]):
+                if name not in table:
+                    yield f.unknown("presets.accuracy", name, table)
+
+
+class RemainingSet(ModelSurface, Campaign):
+    """A surface on which adhesion is simulated."""
+
+    one_of = (("zones", "ranges"),)
+
+    points: f.whole(ge=32, multiple_of=2)
+
+    def _problems(self, context):
+        yield from super()._problems(context)
+        least = 2 * self.magnification * (self.window or 1)
+        if self.points < least:
+            yield f"points = {self.points} must be at least {least:g}, two per shortest wavelength"
+
+
+class Remaining(Campaign):
+    """How much adhesion remains, as `snakemake remaining_measured` simulates it."""
+
+    sets: f.Names[RemainingSet]
+
+
+MODELS = {
+    "config": Configuration,
+    "materials": Materials,
+    "surfaces": Surfaces,
+    "experiments": Experiments,
+    "tradeoff": Tradeoff,
+    "remaining": Remaining,
+}

@@ -6,15 +6,14 @@ import math
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator
 
 from common.config import fields as f
-from common.config.entries import has_units, measurements
+from common.config.entries import measurements
 from common.config.fields import Section, needed, optional
 from common.config.materials import ElasticPair
 from stickiness import plausibility
 from stickiness.measured import readers
-from stickiness.units import si
 
 _BUILTIN = "builtin:jacksboro"
 
@@ -22,25 +21,16 @@ _BUILTIN = "builtin:jacksboro"
 class Direction(Section):
     """Direction of a rough surface."""
 
-    anisotropy: Annotated[float, Field(ge=1, le=100)] = optional(
-        "ratio of the long to the short correlation length; default 1"
-    )
-    angle: Annotated[float, Field(ge=-180, le=180)] = optional(
-        "direction of the long correlation length from x, in degrees"
-    )
+    anisotropy: f.number(ge=1, le=100) = optional("long over short correlation length; default 1")
+    angle: f.number(ge=-180, le=180) = optional("of the long correlation length from x, in degrees")
 
 
-class RealSurface(f.Labelled):
-    """What every real surface has."""
-
-    kind: Literal["self_affine", "measured"] = needed("parameters of a spectrum, or a measurement")
-
-
-class SelfAffine(RealSurface, Direction):
+class SelfAffine(f.Labelled, Direction):
     """A surface of `kind: self_affine`."""
 
     one_of = (("longest_wavelength", "q0"), ("shortest_wavelength", "q1"), ("h_rms", "C0"))
 
+    kind: Literal["self_affine", "measured"] = needed("parameters of a spectrum, or a measurement")
     hurst: f.Hurst
     longest_wavelength: f.Length = optional('longest wavelength, e.g. "6 mm"; or give q0')
     shortest_wavelength: f.Length = optional('shortest wavelength, e.g. "1 um"; or give q1')
@@ -51,33 +41,32 @@ class SelfAffine(RealSurface, Direction):
     C0: f.one_or_two(str) = optional('prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"')
 
     def _problems(self, context):
-        longest = _wavelength(self.longest_wavelength, self.q0)
-        shortest = _wavelength(self.shortest_wavelength, self.q1)
+        longest = self.longest_wavelength or 2 * math.pi / self.q0
+        shortest = self.shortest_wavelength or 2 * math.pi / self.q1
         if not shortest < longest:
             yield f"shortest_wavelength = {shortest:g} m must be below the longest, {longest:g} m"
-        if self.rolloff_wavelength is not None:
-            rolloff = si(self.rolloff_wavelength, "m")
-            if not shortest < rolloff < longest:
-                yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
-        unit_of_c0 = f"m^{2 - 2 * self.hurst:g}"
-        for key, given, unit in (("C0", self.C0, unit_of_c0), ("h_rms", self.h_rms, "m")):
-            try:
-                values = [si(value, unit) for value in _as_list(given or [])]
-            except ValueError as error:
-                yield f"{key} = {error}"
-                return
+        rolloff = self.rolloff_wavelength
+        if rolloff is not None and not shortest < rolloff < longest:
+            yield f"rolloff_wavelength = {rolloff:g} m must be in {shortest:g} … {longest:g} m"
+        try:
+            prefactors = [f.Quantity(one, f"m^{2 - 2 * self.hurst:g}") for one in _listed(self.C0)]
+        except ValueError as error:
+            yield f"C0 = {error}"
+        for key, values in (("C0", prefactors), ("h_rms", _listed(self.h_rms))):
             if not all(value > 0 for value in values):
-                yield f"{key} = {given!r} must be positive"
+                yield f"{key} = {getattr(self, key)!r} must be positive"
             if values != sorted(values):
-                yield f"{key} = {given!r} must be [low, high]"
+                yield f"{key} = {values!r} must be [low, high]"
+
+
+# Unit of a length, here as a length.
+LengthUnit = Annotated[str, AfterValidator(lambda unit: f.Quantity(f"1 {unit}", "m"))]
 
 
 class Reading(Section):
     """How a measured file is read and analysed."""
 
-    file: f.Text = needed(
-        'path of a file of any instrument, .nc, .npz, .npy or text, or "builtin:jacksboro"'
-    )
+    file: f.Text = needed('file of any instrument, .nc, .npz, .npy, text or "builtin:jacksboro"')
     format: f.Text = optional(
         "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
     )
@@ -85,25 +74,19 @@ class Reading(Section):
     variable: str = optional("NetCDF variable or npz key")
     length: f.one_or_two(f.Length) = optional("side, or sides along x and y, of what was measured")
     pixel_size: f.one_or_two(f.Length) = optional("grid step, instead of length")
-    height_unit: str = optional('unit of the heights, e.g. "nm"')
-    position_unit: str = optional('unit of the positions of a line profile, e.g. "um"')
+    height_unit: LengthUnit = optional('unit of the heights, e.g. "nm"')
+    position_unit: LengthUnit = optional('unit of the positions of a line profile, e.g. "um"')
     missing_value: float = optional("number that marks missing points besides NaN")
     missing: Literal["fill", "crop", "refuse"] = optional(
         "interpolate missing points, cut to the largest rectangle without any, or stop"
     )
-    max_missing: Annotated[float, Field(ge=0, lt=1)] = optional("largest share that is filled")
+    max_missing: f.number(ge=0, lt=1) = optional("largest share that is filled")
     missing_rim: f.by_type(str, Literal["detect"], f.Index) = optional(
         "points dropped around missing ones; default detect: as far as they stand out"
     )
-    spikes: Literal["mask", "keep"] = optional(
-        "treat single points far off all their neighbours as missing (default), or keep them"
-    )
-    detrend: Literal["mean", "plane", "quadratic"] = optional(
-        "what to subtract from the heights; quadratic for curved specimens"
-    )
-    window: Literal["none", "hann", "hann_radial"] = optional(
-        "taper of the heights; none only for periodic heights"
-    )
+    spikes: Literal["mask", "keep"] = optional("mask (default) points far off their neighbours")
+    detrend: Literal["mean", "plane", "quadratic"] = optional("what to subtract from the heights")
+    window: Literal["none", "hann", "hann_radial"] = optional("taper; none for periodic heights")
     fit_from: f.Length = optional("longest wavelength of the fit; default a quarter of the side")
     fit_to: f.Length = optional("shortest wavelength of the fit; overrides the next three")
     resolution: f.Length = optional("shortest wavelength that the instrument resolves")
@@ -125,28 +108,21 @@ class Contact(Section):
     shortest_wavelength: f.Length = optional("shortest wavelength to keep")
     measurement: f.Index = optional("which of `measurements`, counted from 0; default the first")
     periodic: bool = optional("true: the heights are periodic and pressed on the grid of the file")
-    most_points: Annotated[int, Field(ge=64, le=8192)] = optional(
-        "largest grid along a side; default 2048"
-    )
-    adhesion: ElasticPair = optional(
-        "contact with full adhesion on approach, attraction that decays exponentially, as well"
-    )
+    most_points: f.whole(ge=64, le=8192) = optional("largest grid along a side; default 2048")
+    adhesion: ElasticPair = optional("contact on approach with exponential attraction as well")
 
     def _problems(self, context):
-        if not has_units(self.pressures):
-            return
-        for index, pressure in enumerate(self.pressures):
+        with_unit = [isinstance(pressure, f.Quantity) for pressure in self.pressures]
+        for index, pressure in enumerate(self.pressures if any(with_unit) else []):
             key = f"pressures[{index}] = {pressure!r}"
-            if not isinstance(pressure, str):
+            if not with_unit[index]:
                 yield f"{key} has no unit, while others have; give all of them one kind"
             elif self.adhesion is None:
                 remedy = "or give it over E* q0 h_rms, without a unit"
                 yield f"{key} needs bem.adhesion, which gives the modulus; {remedy}"
-        if len({f"{si(pressure, 'Pa'):.9e}" for pressure in self.pressures}) < len(self.pressures):
-            yield f"pressures = {self.pressures!r} must not repeat a value"
 
 
-class Measured(RealSurface, Reading):
+class Measured(f.Labelled, Reading):
     """A surface of `kind: measured`.
 
     Keys of reading apply to every measurement that does not give its own.
@@ -154,16 +130,13 @@ class Measured(RealSurface, Reading):
 
     one_of = (("file", "measurements"),)
 
-    file: f.Text = None
-    measurements: Annotated[list[Reading], Field(min_length=2)] = optional(
-        "several files of one surface, averaged into one spectrum"
-    )
+    kind: Literal["measured"] = needed("a measurement")
+    file: f.Text = optional("as in a measurement")
+    measurements: f.AtLeastTwo[Reading] = optional("several files, averaged into one spectrum")
     plausibility: Literal["check", "ignore"] = optional(
-        "check (default): no verdict on data that no surface has; ignore: a verdict all the same"
+        "ignore: a verdict on implausible data, too"
     )
-    extend_to: f.Length = optional(
-        "shortest wavelength to which the fitted law is extended beyond the instrument"
-    )
+    extend_to: f.Length = optional("wavelength to which the fit is extended beyond the instrument")
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
     def _problems(self, context):
@@ -185,11 +158,9 @@ class Measured(RealSurface, Reading):
             yield f"missing = 'crop' {breaks} missing: fill or refuse"
 
 
-def _is_measured(given):
-    return isinstance(given, dict) and given.get("kind") == "measured"
-
-
-Surface = f.choose(_is_measured, Measured, SelfAffine)
+Surface = f.choose(
+    lambda given: isinstance(given, dict) and given.get("kind") == "measured", Measured, SelfAffine
+)
 
 
 class Surfaces(Section):
@@ -201,12 +172,6 @@ class Surfaces(Section):
 def _file_problems(measurement, made):
     """Yield what is wrong with a measurement, as far as is known before its file is read."""
     file = measurement["file"]
-    for key in ("height_unit", "position_unit"):
-        if key in measurement:
-            try:
-                si(f"1 {measurement[key]}", "m")
-            except ValueError as error:
-                yield f"{key} = {error}"
     if file.startswith("builtin:"):
         if file != _BUILTIN:
             yield f"file = {file!r} is unknown; built in: {_BUILTIN}"
@@ -215,11 +180,11 @@ def _file_problems(measurement, made):
         if not made:
             yield f"file = {file!r}: no such file; give a path from the working directory"
         return
-    sides = _as_list(measurement.get("length", []))
+    sides = _listed(measurement.get("length"))
     for side in [] if measurement.get("plausibility") == "ignore" else sides:
-        if si(side, "m") > plausibility.LONGEST_SIDE:
+        if side > plausibility.LONGEST_SIDE:
             yield f"length = {side!r} {plausibility.REFUSED_SIDE}"
-        if si(side, "m") < plausibility.SHORTEST_SIDE:
+        if side < plausibility.SHORTEST_SIDE:
             yield (
                 f"length = {side!r} is shorter than {plausibility.SHORTEST_SIDE:g} m, a few atoms; "
                 "correct it, or give plausibility: ignore if it is so"
@@ -237,13 +202,9 @@ def _file_problems(measurement, made):
     if kind not in ("netcdf", "numpy") and "variable" in measurement:
         yield f"variable = {measurement['variable']!r} is for NetCDF and npz, this file is neither"
     fit_from, fit_to = (measurement.get(key) for key in ("fit_from", "fit_to"))
-    if fit_from and fit_to and not si(fit_to, "m") < si(fit_from, "m"):
+    if fit_from and fit_to and not fit_to < fit_from:
         yield f"fit_to = {fit_to!r} must be below fit_from = {fit_from!r}"
 
 
-def _wavelength(wavelength, wave_number):
-    return 2 * math.pi / si(wave_number, "1/m") if wavelength is None else si(wavelength, "m")
-
-
-def _as_list(value):
-    return value if isinstance(value, list) else [value]
+def _listed(given):
+    return given if isinstance(given, list) else [] if given is None else [given]

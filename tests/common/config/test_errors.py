@@ -6,12 +6,10 @@ from pathlib import Path
 import pytest
 
 from common.config import load
-from common.config.reference import FILES
+from common.config.models import MODELS
 
 ROOT = Path(__file__).parents[3]
-MODELS = {name: model for name, (model, _) in FILES.items()}
 CASES = load.load(Path(__file__).with_name("errors.yaml"))
-CAMPAIGNS = ("tradeoff", "remaining")
 
 
 @pytest.fixture(scope="module")
@@ -20,7 +18,7 @@ def files():
     return {
         "config": load.defaults(ROOT),
         **{table: load.load(ROOT / f"config/{table}.yaml") for table in load.TABLES},
-        **{name: load.campaign(ROOT, name) for name in CAMPAIGNS},
+        **{name: load.load(ROOT / path) for name, path in load.CAMPAIGNS.items()},
     }
 
 

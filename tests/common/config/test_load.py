@@ -8,10 +8,10 @@ import pytest
 import yaml
 
 from common.config import entries, load
-from common.config.reference import FILES, PAGE, page
+from common.config.models import MODELS
+from common.config.reference import PAGE, page
 
 ROOT = Path(__file__).parents[3]
-CAMPAIGNS = ("tradeoff", "remaining")
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def folder(tmp_path, monkeypatch):
 
 def check(given=None, **keywords):
     given = load.load(load.USER) if given is None else given
-    campaigns = {name: load.campaign(".", name) for name in CAMPAIGNS}
+    campaigns = {name: load.load(path) for name, path in load.CAMPAIGNS.items()}
     load.check_all(load.defaults(".") | given, campaigns, given, **keywords)
 
 
@@ -111,5 +111,5 @@ def test_the_reference_is_up_to_date():
 def test_every_key_is_described_and_the_schemas_are_made():
     rows = [line.split(" | ") for line in page().splitlines() if line.startswith(("| `", "| **"))]
     assert all(len(row) == 3 and row[2].strip("| ") for row in rows)
-    for model, _ in FILES.values():
+    for model in MODELS.values():
         assert model.model_json_schema()["properties"]
