@@ -7,7 +7,6 @@ thickness changes the energy that it takes to conform.
 
 import numpy as np
 import xarray as xr
-from scipy.special import erf
 
 from common.real_spectra import real_spectrum
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
@@ -20,7 +19,6 @@ MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 ENERGIES = ("elastic_energy", "elastic_energy_draws")
 DRAWS = ("h_rms_draws", "q0_draws", "elastic_energy_draws")
 OF_SURFACE = (*MOMENTS, "elastic_energy", "q0", *DRAWS)
-FULL = 0.99  # contact area fraction from which on a_V has no meaning
 TOO_DIFFERENT = (
     "the two rough solids differ too much in scale: at the load at which a_V is evaluated, "
     f"{LOAD:g} E* q0 h_rms, they are in full contact"
@@ -36,11 +34,10 @@ def combine(material, surface, a_v, second=None):
     pair = describe(surface)
     if second is not None:
         pair = add_surfaces(surface, second, material.solid)
-        area = erf(np.sqrt(np.pi) * LOAD * pair.q0 * pair.h_rms / pair.rms_slope)  # Persson's
-        if area.max() < FULL:
-            spectra = zip(ENDS, find_spectra(surface, second), strict=True)
+        spectra = zip(ENDS, find_spectra(surface, second), strict=True)
+        try:
             a_v = [find_end_a_v(pair, *each) for each in spectra]
-        else:
+        except ValueError:  # attractive areas vanish within rounding
             pair.attrs["not_judged"] = TOO_DIFFERENT
     if material.solid != HALF_SPACE:
         pair = put_on_layer(pair, material.solid, find_spectra(surface, second))

@@ -28,13 +28,15 @@ EVERY = "all"  # the three quantities with equal weights
 CONFIDENCE = 0.95
 RANDOM = {"draws": 1000, "seed": 1}
 INTERVAL = f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
+MISFIT = "root mean square of ln(theory/simulation) at the"
 VARIABLES = {
     "correction": "correction of the theory",
     "quantity": f"what is compared; {EVERY}: the three with equal weights",
     "gamma": "gamma at which theory agrees best with simulation",
     "gamma_low": f"low end of the {INTERVAL}",
     "gamma_high": f"high end of the {INTERVAL}",
-    "misfit": "root mean square of ln(theory/simulation) at the best gamma",
+    "misfit": f"{MISFIT} best gamma",
+    "misfit_own": f"{MISFIT} gamma of the correction's source",
     "quantities_agree": "1 where one gamma lies within the intervals of the three quantities; "
     f"where 0, the one for {EVERY} is a compromise that may suit none of them",
     "own_gamma": "gamma of the correction's source",
@@ -51,7 +53,7 @@ def main(job):
         [fit(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
     ]
-    names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit")
+    names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit", "misfit_own")
     dims, values = ("correction", "quantity"), np.moveaxis(rows, -1, 0)
     dataset = xr.Dataset(
         {name: (dims, value) for name, value in zip(names, values, strict=True)},
@@ -117,7 +119,7 @@ def sample(rng, count, windows):
 
 
 def fit(cases, draws, correction, quantity):
-    """Gamma, the ends of its confidence interval, the 90 % spread, and the misfit at it."""
+    """Gamma, the ends of its interval, the 90 % spread, the misfits at it and at the source's."""
     names = QUANTITIES if quantity == EVERY else (quantity,)
     every = np.arange(len(cases))[None]
     still = every, np.zeros((len(QUANTITIES), *every.shape))
@@ -130,7 +132,8 @@ def fit(cases, draws, correction, quantity):
     gammas = lowest(CubicSpline(np.log(GRID), drawn, axis=1))
     ends = np.quantile(gammas, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
     spread = np.quantile(np.abs(gammas - best), 0.9)
-    return best, *ends, spread, np.sqrt(max(float(curve(np.log(best))), 0.0))
+    at = np.log([best, correction_of(CORRECTIONS[correction]).gamma])
+    return best, *ends, spread, *np.sqrt(np.maximum(curve(at), 0.0))
 
 
 def add_budgets(dataset, spread):
