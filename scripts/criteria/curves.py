@@ -83,12 +83,11 @@ def follow(pair, solids, draws, strain, dim, moduli, heights):
 
 def scale_heights(rough, factor):
     """A `Pair` or a `Roughness` with its heights times a factor."""
-    bound = rough.half_space_energy
     return replace(
         rough,
         h_rms=rough.h_rms * factor,
         elastic_energy=rough.elastic_energy * factor**2,
-        half_space_energy=None if bound is None else bound * factor**2,
+        half_space_energy=rough.half_space_energy * factor**2,
     )
 
 
