@@ -38,10 +38,9 @@ CURVES = {  # units and descriptions of the variables
 def follow_remaining(pair, solids, draws, strain, rates):
     """Share that remains along factors on E* and on the heights, and along the rate.
 
-    `draws` has a row of `read_draws` for every material, `strain` is that of layers, and `rates`
-    are moduli ``(material, frequency)``. With a film the modulus of the layer alone changes the
-    response, so that only the heights can be followed.
+    `draws` has a row of `read_draws` for every material, `rates` are moduli (material, frequency).
     """
+    # With a film the modulus of the layer alone changes the response: only heights are followed.
     scalable = np.array([solid.is_scalable for solid in solids])
     quoted = np.array([solid.modulus for solid in solids])
     along = {
@@ -58,11 +57,9 @@ def follow_remaining(pair, solids, draws, strain, rates):
 
 
 def follow(pair, solids, draws, strain, dim, moduli, heights):
-    """Share with both limits for moduli ``(dim, material)`` and factors on heights ``(dim,)``.
+    """Share with the limits that decide, for moduli (dim, material) and factors on heights (dim,).
 
-    Limits are those that decide (`find_limits`). The energy of full contact goes with E* and with
-    the square of the heights: no spectrum is integrated again. A modulus that is not known is NaN,
-    and so are its shares.
+    A modulus that is not known is NaN, and so are its shares.
     """
     known = xr.DataArray(~np.isnan(moduli), dims=(dim, "material"))
     moduli = np.where(known, moduli, pair.modulus[:, 0, 0])
@@ -82,7 +79,7 @@ def follow(pair, solids, draws, strain, dim, moduli, heights):
 
 
 def scale_heights(rough, factor):
-    """A `Pair` or a `Roughness` with its heights times a factor."""
+    """A `Pair` or a `Roughness` with its heights times a factor: no spectrum is integrated."""
     return replace(
         rough,
         h_rms=rough.h_rms * factor,

@@ -34,6 +34,7 @@ ERRORS = {  # of measured surfaces
     "error_of_model": ("1", "standard deviation of ln margin by the model", UNMEASURED),
     "share_error_of_spectrum": ("1", f"standard deviation by the spectrum: {REMAINS}", UNMEASURED),
 }
+DRAWN = ("margin", "remaining", "pull_off")  # whose quantiles over draws are computed
 # Units, descriptions and, where a value may be missing, what that means.
 VARIABLES = {
     **QUANTITIES,
@@ -83,8 +84,7 @@ def judge_materials(surfaces, material_surfaces, asked):
 def find_verdicts(materials, surfaces, material_surfaces, frequencies):
     """Every variable of `VARIABLES`, with error budgets, for `Material`s on surfaces by name.
 
-    `material_surfaces` has the datasets of the surfaces of materials that are rough themselves.
-    The frequencies are in Hz.
+    `material_surfaces` are those of materials that are rough themselves; frequencies are in Hz.
     """
     solids = list(materials.values())
     seconds = [material_surfaces.get(solid.surface) for solid in solids]
@@ -168,23 +168,18 @@ def judge_pairs(solids, roughness, frequencies):
 
 def judge_measured(solids, draws):
     """Distributions over the draws of measured surfaces; NaN on others."""
-    shape = len(solids), len(draws[0])
-    numbers = {name: np.full(shape, np.nan) for name in ERRORS}
-    quantiles = {name: np.full((*shape, len(QUANTILES)), np.nan) for name in LIMITED}
-    for place in np.ndindex(shape):
-        solid, one = solids[place[0]], draws[place[0]][place[1]]
-        if one is None:
-            continue
-        found = judge_draws(solid, one)
-        for name in ERRORS:
-            numbers[name][place] = found[name]
-        for name in ("margin", "remaining", "pull_off"):
-            quantiles[name][place] = np.quantile(found[name], QUANTILES)
-        if solid.is_scalable:
-            quantiles["modulus_threshold"][place] = solid.modulus * quantiles["margin"][place]
-    return {name: (DIMS[:2], values) for name, values in numbers.items()} | {
-        f"{name}_quantile": ((*DIMS[:2], "quantile"), x) for name, x in quantiles.items()
-    }
+    unknown = dict.fromkeys((*ERRORS, *DRAWN), np.nan)
+    found = [
+        [unknown if one is None else judge_draws(solid, one) for one in row]
+        for solid, row in zip(solids, draws, strict=True)
+    ]
+    dataset = xr.Dataset({n: (DIMS[:2], [[x[n] for x in row] for row in found]) for n in ERRORS})
+    for name in DRAWN:
+        values = [[np.quantile(one[name], QUANTILES) for one in row] for row in found]
+        dataset[f"{name}_quantile"] = (*DIMS[:2], "quantile"), values
+    moduli = [solid.modulus if solid.is_scalable else np.nan for solid in solids]
+    thresholds = dataset.margin_quantile * xr.DataArray(moduli, dims="material")
+    return dataset.assign(modulus_threshold_quantile=thresholds)
 
 
 def judge_draws(solid, draws):

@@ -82,10 +82,7 @@ class Pair(Roughness):
         return self.tension(self.adhesion_length, self.range, sign) * self.modulus
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
-        """Adhesion length [m] above which the wanted share remains.
-
-        With `sign` +1 or -1 by the high or low limit of the share.
-        """
+        """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""
         return self.threshold(self.range, self.wanted_share, sign)
 
     @cached_property
@@ -105,8 +102,8 @@ def decide(
 ) -> NDArray:
     """Codes of the verdicts (int8), their places in `WORDS`.
 
-    `low` and `high` are limits of the share of the work of adhesion that remains, `wanted` is the
-    share from which a pair sticks; `grows` says whether contact grows by itself at the finest wave.
+    `low` and `high` are limits of the share that remains, `wanted` is the share from which a pair
+    sticks; `grows` says whether contact grows by itself at the finest wave.
     """
     low, high = np.asarray(low), np.asarray(high)
     return np.select(
