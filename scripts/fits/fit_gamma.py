@@ -72,9 +72,9 @@ def main(job):
 
 
 def case(ensemble, comparison):
-    """Logarithms of theory over simulation, (correction, gamma, point), and their errors (point).
+    """Mean products of ln(theory/simulation), (correction, gamma), and its errors by quantity.
 
-    Loads for which the window holds summits enough.
+    At loads for which the window holds summits enough: squares, mixed products, squared errors.
     """
     made = datasets.parameters(ensemble)
     lattice = lattice_spectrum(model_spectrum(made), cell_size(made))
@@ -98,7 +98,8 @@ def case(ensemble, comparison):
         if "range" in simulated.dims:
             simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
         mean, error = (part.values.ravel() for part in simulated.values())
-        found[name] = np.array(logs) - np.log(mean), np.nan_to_num(error / COVERS / mean)
+        logs, error = np.array(logs) - np.log(mean), np.nan_to_num(error / COVERS / mean)
+        found[name] = np.mean(logs**2, axis=-1), np.mean(logs * error, axis=-1), np.mean(error**2)
     return found
 
 
@@ -156,13 +157,9 @@ def mean_squares(cases, name, correction, chosen, off):
 
     The points of a case are off together.
     """
-    tables, errors = zip(*(case[name] for case in cases), strict=True)
-    tables = [table[correction] for table in tables]
-    squares = np.array([np.mean(t**2, axis=1) for t in tables])
-    mixed = np.array([np.mean(t * e, axis=1) for t, e in zip(tables, errors, strict=True)])
-    own = np.array([np.mean(e**2) for e in errors])
-    shift = off[QUANTITIES.index(name)][..., None]
-    moved = squares[chosen] - 2 * shift * mixed[chosen] + shift**2 * own[chosen][..., None]
+    squares, mixed, errors = map(np.array, zip(*(case[name] for case in cases), strict=True))
+    at, shift = (chosen, correction), off[QUANTITIES.index(name)][..., None]
+    moved = squares[at] - 2 * shift * mixed[at] + shift**2 * errors[chosen][..., None]
     return moved.mean(axis=1)
 
 
