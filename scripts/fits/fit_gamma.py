@@ -72,9 +72,9 @@ def main(job):
 
 
 def case(ensemble, comparison):
-    """Mean products of ln(theory/simulation), (correction, gamma), and its errors by quantity.
+    """Mean squares of ln(theory/simulation), mean products with its errors, mean squares of these.
 
-    At loads for which the window holds summits enough: squares, mixed products, squared errors.
+    By quantity, along correction and gamma, over loads at which the window holds summits enough.
     """
     made = datasets.parameters(ensemble)
     lattice = lattice_spectrum(model_spectrum(made), cell_size(made))
