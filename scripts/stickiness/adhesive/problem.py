@@ -66,23 +66,27 @@ class Problem:
         The mean pressure, if not prescribed, is the one that balances the open points in the mean.
         """
         elastic = self.elastic(gap) if elastic is None else elastic
-        traction, slope, potential = self.law.evaluate(gap)
+        traction, slope, potential = self._evaluate(gap)
+        fields = gap.ravel(), elastic.ravel(), traction.ravel()
         pressure = self.pressure
         if pressure is None:
-            total, count, least = _unloaded(
-                gap.ravel(), elastic.ravel(), traction.ravel(), self.wall
-            )
+            total, count, least = _unloaded(*fields, self.wall)
             # In full contact the least pressure that keeps it.
             pressure = -total / count if count else -least
-        reaction = elastic + pressure + traction
-        # A reaction that is not a number makes a point free, and so comes to light.
-        free = (gap > 0) | ~(reaction >= 0) | (not self.wall)
-        return State(
-            *(gap, elastic, traction, slope, free),
-            force=np.where(free, reaction / self.unit, 0.0).astype(np.float32),
-            potential=sum_blocks(np.sum, potential) / gap.size,
-            pressure=pressure,
-        )
+        free, force = np.empty(gap.shape, bool), np.empty(gap.shape, np.float32)
+        _react(*fields, pressure, self.unit, self.wall, free.ravel(), force.ravel())
+        return State(gap, elastic, traction, slope, free, force, potential / gap.size, pressure)
+
+    def _evaluate(self, gap):
+        """Traction and slope of the law on a grid, and the sum of its potential."""
+        if isinstance(self.law, FrozenTraction):
+            work = sum_blocks(lambda stress, open_by: (stress * open_by).sum(), self.law.field, gap)
+            return self.law.field, np.broadcast_to(0.0, gap.shape), work
+        traction, slope, total = np.empty(gap.shape), np.empty(gap.shape), 0.0
+        for span in spans(gap.shape):
+            traction[span], slope[span], potential = self.law.evaluate(gap[span])
+            total += float(potential.sum())
+        return traction, slope, total
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,10 +96,6 @@ class FrozenTraction:
     field: np.ndarray
     range: float  #: of the law it is frozen from
     hard_wall = True
-
-    def evaluate(self, gap):
-        """Traction, its derivative and its potential."""
-        return self.field, np.zeros_like(gap), self.field * gap
 
 
 _kept_smoother = half_space.keep_per_thread(24)(Smoother)
@@ -135,6 +135,16 @@ def sum_blocks(function, *fields):
     Within a block, sums in single precision are good enough.
     """
     return sum(float(function(*(f[span] for f in fields))) for span in spans(fields[0].shape))
+
+
+@compiled
+def _react(gap, elastic, traction, pressure, unit, wall, free, force):
+    """Find the points that are free, and the forces on them."""
+    for i in range(gap.size):
+        reaction = elastic[i] + traction[i] + pressure
+        # A reaction that is not a number makes a point free, and so comes to light.
+        free[i] = gap[i] > 0 or not reaction >= 0 or not wall
+        force[i] = reaction / unit if free[i] else 0.0
 
 
 @compiled
