@@ -17,6 +17,7 @@ from stickiness.adhesive.problem import FrozenTraction, balanced, lowered
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.repulsive import solver
 from stickiness.repulsive.active_set import PREDICTION
+from stickiness.repulsive.convolution import COUNT
 from stickiness.repulsive.half_space import coarsen, interpolate, sample
 
 _FEW_ITERATIONS = 8  # iterations below which convergence says little about stability
@@ -37,7 +38,7 @@ def relax(problem, gap, tol, max_iterations, closing=True):
     """
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     observe = _observer(problem)
-    spent, state = 0, None
+    spent, state, convolved = 0, None, COUNT.points
     if gap is None:
         fine = min(problem.heights.shape) >= _MIN_POINTS_TO_COARSEN
         if fine and problem.wall and problem.law.smooth and problem.pressure is not None:
@@ -57,6 +58,7 @@ def relax(problem, gap, tol, max_iterations, closing=True):
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
+    state.fft_pairs = (COUNT.points - convolved) / state.gap.size
     return state
 
 

@@ -116,6 +116,7 @@ class State:
     potential: float  #: mean of the law's
     pressure: float  #: mean, prescribed or in balance with the prescribed mean gap
     iterations: int = 0
+    fft_pairs: float = 0.0  #: convolutions, by their share of the points
     last_run: int = 0  #: iterations since a direction of negative curvature was met
     separated: bool = False  #: whether no attraction left can balance the tension
 

@@ -51,10 +51,12 @@ class Adhesion:
     #: the rms pressure that flattens the surface (half its rms gradient times E*) and the strength.
     residual: float
     iterations: int  #: of conjugate gradients
+    fft_pairs: float  #: convolutions, by their share of the points; those of the start included
     branch: str  #: "approach" if reached from wider gaps, "separation" if from closer ones
     control: str  #: "pressure" or "mean_gap"
     law: TractionLaw
     length: tuple  #: sides of the periodic cell
+    rms_height: float  #: about the mean
 
     @property
     def energy(self):
@@ -146,26 +148,28 @@ def solve(
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
-    gap, branch, spent = None, APPROACH, 0
+    gap, branch, unloaded = None, APPROACH, None
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
     elif start is not None and not isinstance(start, str):
         gap, branch = scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH)
     elif pressure is not None and pressure < 0:
         unloaded = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
-        gap, spent = unloaded.gap, unloaded.iterations
-    return relax_from(scaled, gap, branch, control, (tol, max_iterations), spent)
+        gap = unloaded.gap
+    return relax_from(scaled, gap, branch, control, (tol, max_iterations), unloaded)
 
 
-def relax_from(scaled, gap, branch, control, effort, spent=0):
+def relax_from(scaled, gap, branch, control, effort, unloaded=None):
     """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
 
     None stands for loading from afar. `control` has the pressure or the mean gap by its name.
-    `effort`: tolerance and most iterations; `spent`: iterations that went into the start.
+    `effort`: tolerance and most iterations; `unloaded`: state whose iterations count, too.
     """
     problem, closing = scaled.problem(**control), branch == APPROACH
     state = relax(problem, gap, *effort, closing)
-    state.iterations += spent
+    if unloaded is not None:
+        state.iterations += unloaded.iterations
+        state.fft_pairs += unloaded.fft_pairs
     result = scaled.adhesion(state, branch, control)
     if state.separated:
         raise PullOffError(
@@ -310,10 +314,12 @@ class Scaled:
             interaction_energy=state.potential * energy,
             residual=state.residual,
             iterations=state.iterations,
+            fft_pairs=state.fft_pairs,
             branch=branch,
             control=next(iter(control)),
             law=self.law,
             length=self.lengths,
+            rms_height=self.rms_height,
         )
 
 
