@@ -182,11 +182,8 @@ def average(states, full, ensemble, adhesion, made):
 def add_pixels(states, made):
     """States with as much more area as the count of turned pixels cannot rule out.
 
-    Areas are counts of pixels. If adhesion turned k of them in all realisations together, its mean
-    number lies below the upper limit of a Poisson count with 90 % confidence: 2.3 for k = 0. The
-    scatter between realisations cannot tell this, as it vanishes where no pixel turned. The limit
-    takes pixels as independent. Where they turn in strips along the edges, scatter is larger and
-    is the error.
+    That is the upper limit of a Poisson count: 2.3 if no pixel turned, of which scatter knows
+    nothing. Where pixels turn in strips along the edges, scatter is larger and is the error.
     """
     pixels = states.sizes["seed"] * (made["grid_points"] * made["refine"]) ** 2
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
@@ -234,11 +231,8 @@ def add_slopes(states, ensemble, linear):
 
 
 def pressure_at(states, ensemble):
-    """Pressure without adhesion at the area of the adhesive contact, NaN beyond the largest load.
-
-    Along the load curve of the same seed, whose edges are between the pixels: it is scaled to the
-    area in pixels at the pressure of the same mean gap.
-    """
+    """Pressure without adhesion at the area of adhesive contact, NaN beyond the largest load."""
+    # The curve has edges between the pixels: it is scaled to the area in pixels at the same gap.
     curve = fine(ensemble.area_fraction).sel(seed=states.seed)
     area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
     loads = np.log(curve.pressure.values)
@@ -252,13 +246,11 @@ def pressure_at(states, ensemble):
 
 
 def zone_width(ensemble, at):
-    """Mean width of the zone of attraction without adhesion, times q0.
-
-    The gap beside an edge grows with the distance to the power 3/2.
-    """
+    """Mean width of the zone of attraction without adhesion, times q0."""
     made = datasets.parameters(ensemble)
     edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
     edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
+    # The gap beside an edge grows with the distance to the power 3/2.
     return cell_size(made) / made["grid_points"] * np.cbrt(range_ / edge) ** 2
 
 

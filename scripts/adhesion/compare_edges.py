@@ -103,10 +103,8 @@ def compare(adhesive, alone, q0_h_rms, grid):
 
 
 def at_equal_area(adhesive, alone):
-    """Load without adhesion at the area with it, and growth of the attractive area to there.
-
-    Both grids are of whole pixels but not the same, so that relative changes are compared.
-    """
+    """Load without adhesion at the area with it, and growth of the attractive area to there."""
+    # The grids are not the same: relative changes of areas in pixels are compared.
     logs = np.log(alone.pressure.values), np.log(alone.pixel_area_fraction.values)
     pressure = adhesive.pressure
 

@@ -150,12 +150,10 @@ class _Conjugate:
         return force
 
     def _balance(self, field, points):
-        """Subtract, in place, the mean of a field, without a wall most of it where points give way.
-
-        Spread evenly, the rounding of single precision alone would press stiff points hard.
-        """
+        """Subtract, in place, the mean of a field; without a wall mostly where points give way."""
         if self.problem.wall:
             return balanced(field, points)
+        # Spread evenly, the rounding of single precision alone would press stiff points hard.
         field -= field.sum(dtype=float) / self._give.sum() * self._give
         return field
 
@@ -195,21 +193,17 @@ def _step(problem, state, direction, image):
 
 
 def _sum_along(direction, image, state):
-    """Sums over the grid that tell the energy along a direction, means but for their number.
-
-    Slope of the energy in the problem's unit, curvature by elasticity, work of the traction,
-    curvature by the law where it softens and where it hardens.
-    """
+    """Slope along a direction, stiffness, work of the law, its curvature down and up, summed."""
     sums = np.zeros(5)
     for span in spans(direction.shape):
-        part, force, law_slope = direction[span], state.force[span], state.slope[span]
-        double = part.astype(float)
-        work = np.vdot(double, state.traction[span])
-        double *= double
-        double *= law_slope
-        total = double.sum()
-        hardening = np.maximum(double, 0, out=double).sum()
-        sums += np.vdot(part, force), np.vdot(part, image[span]), work, total - hardening, hardening
+        part = direction[span]
+        slope, stiffness = np.vdot(part, state.force[span]), np.vdot(part, image[span])
+        curvature = part.astype(float)
+        work = np.vdot(curvature, state.traction[span])
+        curvature *= curvature
+        curvature *= state.slope[span]
+        total, hardening = curvature.sum(), np.maximum(curvature, 0, out=curvature).sum()
+        sums += slope, stiffness, work, total - hardening, hardening
     return sums.tolist()
 
 

@@ -30,11 +30,9 @@ _MIN_POINTS_TO_COARSEN = 128  # along the shorter side of a grid
 
 
 def relax(problem, gap, tol, max_iterations, closing=True):
-    """Relax a gap to a stable equilibrium; returns the last `State`, converged or not.
+    """Relax a gap, or load from afar if it is None; returns the last `State`, converged or not.
 
-    A `gap` of None stands for loading from afar; a given one has the mean gap if that is
-    prescribed. `max_iterations` bounds all descents together. An unstable state is left towards
-    contact if `closing`, else away from it.
+    `max_iterations` bounds all descents. An unstable state is left towards contact if `closing`.
     """
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     observe = _observer(problem)
@@ -175,11 +173,10 @@ def _left(problem, state, mode, closing):
 
 
 def _from_coarser_grids(problem, tol, max_iterations, observe=None):
-    """State of a smooth law with a wall at a prescribed pressure, by way of coarser grids.
+    """State at a prescribed pressure, from that on a grid half as fine.
 
-    The adhesive state on a grid half as fine is a better start than the contact without adhesion,
-    unless it lies beyond a jump that the fine grid does not make. So the result is None if any
-    descent meets negative curvature, without which there is no jump.
+    None if any descent meets negative curvature: the coarser grid may have jumped where this one
+    does not. Without negative curvature there is no jump.
     """
     shape = problem.heights.shape
     if min(shape) < _MIN_POINTS_TO_COARSEN:
@@ -204,10 +201,7 @@ def _predicted(problem, gap):
 
 
 def _without_adhesion(problem, max_iterations):
-    """Gap without adhesion at the control of a problem: wider than the gap of any adhesive state.
-
-    A descent from it ends on the branch of approach.
-    """
+    """Gap without adhesion, wider than any with it: a descent from it ends on the approach."""
     mean_gap = problem.mean_gap
     if problem.pressure is not None:
         at = problem.heights, problem.sides, problem.pressure, _START_TOLERANCE

@@ -131,10 +131,7 @@ def spans(shape):
 
 
 def sum_blocks(function, *fields):
-    """Sum what a function of fields, say `np.vdot`, gives over blocks of rows.
-
-    Within a block, sums in single precision are good enough.
-    """
+    """Sum, in double precision, what a function of fields, say `np.vdot`, gives over blocks."""
     return sum(float(function(*(f[span] for f in fields))) for span in spans(fields[0].shape))
 
 

@@ -160,9 +160,8 @@ def solve(
 
 
 def relax_from(scaled, gap, branch, control, effort, unloaded=None):
-    """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
+    """State that a descent from a gap in scaled units, or None, ends in; errors as of `solve`.
 
-    None stands for loading from afar. `control` has the pressure or the mean gap by its name.
     `effort`: tolerance and most iterations; `unloaded`: state whose iterations count, too.
     """
     problem, closing = scaled.problem(**control), branch == APPROACH
@@ -188,7 +187,6 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
 
 
 def _warn_of_edges(pixel, law):
-    """Warn if the pixels are far too large for the law to act at the edges of contact."""
     ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
     if ratio > _UNRESOLVED_PIXEL:
         warnings.warn(
@@ -203,7 +201,6 @@ def _warn_of_edges(pixel, law):
 
 
 def _check_control(pressure, mean_gap, law):
-    """The prescribed quantity by its name."""
     if (pressure is None) == (mean_gap is None):
         raise ValueError(
             f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
@@ -276,10 +273,7 @@ class Scaled:
         )
 
     def first_gap(self, start, mean_gap=None):
-        """Scaled gap of a state, adjusted to a prescribed mean.
-
-        It is changed in proportion, so that contact stays contact, or rigidly where there is none.
-        """
+        """Scaled gap of a state, adjusted to a prescribed mean."""
         law = self.scaled.law
         lowest = _lowest_gap(law)
         gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
@@ -287,7 +281,7 @@ class Scaled:
         if mean_gap is None:
             return gap
         mean, old = mean_gap / self.height, float(gap.mean())
-        if law.hard_wall and old > 0 and gap.min() == 0:
+        if law.hard_wall and old > 0 and gap.min() == 0:  # contact stays contact
             return gap * (mean / old)
         return lowered(gap + max(mean - old, 0.0), mean, lowest)
 
@@ -325,10 +319,7 @@ class Scaled:
 
 @compiled
 def _sum_up(gap, elastic, traction, heights, net, pressure, wall, reach):
-    """Fill in the net pressure at every point, and sum up what `Adhesion` has means of.
-
-    Repulsion, attraction, twice the elastic energy; points in contact, compressed, and near.
-    """
+    """Fill in net pressures; sums of both parts, twice the elastic energy, and three areas."""
     repulsion = attraction = energy = 0.0
     touching = compressed = near = 0
     for i in range(gap.size):

@@ -114,7 +114,7 @@ def measure(
             f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
     settings = {"tol": tol, "solid": check_solid(solid)}
-    found = _follow(heights, length, law, squeeze, settings)
+    found = _follow(heights, length, law, squeeze, settings, 1 / resolution)
     if not half_grid:
         return found
     with warnings.catch_warnings():
@@ -129,7 +129,7 @@ def measure(
     return replace(found, **limits)
 
 
-def _follow(heights, length, law, squeeze, options):
+def _follow(heights, length, law, squeeze, options, pixels_in_zone=np.nan):
     """Approach, squeeze and part once; limits are NaN."""
     first = float(heights.max() - heights.mean()) + REACH * law.range
     sizes = {"balance": BALANCE, "smallest_jump": BALANCE, "steps": STEPS}
@@ -159,7 +159,6 @@ def _follow(heights, length, law, squeeze, options):
         for way, far in zip(ways, (approach[0], separation[-1]), strict=True)
     ]
     energy = min(point.state.energy for point in points)
-    pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
     area_at_zero_load, gap_at_zero_load = _at_zero_load([point.state for point in approach])
     return Remaining(
         approach=works[0],
@@ -168,7 +167,7 @@ def _follow(heights, length, law, squeeze, options):
         pull_off=max(-float(pressure[ways[1]].min()), 0.0),
         area_at_zero_load=area_at_zero_load,
         gap_at_zero_load=gap_at_zero_load,
-        pixels_in_zone=1 / edge_zone.resolution(pixel, law.range, law.adhesion_length),
+        pixels_in_zone=pixels_in_zone,
         jumps=int(jumped.sum()),
         gap=gap,
         pressure=pressure,
