@@ -106,24 +106,23 @@ def follow(heights, length, loop, adhesion_length_over_range, control):
 def add_quoted(dataset):
     """Add what is quoted of the curves, on the fine grid, with its errors."""
     press, gap = (dataset.sel(control=control, drop=True) for control in CONTROLS[::-1])
-    last = press.isel(state=press.mean_pressure.count("state") - 1).drop_vars("state")
-    quoted = xr.Dataset(
-        {
-            "pull_off_pressure": last.mean_pressure,
-            "pull_off_area": last.repulsive_area_fraction,
-            "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
-        }
+    last = press.isel(state=press.mean_pressure.count("state") - 1)
+    quoted = {
+        "pull_off_pressure": last.mean_pressure,
+        "pull_off_area": last.repulsive_area_fraction,
+        "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
+    }
+    coarse, fine = (
+        xr.Dataset(quoted).drop_vars("state").isel(resolution=grid, drop=True) for grid in (0, -1)
     )
-    coarse, fine = (quoted.isel(resolution=grid, drop=True) for grid in (0, -1))
     dataset = annotate(dataset.assign(fine), **VARIABLES)
     for name in QUOTED:
-        change = fine[name] - coarse[name]
-        solver = ErrorComponent(SOLVER * fine[name], "by the tolerance, as measured of pull-offs")
+        change, solver = fine[name] - coarse[name], SOLVER * fine[name]
         dataset = with_budget(
             dataset,
             name,
             discretisation=ErrorComponent(change, "change from half the resolution"),
-            solver=solver,
+            solver=ErrorComponent(solver, "by the tolerance, as measured of pull-offs"),
             sampling=unknown_error("a single realisation"),
             **SIMULATED,
         )

@@ -52,10 +52,8 @@ def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
     start = contact.gap
     if weaker is not None:
         known_length, gap = weaker
-        start = gap - contact.gap
-        start *= law.adhesion_length / known_length
-        start += contact.gap
-        np.maximum(start, 0, out=start)
+        change = (gap - contact.gap) * (law.adhesion_length / known_length)
+        start = np.maximum(contact.gap + change, 0)
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance
     )
