@@ -132,10 +132,9 @@ def _unstable_mode(problem, state):
     softening = np.where(open_points, np.maximum(-state.slope, 0), 0)
     if not softening.any():
         return None
-    x0 = np.cos(2 * np.pi * np.arange(softening.shape[0]) / softening.shape[0])
-    x1 = np.cos(2 * np.pi * np.arange(softening.shape[1]) / softening.shape[1])
+    waves = [np.cos(2 * np.pi * np.arange(n) / n) for n in softening.shape]
     # A prescribed mean gap leaves a uniform load no work to do.
-    load = softening / softening.max() * (1 + 0.1 * (x0[:, None] + x1[None, :]))
+    load = softening / softening.max() * (1 + 0.1 * np.add.outer(*waves))
 
     def constrained(field):
         """Part of a field on open points, without a mean if the mean gap is prescribed."""

@@ -47,10 +47,6 @@ class Problem:
         """Approximate inverse of the stiffness."""
         return _kept_smoother(self.heights.shape, self.sides, self.solid)
 
-    def elastic(self, gap):
-        """Pressure of zero mean that deforms the solid to a gap."""
-        return self.exact.stiffness(gap + self.heights)
-
     @property
     def wall(self):
         """Whether gaps end at a hard wall; if not, every point is free."""
@@ -65,7 +61,8 @@ class Problem:
 
         The mean pressure, if not prescribed, is the one that balances the open points in the mean.
         """
-        elastic = self.elastic(gap) if elastic is None else elastic
+        if elastic is None:
+            elastic = self.exact.stiffness(gap + self.heights)
         traction, slope, potential = self._evaluate(gap)
         fields = gap.ravel(), elastic.ravel(), traction.ravel()
         pressure = self.pressure
