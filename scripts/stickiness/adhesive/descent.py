@@ -162,7 +162,7 @@ def _step(problem, state, direction, image):
     """State of less energy along a direction, if any, and whether curvature was negative."""
     law, n = problem.law, direction.size
     slope, *means = _sum_along(direction, image, state)
-    slope *= problem.unit / n
+    slope = slope * problem.unit / n
     stiffness, work, softening, hardening = (total / n for total in means)
     if not slope < 0:
         return None, False
