@@ -28,7 +28,6 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-DRAWN = ("h_rms", "elastic_energy")  # of which verdicts take every draw
 LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
 PICTURE_POINTS = 400  # along a side of the picture of the heights
@@ -49,6 +48,8 @@ VARIABLE_TEXTS = {
     "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
     "h_rms_draws": ("m", "rms height of every draw"),
+    "rms_slope_draws": ("1", "rms gradient of every draw"),
+    "rms_curvature_draws": ("1/m", "rms Laplacian of every draw"),
     "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
@@ -71,6 +72,7 @@ VARIABLE_TEXTS = {
     "measurement": ("1", "measurement of the surface, as listed"),
     "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
+    "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
     "scatter": ("1", "standard deviation between measurements in ln C", "no two overlap"),
 }
 
@@ -157,8 +159,7 @@ def analyse(entry):
     # Both ends of every moment, and the draws themselves for what depends on several.
     for name, values in drawn.moments.items():
         dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
-        if name in DRAWN:
-            dataset[f"{name}_draws"] = "draw", values
+        dataset[f"{name}_draws"] = "draw", values
     if np.isfinite(spectrum.anisotropy):
         dataset["anisotropy"] = spectrum.anisotropy
         dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
@@ -168,6 +169,7 @@ def analyse(entry):
         places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
         dataset = dataset.assign_coords(places)
         dataset["psd_measurement"] = tuple(places), spectrum.levels
+        dataset["offset"] = "measurement", spectrum.offsets
         dataset["scatter"] = spectrum.scatter
     return annotate(dataset, **errors).assign_attrs(
         remarks="; ".join(remarks),

@@ -32,6 +32,8 @@ class Stitched(MeasuredSpectrum):
     """Several measurements of one surface as one spectrum; `fit` has the scatter in its errors."""
 
     levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
+    #: (k,), mean of ln C less the stitched one where measurements overlap, else NaN
+    offsets: NDArray
     shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
     scatter: float  #: tau, standard deviation of their ln C; NaN if no two overlap
 
@@ -56,6 +58,9 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
         change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
         covariance += np.outer(change, change)
     lowest = min(m.lowest for m in measurements)
+    excess, present = logs - np.nansum(shares * logs, axis=0), np.isfinite(logs)
+    overlaps = present & (present.sum(axis=0) > 1)
+    offsets = [e[o].mean() if o.any() else np.nan for e, o in zip(excess, overlaps, strict=True)]
     return Stitched(
         rings=rings,
         area=ring_areas(rings.q, lowest),
@@ -65,6 +70,7 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
         lowest=lowest,
         anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
         levels=np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof)),
+        offsets=np.array(offsets),
         shares=shares,
         scatter=tau,
     )
