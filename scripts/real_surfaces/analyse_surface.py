@@ -65,8 +65,6 @@ VARIABLE_TEXTS = {
     "missing_fraction": ("1", "share of points that were missing or dropped, and interpolated"),
     "dropped_points": ("1", "points measured beside missing ones, not used"),
     "cropped_fraction": ("1", "share of points cut off to leave no missing ones"),
-    "x": ("m", "position along x"),
-    "y": ("m", "position along y"),
     "heights": ("m", "levelled heights of the first measurement, thinned"),
     "profile": ("m", "levelled heights of the first measurement"),
     "measurement": ("1", "measurement of the surface, as listed"),
@@ -102,7 +100,7 @@ def self_affine(entry):
         "C0": ("end", [s.C0 for s in spectra]),
         "C0_reference_upper": ("end", line),
         "hurst": entry["hurst"],
-        "q0": smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,
+        "q0": smooth.q_rolloff or smooth.q0,
         "q1": smooth.q1,
     }
     if "anisotropy" in entry:
@@ -121,10 +119,10 @@ def analyse(entry):
     drawn = stitching.draw(spectrum, DRAWS, SEED, extend_to=extend_to)
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = [*remark_on_spectrum(spectrum, extend_to)]
+    remarks, doubts = [*remark_on_spectrum(spectrum, extend_to)], []
     for one, before in zip(heights, as_read, strict=True):
         remarks += remark_on_file(one, before)
-    doubts = [doubt for one in heights for doubt in one.doubts]
+        doubts += one.doubts
     doubts += plausibility.doubt_fit(fit)
     if entry.get("plausibility", "check") == "ignore":
         remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]

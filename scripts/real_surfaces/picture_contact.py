@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 from scipy.special import erfinv
 
+from common import conventions
 from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.contact_picture import draw_still
@@ -46,50 +47,41 @@ PULL_OFF_TOLERANCE = 1e-3
 OPEN, ATTRACTED, TOUCHING = range(3)
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
-CONTACT_TEXTS = {
+TEXTS = {
     "x": ("m", "position along x"),
     "y": ("m", "position along y"),
-    "pressure": ("1", "mean pressure over E* q0 h_rms"),
     "heights": ("m", "heights pressed: periodic, without waves that the grid does not hold"),
-    "contact": ("1", "share of a block of two by two points in contact"),
+    "contact": "share of a block of two by two points in contact",
     "gap": ("m", "mean gap of a block"),
-    "contact_pressure": ("1", "mean pressure of a block over E*"),
-    "mean_pressure": ("1", "mean pressure over E*"),
-    "area_fraction": ("1", "contact area over nominal area, edges of contact between pixels"),
-    "area_fraction_discretisation_error": ("1", f"area times {RELATIVE_CHANGE}"),
+    "contact_pressure": "mean pressure of a block over E*",
+    "mean_pressure": "mean pressure over E*",
+    "area_fraction": "contact area over nominal area, edges of contact between pixels",
+    "area_fraction_discretisation_error": f"area times {RELATIVE_CHANGE}",
     "mean_gap": ("m", "mean gap"),
     "mean_gap_discretisation_error": ("m", f"mean gap times {RELATIVE_CHANGE}"),
-    "residual": ("1", "complementarity residual over the rms height"),
     "q0": ("1/m", "lowest wave number of the self-affine range of the surface"),
-    "h_rms": ("m", "rms height of the heights pressed"),
-    "rms_slope": ("1", "rms gradient of the heights pressed"),
-    "shortest_wavelength": ("m", "shortest wave of the heights pressed"),
+    "h_rms": ("m", "rms height of the heights simulated"),
+    "rms_slope": "rms gradient of the heights simulated",
+    "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
     "cutoff_wavelength": ("m", "shortest wave that the instrument resolves"),
-    "change": ("1", "rms change that made the heights periodic, over the rms height"),
+    "change": "rms change that made the heights periodic, over the rms height",
+    "mean_traction": ("Pa", "mean tension, negative where the surfaces press"),
+    "separating": "1 on the way back",
+    "contact_area": "area at a gap of zero over nominal area, by pixels",
+    "attracted_area": "area with gaps up to the range over nominal area, by pixels",
+    "zone": "state of a pixel",
+    "jumps": "jumps on the way there and back",
+    "range": ("m", "range of the attraction simulated"),
+    "material_range": ("m", "range of the attraction of the material"),
+    "zone_width": "width of the cohesive zone, range^2/(adhesion length), times q0",
+    "energy_ratio": "work of adhesion over elastic energy of full contact",
+    "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
+    "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
 }
 QUOTED = {
     "approach": "work of approach over the work of adhesion",
     "separation": "work of separation over the work of adhesion",
     "pull_off": "largest mean tension on separation",
-}
-PULL_OFF_TEXTS = {
-    "x": ("m", "position along x"),
-    "y": ("m", "position along y"),
-    "mean_gap": ("m", "mean gap"),
-    "mean_traction": ("Pa", "mean tension, negative where the surfaces press"),
-    "separating": ("1", "1 on the way back"),
-    "contact_area": ("1", "area at a gap of zero over nominal area, by pixels"),
-    "attracted_area": ("1", "area with gaps up to the range over nominal area, by pixels"),
-    "zone": ("1", "state of a pixel"),
-    "jumps": ("1", "jumps on the way there and back"),
-    "range": ("m", "range of the attraction simulated"),
-    "material_range": ("m", "range of the attraction of the material"),
-    "zone_width": ("1", "width of the cohesive zone, range^2/(adhesion length), times q0"),
-    "energy_ratio": ("1", "work of adhesion over elastic energy of full contact"),
-    "h_rms": ("m", "rms height of the heights simulated"),
-    "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
-    "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
-    "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
 }
 
 
@@ -112,10 +104,10 @@ def main(job):
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
-    name, title = job.wildcards.real_surface, f"where the heights touch: {asked['label']}"
-    made = {"surface": name, **asked}
-    datasets.write(contact, job.output.contact, title=title, parameters=made)
-    made = {"surface": name, "material": params.material, **entry, "source": asked["source"]}
+    made = {"surface": job.wildcards.real_surface}
+    title = f"where the heights touch: {asked['label']}"
+    datasets.write(contact, job.output.contact, title=title, parameters=made | asked)
+    made |= {"material": params.material, **entry, "source": asked["source"]}
     title = f"pull-off of {entry['label']} from {asked['label']}"
     datasets.write(pull_off, job.output.pull_off, title=title, parameters=made)
     draw_still(contact, pull_off, job.output.figure)
@@ -190,7 +182,7 @@ def press(rough, q0, q_cutoff):
     data = data.assign_coords(pressure=loads / (q0 * h_rms), **rough.centres(2))
     for name in (*fields, "heights"):
         data[name].encoding = {"zlib": True}
-    return datasets.annotate(data.assign_attrs(left_out="", measurement=""), **CONTACT_TEXTS)
+    return conventions.annotate(data.assign_attrs(left_out="", measurement=""), **TEXTS)
 
 
 def halve(field):
@@ -259,7 +251,7 @@ def separate(rough, band, material, law, squeeze):
         attrs={"left_out": ""},
     )
     dataset.zone.encoding = {"zlib": True}
-    dataset = datasets.annotate(dataset, **PULL_OFF_TEXTS)
+    dataset = conventions.annotate(dataset, **TEXTS)
     for name, text in QUOTED.items():
         scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
         for prefix, by, of in (("", "", found), ("predicted_", ", by the model", predicted)):
