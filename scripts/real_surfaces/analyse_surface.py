@@ -13,12 +13,12 @@ from common import conventions
 from common.config.entries import measurements
 from common.formatting import amount, percent
 from common.job import start
-from common.real_spectra import configured_spectrum
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
 from stickiness.measured import plausibility, stitching
 from stickiness.spectrum.direction import find_ratio
+from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import COVERS
 from stickiness.units import si
 
@@ -47,10 +47,6 @@ VARIABLE_TEXTS = {
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
     "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
-    "h_rms_draws": ("m", "rms height of every draw"),
-    "rms_slope_draws": ("1", "rms gradient of every draw"),
-    "rms_curvature_draws": ("1/m", "rms Laplacian of every draw"),
-    "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
     "C0_relative_error": ("1", "relative standard error of C0"),
@@ -106,6 +102,35 @@ def self_affine(entry):
     if "anisotropy" in entry:
         data["axis_ratio"] = entry["anisotropy"]
     return annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
+
+
+def configured_spectrum(asked, end):
+    """Self-affine spectrum of one end of the configured range of h_rms or C0."""
+
+    def bound(key, unit):
+        value = asked[key]
+        return si(value[end] if isinstance(value, list) else value, unit)
+
+    hurst = asked["hurst"]
+    size = {"h_rms": bound("h_rms", "m")} if "h_rms" in asked else {}
+    if "C0" in asked:
+        size["C0"] = bound("C0", f"m^{2 - 2 * hurst:g}")
+    return SelfAffine(
+        hurst=hurst,
+        q0=wave_number(asked, "q0", "longest_wavelength"),
+        q1=wave_number(asked, "q1", "shortest_wavelength"),
+        q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
+        anisotropy=asked.get("anisotropy", 1.0),
+        angle=np.radians(asked.get("angle", 0.0)),
+        **size,
+    )
+
+
+def wave_number(asked, key, wavelength):
+    """Wave number [1/m] that is given as such or as a wavelength; None if it is not given."""
+    if key in asked:
+        return si(asked[key], "1/m")
+    return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
 
 
 def analyse(entry):
@@ -281,6 +306,9 @@ def annotate(dataset, **errors):
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
+    for name in stitching.ORDERS:
+        unit, text = VARIABLE_TEXTS[name]
+        texts[f"{name}_draws"] = unit, f"{text}, of every draw"
     dataset = conventions.annotate(dataset, **texts)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
     if not errors:

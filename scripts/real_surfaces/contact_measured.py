@@ -127,9 +127,8 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
         length = material.work_of_adhesion / material.modulus
         # In the units of the scaled heights, pressures over E* q0 h_rms.
         law = Exponential(length / (q0 * h_rms**2), material.range / h_rms)
-        curves = [
-            press_with_adhesion(scaled[::step, ::step], lengths, pressures, law) for step in (2, 1)
-        ]
+        grids = scaled[::2, ::2], scaled
+        curves = [press_with_adhesion(grid, lengths, pressures, law) for grid in grids]
         block = block.merge(xr.concat(curves, "resolution"))
         block["applied_pressure"] = "pressure", pressures * material.modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])
