@@ -198,17 +198,15 @@ def draw(
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
     law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
     law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
-    moments = {}
+    moments, extrapolated = {}, []
+    if extend_to is not None:
+        ends, laws = [spectrum.cutoff.q, extend_to], zip(np.exp(law[:, 0]), law[:, 1], strict=True)
+        extrapolated = [PowerLawSegments(ends, [c], [-2 * (hurst + 1)]) for c, hurst in laws]
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
         moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
-        if extend_to is not None:
-            ends = [spectrum.cutoff.q, extend_to]
-            laws = (
-                PowerLawSegments(ends, [np.exp(level)], [-2 * (hurst + 1)])
-                for level, hurst in law[:, :2]
-            )
-            moment = moment + [beyond.variance_below(extend_to, order) for beyond in laws]
+        if extrapolated:
+            moment = moment + [beyond.variance_below(extend_to, order) for beyond in extrapolated]
         moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
     return Draws(moments, np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest))
