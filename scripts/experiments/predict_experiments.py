@@ -1,11 +1,12 @@
 """Published experiments: works of approach and separation and pull-off, beside what was seen.
 
 Everything that is not known is swept: each input between its plausible ends, the others in their
-middle.
+middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
 """
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 
 import numpy as np
 import xarray as xr
@@ -40,7 +41,7 @@ LARGEST_EFFECT = 1e9  # of an input, instead of an infinite one
 
 _QUANTITY = "the quantity observed, in its SI unit"
 _CURVE = "pull-off over that from a smooth surface"
-_LOWEST, _HIGHEST = (f"{end} limit with each input at its ends" for end in ("lowest", "highest"))
+_LOWEST, _HIGHEST = (f"{end} limit over all that is plausible" for end in ("lowest", "highest"))
 _BEYOND = "looks at no roughness, or beyond the heights followed"
 VARIABLES = {
     "case": ("1", "experiment and case"),
@@ -103,7 +104,8 @@ class Observation:
     """One observation, and the conditions it was made under.
 
     `inputs` has, by name, arrays of one value for every combination of what is plausible: first all
-    inputs in the middle, then each of `swept` at its low and high end, the others in the middle.
+    inputs in the middle, then each of `swept` at its low and high end, the others in the middle,
+    then all corners.
     """
 
     place: str  # experiment and case
@@ -190,7 +192,12 @@ def combine_inputs(ends, swept):
         low, high = ends[key]
         inputs[key][:] = np.sqrt(low * high) if low > 0 else high / 2
         inputs[key][1 + 2 * place : 3 + 2 * place] = low, high
-    return inputs
+    corners = list(product(*(ends[key] for key in swept)))
+    columns = dict(zip(swept, np.transpose(corners), strict=True)) if swept else {}
+    return {
+        key: np.concatenate([found, columns.get(key, np.full(len(corners), found[0]))])
+        for key, found in inputs.items()
+    }
 
 
 def predict(observation):
@@ -382,7 +389,7 @@ def predict_all(experiments):
         dataset[name].attrs |= datasets.flags(GRADES)
     parts = dict.fromkeys(("discretisation", "solver"), not_applicable("closed form"))
     parts["bandwidth"] = not_applicable("the spectrum is swept with the inputs")
-    parts["sampling"] = ErrorComponent(inputs, "of what is plausible of each input")
+    parts["sampling"] = ErrorComponent(inputs, "of all that is plausible of the inputs")
     parts["model"] = ErrorComponent(model, "larger side of its limits")
     return with_budget(dataset, "predicted", **parts)
 
