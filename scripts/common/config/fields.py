@@ -26,6 +26,16 @@ from stickiness.units import si
 
 T = TypeVar("T")
 
+# Keys of earlier configurations, by section, and what to do without them.
+GONE = {
+    "Configuration.tradeoff": "config/campaigns/tradeoff.yaml holds that campaign",
+    "Configuration.remaining": "config/campaigns/remaining.yaml holds that campaign",
+    "Configuration.dmt_error": "the file is always config/dmt_error.csv",
+    "Case.carry_to": "simulate the broad spectrum, or give model: theory",
+    "ReferenceCase.measured": "a_V now comes from the run itself",
+    "Criteria.ranges": "theory on real surfaces is evaluated at fixed ranges",
+}
+
 
 def _complete_schema(schema, section):
     """Give a JSON schema a title, a docstring, and groups of keys that exclude each other."""
@@ -55,12 +65,14 @@ class Section(BaseModel):
         if not isinstance(given, dict):
             return given
         fields = cls.model_fields
-        for key in given if cls.model_config["extra"] == "forbid" else ():
-            if key not in fields:
-                raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
+        for key in [key for key in given if key not in fields]:
+            if remedy := GONE.get(f"{cls.__name__}.{key}"):
+                raise ValueError(f": the key {key!r} is gone: {remedy}")
+            raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():
             if field.is_required() and key not in given:
-                raise ValueError(f": the key {key!r} is missing ({field.description})")
+                meaning = f" ({field.description})" if field.description else ""
+                raise ValueError(f": the key {key!r} is missing{meaning}")
         for group in cls.one_of:
             if sum(given.keys() >= {*choice.split(" and ")} for choice in group) != 1:
                 raise ValueError(f": give exactly one of: {'; '.join(group)}")

@@ -83,7 +83,7 @@ def defaults(project: str | Path, locate: Callable[[str], str] = str) -> dict[st
     """
     config = load(Path(project, PAPER))
     update_config(config, load(Path(project, USER)))
-    return config | {table: str(locate(config[table])) for table in TABLES}
+    return config | {table: str(locate(config[table])) for table in TABLES if table in config}
 
 
 def check_all(
@@ -118,8 +118,6 @@ def check(model: type, content: Mapping[str, Any], file: str, **context: Any) ->
     """Check the content of a file against its model; a ConfigError says what is wrong first."""
     from pydantic import ValidationError
 
-    for key in CAMPAIGNS.keys() & content.keys():
-        raise ConfigError(f"{file}: the key {key!r} is gone: {CAMPAIGNS[key]} holds that campaign")
     try:
         model.model_validate(content, context=context)
     except ValidationError as error:
