@@ -84,6 +84,3 @@ for target, files in TARGETS.items():
             target
         input:
             files,
-
-
-save_cache()

@@ -60,7 +60,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 # Made by the first run, which reads units before any job does.
 os.environ.setdefault("STICKINESS_UNITS", os.path.abspath(".snakemake/units"))
 
-from common.source_hash import save_cache, source_hash
+from common.source_hash import source_hash
 from stickiness.accuracy import model_choice, plan
 from stickiness.accuracy.error_models import read_models
 from common.config import load

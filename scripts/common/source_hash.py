@@ -1,15 +1,11 @@
 """Hash of the code that a script runs. Comments, docstrings and layout do not change it."""
 
 import ast
-import contextlib
 import hashlib
-import json
-import os
 from functools import cache
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[1]
-CACHE = Path(".snakemake/source_hashes.json")  # below the folder of the run
 
 
 def source_hash(script: str) -> str:
@@ -34,43 +30,17 @@ def find_modules() -> dict[str, Path]:
 
 
 @cache
-def read_source(path: Path) -> tuple[str, list[str]]:
-    """Return the hash of one file and the names it imports; parse it only if it has changed."""
-    stamp = [path.stat().st_mtime_ns, path.stat().st_size]
-    entry = load_cache().get(str(path))
-    if entry is None or entry[0] != stamp:
-        tree = ast.parse(path.read_bytes())
-        for node in ast.walk(tree):
-            documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
-            if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
-                del node.body[0]
-        digest = hashlib.sha256(ast.dump(tree).encode()).hexdigest()
-        entry = load_cache()[str(path)] = [stamp, digest, sorted(imported_names(tree))]
-    return entry[1], entry[2]
-
-
-def imported_names(tree: ast.Module) -> set[str]:
-    """Dotted names of everything imported, and of the packages on the way to it."""
-    names = set()
+def read_source(path: Path) -> tuple[str, set[str]]:
+    """Return the hash of one file and the names it imports, with the packages on the way to them."""
+    tree, names = ast.parse(path.read_bytes()), set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Import | ast.ImportFrom):
-            package = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
-            names |= {package + alias.name for alias in node.names}
+        match node:
+            case ast.Import() | ast.ImportFrom():
+                package = f"{node.module}." if isinstance(node, ast.ImportFrom) else ""
+                names |= {package + alias.name for alias in node.names}
+            case ast.Module() | ast.ClassDef() | ast.FunctionDef() | ast.AsyncFunctionDef():
+                if ast.get_docstring(node, clean=False) is not None:
+                    del node.body[0]
     parts = (name.split(".") for name in names)
-    return {".".join(each[: end + 1]) for each in parts for end in range(len(each))}
-
-
-@cache
-def load_cache() -> dict[str, list]:
-    with contextlib.suppress(OSError, ValueError):
-        return json.loads(CACHE.read_text(encoding="utf-8"))
-    return {}
-
-
-def save_cache() -> None:
-    """Keep what was found for the next run, where the folder may be written to."""
-    with contextlib.suppress(OSError):
-        CACHE.parent.mkdir(exist_ok=True)
-        part = CACHE.with_suffix(f".{os.getpid()}")  # other runs never read half a file
-        part.write_text(json.dumps(load_cache()), encoding="utf-8")
-        part.replace(CACHE)
+    imported = {".".join(each[: end + 1]) for each in parts for end in range(len(each))}
+    return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), imported

@@ -187,17 +187,14 @@ def read_ends(given, unit):
 
 def combine_inputs(ends, swept):
     """Values of every input for all combinations; see `Observation`."""
-    inputs = {key: np.full(1 + 2 * len(swept), found[0]) for key, found in ends.items()}
-    for place, key in enumerate(swept):
+    middle = {key: found[0] for key, found in ends.items()}
+    for key in swept:
         low, high = ends[key]
-        inputs[key][:] = np.sqrt(low * high) if low > 0 else high / 2
-        inputs[key][1 + 2 * place : 3 + 2 * place] = low, high
-    corners = list(product(*(ends[key] for key in swept)))
-    columns = dict(zip(swept, np.transpose(corners), strict=True)) if swept else {}
-    return {
-        key: np.concatenate([found, columns.get(key, np.full(len(corners), found[0]))])
-        for key, found in inputs.items()
-    }
+        middle[key] = np.sqrt(low * high) if low > 0 else high / 2
+    rows = [middle, *(middle | {key: end} for key in swept for end in ends[key])]
+    for corner in product(*(ends[key] for key in swept)):
+        rows.append(middle | dict(zip(swept, corner, strict=True)))
+    return {key: np.array([row[key] for row in rows]) for key in ends}
 
 
 def predict(observation):

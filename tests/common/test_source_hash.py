@@ -19,7 +19,6 @@ REWORDED = f'# A comment.\ndef one():\n    """A docstring."""\n{BODY}'
 def hash_now(tmp_path, monkeypatch):
     """Function that writes one file of the project and hashes the script, as a new process does."""
     monkeypatch.setattr(code, "SCRIPTS", tmp_path / "scripts")
-    monkeypatch.setattr(code, "CACHE", tmp_path / ".snakemake/source_hashes.json")
 
     def write(name, text):
         path = tmp_path / "scripts" / name
@@ -29,16 +28,14 @@ def hash_now(tmp_path, monkeypatch):
     def changed(name=None, text=None):
         if name:
             write(name, text)
-        for cached in (code.find_modules, code.read_source, code.load_cache):
+        for cached in (code.find_modules, code.read_source):
             cached.cache_clear()
-        found = code.source_hash("stage/rule.py")
-        code.save_cache()
-        return found
+        return code.source_hash("stage/rule.py")
 
     for item in FILES.items():
         write(*item)
     yield changed
-    for cached in (code.find_modules, code.read_source, code.load_cache):
+    for cached in (code.find_modules, code.read_source):
         cached.cache_clear()
 
 
@@ -62,21 +59,3 @@ def test_a_change_of_code_that_runs_changes_the_hash(hash_now, name):
 def test_comments_docstrings_layout_and_unused_modules_do_not(hash_now, name, text):
     before = hash_now()
     assert hash_now(name, text) == before
-
-
-def test_files_that_did_not_change_are_not_parsed_again(hash_now, monkeypatch):
-    before, parsed = hash_now(), []
-    parse = code.ast.parse
-    monkeypatch.setattr(code.ast, "parse", lambda text: parsed.append(text) or parse(text))
-    assert hash_now() == before
-    assert parsed == []
-    assert hash_now("other/late.py", "def three():\n    return 30\n") != before
-    assert len(parsed) == 1
-
-
-def test_a_cache_that_cannot_be_read_or_written_does_no_harm(hash_now, tmp_path, monkeypatch):
-    before = hash_now()
-    (tmp_path / "file").write_text("not a folder, and not JSON", encoding="utf-8")
-    for cache in (tmp_path / "file", tmp_path / "file/below.json"):
-        monkeypatch.setattr(code, "CACHE", cache)
-        assert hash_now() == before

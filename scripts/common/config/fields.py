@@ -26,7 +26,7 @@ from stickiness.units import si
 
 T = TypeVar("T")
 
-# Keys of earlier configurations, by section, and what to do without them.
+# Keys that are gone, by section, and what to do without them.
 GONE = {
     "Configuration.tradeoff": "config/campaigns/tradeoff.yaml holds that campaign",
     "Configuration.remaining": "config/campaigns/remaining.yaml holds that campaign",

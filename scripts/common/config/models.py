@@ -383,17 +383,14 @@ class Settings(Section):
 
     tolerances: f.Values
     at_tolerance: f.Positive
-
-
-class ContactSettings(Settings):
-    """Settings without adhesion."""
-
     at_pixels: f.Pixels
 
 
-class PullOff(Settings):
+class PullOff(Section):
     """Pull-off during separation under a press."""
 
+    tolerances: f.Values
+    at_tolerance: f.Positive
     pixels: EvenNumbers
     points: f.Several[f.Pair[f.Positive]]
     seeds: f.Count
@@ -401,7 +398,7 @@ class PullOff(Settings):
     at_balance: f.Positive
 
 
-class FullAdhesion(ContactSettings):
+class FullAdhesion(Settings):
     """Full adhesion with various settings."""
 
     surfaces: f.Names[ModelSurface]
@@ -445,7 +442,7 @@ class Tradeoff(Section):
     """What accuracy costs, as `snakemake tradeoff` measures it, and the rule of the presets."""
 
     presets: Presets
-    settings: ContactSettings
+    settings: Settings
     pressures: f.Loads
     adhesion: FullAdhesion
     cases: MeasuredSurfaces
