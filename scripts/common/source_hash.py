@@ -31,7 +31,7 @@ def find_modules() -> dict[str, Path]:
 
 @cache
 def read_source(path: Path) -> tuple[str, set[str]]:
-    """Return the hash of one file and the names it imports, with the packages on the way to them."""
+    """Return the hash of one file, and the names it imports with the packages on the way."""
     tree, names = ast.parse(path.read_bytes()), set()
     for node in ast.walk(tree):
         match node:

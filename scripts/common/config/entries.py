@@ -1,7 +1,5 @@
 """How scripts read entries of the configuration; without the models, which jobs do not need."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

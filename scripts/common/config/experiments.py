@@ -1,7 +1,5 @@
 """Models of config/experiments.yaml."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Annotated, Any, Generic, Literal
 

@@ -1,7 +1,5 @@
 """What the models of the configuration are made of: sections, numbers and values with units."""
 
-from __future__ import annotations
-
 import difflib
 import inspect
 import re
@@ -92,7 +90,7 @@ class Section(BaseModel):
 class Quantity(float):
     """A value in SI units, written as it was given: ``'50 um'``."""
 
-    def __new__(cls, text: str, unit: str) -> Quantity:
+    def __new__(cls, text: str, unit: str) -> "Quantity":
         """Read a text; a ValueError says what is wrong with it."""
         value = super().__new__(cls, si(text, unit))
         value.text = text
@@ -167,7 +165,7 @@ def both(first: Any, second: Any) -> Any:
 def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
     """Return the type of a text with a unit, positive and within limits if these are given."""
 
-    def read(given: Any) -> Quantity:
+    def read(given: Any) -> "Quantity":
         value = Quantity(given, unit)
         if not value > 0:
             raise ValueError(f"{given!r} must be positive")

@@ -4,8 +4,6 @@ An error is one line that names file, key and value and says what would be right
 imported where they are used, since jobs read a configuration that was checked before.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path

@@ -3,8 +3,6 @@
 The models of the other campaigns, which hold what this project measures once, follow them.
 """
 
-from __future__ import annotations
-
 from operator import attrgetter
 from typing import Annotated, Literal
 
