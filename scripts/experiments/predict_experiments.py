@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from common import experiment_outcomes as outcomes
-from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
+from common.config.entries import CONDITIONS, OBSERVED, conditions_of
 from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOMES, SILENT, SOME
 from common.job import start
 from common.templates import write_page
@@ -157,7 +157,7 @@ def read_observation(experiment, name, entry):
     """One case of an experiment of the configuration, in SI units."""
     case = entry["cases"][name]
     observed, conditions = case["observed"], conditions_of(entry, case)
-    ends = {key: read_ends(given, CONDITIONS[key]) for key, given in conditions.items()}
+    ends = {key: read_ends(given, CONDITIONS[key][0]) for key, given in conditions.items()}
     swept = tuple(key for key, found in ends.items() if len(found) > 1)
     inputs = combine_inputs(ends, swept)
     if "plane_strain_modulus" in inputs:
@@ -165,8 +165,7 @@ def read_observation(experiment, name, entry):
     else:
         inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
     quantity, by_relation = observed["quantity"], "relation" in observed
-    unit = OBSERVED_UNITS.get(quantity)
-    limits = observed["factor"] if by_relation else read_ends(observed, unit)
+    limits = observed["factor"] if by_relation else read_ends(observed, OBSERVED[quantity][0])
     return Observation(
         place=f"{experiment}/{name}",
         quantity=quantity,
@@ -339,10 +338,9 @@ def predict_case(observation):
         "observed_low": observed[0, MIDDLE],
         "observed_high": observed[1, MIDDLE],
         "predicted": value[MIDDLE],
-        "predicted_low": low[MIDDLE],
-        "predicted_high": high[MIDDLE],
         "predicted_lowest": low.min(),
         "predicted_highest": high.max(),
+        "model": max(high[MIDDLE] - value[MIDDLE], value[MIDDLE] - low[MIDDLE]),
         "pull_off_curve": ("roughness", curve[1, MIDDLE]),
         "pull_off_curve_lowest": ("roughness", curve[0].min(axis=0)),
         "pull_off_curve_highest": ("roughness", curve[2].max(axis=0)),
@@ -372,14 +370,10 @@ def predict_all(experiments):
         ],
         "case",
     )
-    value = dataset.predicted
-    model, reach = (
-        np.maximum(dataset[f"predicted_{high}"] - value, value - dataset[f"predicted_{low}"])
-        for low, high in (("low", "high"), ("lowest", "highest"))
-    )
+    value, model = dataset.predicted, dataset.model
+    reach = np.maximum(dataset.predicted_highest - value, value - dataset.predicted_lowest)
     inputs = np.sqrt(np.maximum(reach**2 - model**2, 0.0))
-    dataset = dataset.drop_vars(["predicted_low", "predicted_high"])
-    dataset = datasets.annotate(dataset, **VARIABLES)
+    dataset = datasets.annotate(dataset.drop_vars("model"), **VARIABLES)
     dataset.outcome.attrs |= datasets.flags(OUTCOMES)
     dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
     for name in ("known", "observed_known"):
