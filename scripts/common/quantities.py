@@ -29,6 +29,7 @@ KAPPA_VARIABLES = describe_errors(
 )
 A_V_VARIABLES = {
     "a_v": "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)",
+    "a_v_fit_error": "standard error of the fit of a_V within its window",
     "window_low": "low end of the fit window of range/h_rms",
     "window_high": "high end of the fit window of range/h_rms",
     "exponent": (
@@ -64,8 +65,8 @@ def derive(contact, fit_interval):
 
     `fit_interval` is for a_V, in ranges over h_rms.
     """
-    a_v, kappa = fit_a_v(contact, fit_interval), slope_of_area(contact)
-    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=kappa)
+    a_v, _ = fit_a_v(contact, fit_interval)
+    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))
 
 
 def gap_density(solutions):
@@ -89,24 +90,24 @@ def fit_slope(ensemble):
 
 
 def fit_a_v(areas, fit_interval):
-    """a_V along every dimension but the range's."""
+    """a_V and the standard error of its fit, along every dimension but the range's."""
     ranges, window = areas["range"].values, tuple(fit_interval)
 
     def fit(area, pressure):
-        return a_v_fit.fit_a_v(ranges, area, float(pressure), window=window).value
+        found = a_v_fit.fit_a_v(ranges, area, float(pressure), window=window)
+        return found.value, found.standard_error
 
-    dims = [["range"], []]
-    return xr.apply_ufunc(
-        fit, areas.attractive_area, areas.pressure, input_core_dims=dims, vectorize=True
-    )
+    dims = {"input_core_dims": [["range"], []], "output_core_dims": [[], []]}
+    return xr.apply_ufunc(fit, areas.attractive_area, areas.pressure, **dims, vectorize=True)
 
 
 def fit_intervals(areas, windows):
-    """a_V in every fit interval."""
-    a_v = xr.concat([fit_a_v(areas, window) for window in windows], "window")
+    """a_V in every fit interval, and the standard error of its fit."""
+    fits = (fit_a_v(areas, window) for window in windows)
+    found = [xr.concat(one, "window") for one in zip(*fits, strict=True)]
     low, high = np.transpose(np.array(windows, float))
     ends = {"window_low": ("window", low), "window_high": ("window", high)}
-    return xr.Dataset({"a_v": a_v, **ends})
+    return xr.Dataset(dict(zip(("a_v", "a_v_fit_error"), found, strict=True)) | ends)
 
 
 def local_exponent(areas):
