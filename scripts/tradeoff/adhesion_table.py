@@ -70,10 +70,8 @@ def tabulate_adhesion(measured, records):
     of_states = records.problem == "adhesion"
     for name, one, modelled in (list_states if of_states else list_pull_offs)(measured):
         # Without loads at which a window closes with some setting.
-        opened = [
-            one.full.sel(along).notnull().any("seed").all(knob) for knob, along in axes.items()
-        ]
-        one = one.sel(pressure=(opened[0] & opened[1]).values)
+        for knob, along in axes.items():
+            one = one.sel(pressure=one.full.sel(along).notnull().any("seed").all(knob).values)
         for knob, along in axes.items() if one.sizes["pressure"] else ():
             errors = one.full.sel(along) / one.full.sel(usual | {knob: finest[knob]}) - 1
             costs = one.seconds.sel(along).mean("seed").mean("pressure") / unit

@@ -1,6 +1,6 @@
 """Rows of the table and points of the error models for contact without adhesion."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -27,21 +27,17 @@ DESCRIBED_SEEDS = 2048
 
 @dataclass(eq=False)
 class SeedPool:
-    """Solved seeds of one surface, from which means of random seeds are drawn.
-
-    An entry is one load of one column of a quantity.
-    """
+    """Solved seeds of one surface, from which means of random seeds are drawn."""
 
     fine: dict  # (seed, entry), by pixels per shortest wavelength, 2 included
     coarse: np.ndarray  # (seed, entry): more seeds on 2 pixels
     controls: np.ndarray  # (seed, descriptor): long waves of the coarse seeds
     elsewhere: np.ndarray  # (seed, descriptor): long waves of seeds that are not solved
-    pressure: np.ndarray  # of the entries
-    quantity: np.ndarray
+    entries: list  # quantity and load of every entry
     truth: np.ndarray  # best estimate of the mean over all surfaces, on the finest grid
     truth_error: np.ndarray  # its standard error
     fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
-    costs: dict = field(default_factory=dict)  # of all loads of a seed, by pixels or kind
+    costs: dict  # of all loads of a seed, by pixels or kind
     repetitions: int = 60  # of means that are drawn
     described: int = DESCRIBED_SEEDS
 
@@ -54,15 +50,16 @@ class SeedPool:
         self.many = rng.integers(len(self.coarse), size=(self.repetitions, COARSE_SEEDS[-1]))
         self.others = rng.integers(len(self.elsewhere), size=(self.repetitions, self.described))
         self.average_coarse = cache(self._average_coarse)
+        self.loads, self.places = len({load for _, load in self.entries}), {}
+        for place, key in enumerate(self.entries):
+            self.places.setdefault(key, []).append(place)
 
     def by_quantity(self, errors):
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
-        keys = dict.fromkeys(zip(self.quantity.tolist(), self.pressure.tolist(), strict=True))
-        found = {}
-        for quantity, load in keys:
-            entries = (self.quantity == quantity) & (self.pressure == load)
-            found[quantity, load] = np.sqrt(np.mean(errors[..., entries] ** 2, axis=-1))
-        return found
+        return {
+            key: np.sqrt(np.mean(errors[..., places] ** 2, axis=-1))
+            for key, places in self.places.items()
+        }
 
     def cost(self, settings):
         """Measured cost of a mean at all loads, without what a larger tolerance saves."""
@@ -99,15 +96,14 @@ def make_pool(measured):
     *_, best, last = pixels = np.unique(measured.pixels).tolist()
     solved = {p: select(fine_ones, p, usual) for p in pixels}
     more = select(coarse_ones, COARSE, usual)
-    entries = {p: flatten(derive_columns(extrapolate(solved, p))) for p in pixels}
-    fine = {p: values for p, (values, *_) in entries.items()}
-    coarse, quantity, pressure = flatten(derive_columns(more))
+    fine = {p: flatten(extrapolate(solved, p))[0] for p in pixels}
+    coarse, entries = flatten(more)
     waves = measured.long_waves.values, measured.other_long_waves.values
     ratio = fine[last].sum(0) / fine[best][: len(fine[last])].sum(0)
     estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, *waves)
     costs = {p: float(one.seconds.mean()) / unit for p, one in (*solved.items(), ("coarse", more))}
     return SeedPool(
-        *(fine, coarse, *waves, pressure, quantity),
+        *(fine, coarse, *waves, entries),
         *(estimate.mean * ratio, estimate.standard_error * ratio, fine[best].mean(0) * ratio),
         costs | {"described": float(measured.describing_seconds) / unit},
     )
@@ -143,15 +139,15 @@ def derive_columns(solved):
     return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
 
 
-def flatten(quantities):
-    """Flatten all quantities at all loads to `(seed, entry)`; quantity and load of each entry."""
-    values, names, loads = [], [], []
-    for name, of_seeds in quantities.items():
-        of_seeds = of_seeds.transpose("seed", "pressure", ...)
-        values.append(of_seeds.values.reshape(of_seeds.sizes["seed"], -1))
-        names += [name] * values[-1].shape[1]
-        loads += list(np.repeat(of_seeds.pressure.values, of_seeds[0, 0].size))
-    return np.concatenate(values, axis=1), np.array(names), np.array(loads)
+def flatten(solved):
+    """All columns at all loads as `(seed, entry)`; quantity and load of each entry."""
+    values, entries = [], []
+    for name, column in derive_columns(solved).items():
+        column = column.transpose("seed", "pressure", ...)
+        values.append(column.values.reshape(column.sizes["seed"], -1))
+        loads = np.repeat(column.pressure.values, column[0, 0].size)
+        entries += [(name, load) for load in loads.tolist()]
+    return np.concatenate(values, axis=1), entries
 
 
 def tabulate_contact(measured, records):
@@ -170,7 +166,7 @@ def cover(errors):
 
 def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
-    loads, fine, costs = len(np.unique(pool.pressure)), pool.fine, pool.costs
+    fine, costs, loads = pool.fine, pool.costs, pool.loads
     *grids, last = sorted(fine)
     exact = fine[last]
     for pixels in grids:
@@ -215,8 +211,9 @@ def tabulate_tolerances(measured, records):
         for quantity, values in derive_columns(solutions).items():
             square = (values / exact[quantity] - 1) ** 2
             error = np.sqrt(square.mean([d for d in square.dims if d not in ("seed", "pressure")]))
-            for load in error.pressure.values:
-                single[quantity, load] = error.sel(pressure=load).values
+            single |= {
+                (quantity, load): error.sel(pressure=load).values for load in error.pressure.values
+            }
         together = {key: np.sqrt((one**2).mean()) for key, one in single.items()}
         records.add_points("solver", together, tolerance=tolerance)
         records.add("tolerance", f"{tolerance:g}", cover(single), seconds / loads / unit)
@@ -237,11 +234,10 @@ def tabulate_seeds(pool, records):
     explained = np.minimum(slopes / pool.coarse.std(0, ddof=1), 1)
     records.add_points("coarse_share", pool.by_quantity(np.sqrt(1 - explained**2)))
 
-    loads = len(np.unique(pool.pressure))
     for seeds, more in MEANS:
         settings = Settings(best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
-        records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / loads)
+        records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / pool.loads)
 
 
 def tabulate_theory(measured, pool, records):
@@ -251,7 +247,7 @@ def tabulate_theory(measured, pool, records):
     state, seconds = time_task(
         lambda: contact_of(Persson(lattice), loads, measured["range"].values)
     )
-    values, *_ = flatten(derive_columns(state.expand_dims("seed")))
+    values, _ = flatten(state.expand_dims("seed"))
     errors = pool.by_quantity(values[0] / pool.truth - 1)
     records.add_points("theory", errors, pool.by_quantity(pool.truth_error / pool.truth))
     records.add("model", "theory", errors, seconds / len(loads) / float(measured.pair_time))

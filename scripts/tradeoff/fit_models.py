@@ -4,14 +4,10 @@ import numpy as np
 import pandas as pd
 from scipy import optimize
 
-from common.tradeoff_table import KEYS
 from stickiness.accuracy.error_models import ErrorModel
 from tradeoff.measuring import COVERED
 
-ROWS = [*KEYS, "surface", "pressure", "error", "cost"]
 SIZES = ["magnification", "window", "pressure", "pixels", "tolerance"]
-FEATURES = ["constant", "hurst", *SIZES]
-POINTS = ["part", "quantity", *FEATURES[1:], "value", "noise"]
 FLOOR = 1e-10  # errors below are rounding and do not tell how they depend on anything
 PRIOR = 8.0  # twice the variance of exponents before anything is known of them
 
@@ -24,14 +20,15 @@ class Records:
 
     def start(self, problem, name, surface):
         """Name the problem and the surface of what is added from now on."""
-        self.problem, self.name, self.surface = problem, name, surface
+        self.problem, self.name, self.surface = problem, name, vars(surface)
 
     def add(self, setting, value, errors, cost):
         """Add a row for every error, by quantity and load."""
         for (quantity, load), error in errors.items():
             if np.isfinite(error):
-                where = self.problem, quantity, setting, value, self.name
-                self.rows.append((*where, float(load), float(error), float(cost)))
+                row = {"problem": self.problem, "quantity": quantity, "setting": setting}
+                row |= {"value": value, "surface": self.name, "pressure": float(load)}
+                self.rows.append(row | {"error": float(error), "cost": float(cost)})
 
     def add_points(self, part, values, noise=None, **knob):
         """Add a point for every value, by quantity and load."""
@@ -39,19 +36,16 @@ class Records:
             error = noise[quantity, load] if noise else 0.0
             self.add_point(part, quantity, value, error, pressure=load, **knob)
 
-    def add_point(
-        self, part, quantity, value, noise=0.0, *, pressure=1.0, pixels=1.0, tolerance=1.0
-    ):
+    def add_point(self, part, quantity, value, noise=0.0, **knobs):
         """Add a value of one part of the error models and its standard error, 0 if known well."""
-        surface = self.surface.hurst, self.surface.magnification, self.surface.window
-        at = pressure, pixels, tolerance
-        self.points.append((part, quantity, *surface, *at, float(value), float(noise)))
+        point = {"part": part, "quantity": quantity, "value": float(value), "noise": float(noise)}
+        self.points.append(dict.fromkeys(SIZES, 1.0) | self.surface | knobs | point)
 
 
 def fit_models(points):
-    """Fit a model to the points of every part and quantity, rows of `POINTS`."""
+    """Fit a model to the points of every part and quantity."""
     models = {}
-    for key, group in pd.DataFrame(points, columns=POINTS).groupby(POINTS[:2], sort=False):
+    for key, group in pd.DataFrame(points).groupby(["part", "quantity"], sort=False):
         features = np.column_stack([np.ones(len(group)), group.hurst, np.log(group[SIZES])])
         values, noise = group.value.to_numpy(), group.noise.to_numpy()
         if noise.any():

@@ -89,11 +89,12 @@ def test_control_variates_of_a_pool_reduce_the_error():
         np.stack([one] * 7, axis=1) * np.arange(1, 8) for one in (more, elsewhere)
     )
     pool = contact_table.SeedPool(
-        *(fine, others, controls, described, np.tile([0.01, 0.1], 2)),
-        quantity=np.repeat(["area", "mean_gap"], 2),
+        *(fine, others, controls, described),
+        entries=[(name, load) for name in ("area", "mean_gap") for load in (0.01, 0.1)],
         truth=fine[4].mean(0) * others.mean(0) / coarse.mean(0),
         truth_error=0.0 * mean,
         fine_mean=fine[4].mean(0),
+        costs={},
         repetitions=400,
         described=1024,
     )
