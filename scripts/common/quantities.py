@@ -112,15 +112,9 @@ def fit_intervals(areas, windows):
 
 def local_exponent(areas):
     """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
-    area = areas.get("attractive_area_mean", areas.attractive_area)
-    ranges = area["range"].values
-    return xr.apply_ufunc(
-        lambda a: a_v_fit.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
-        area,
-        input_core_dims=[["range"]],
-        output_core_dims=[["range"]],
-        vectorize=True,
-    )
+    area = areas.get("attractive_area_mean", areas.attractive_area).transpose(..., "range")
+    logs = np.log(area.where((area > 0).all("range")))
+    return logs.copy(data=np.gradient(logs, np.log(area["range"]), axis=-1))
 
 
 def fit_kappa(ensemble, models):
@@ -161,8 +155,7 @@ def write_a_v(areas_file, output, windows, laws):
     dataset = fit_intervals(areas, windows)
     dataset["exponent"] = local_exponent(areas)
     if "edge_gap_mean" in areas:
-        resolved = areas["range"] >= areas.edge_gap_mean
-        dataset["exponent"] = dataset.exponent.where(resolved)
+        dataset["exponent"] = dataset.exponent.where(areas["range"] >= areas.edge_gap_mean)
     add_budgets = add_theory_budgets
     if "seed" in dataset.a_v.dims:
         dataset, add_budgets = average_a_v(dataset, areas, windows), add_simulation_budgets
@@ -190,21 +183,17 @@ def add_simulation_budgets(dataset, ensemble, models):
     mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
     parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
     dataset = with_budget(dataset, "a_v_mean", **parts)
-    solver = simulation.solver("attractive_area", dataset.exponent)
-    factor = simulation.factors("attractive_area", dataset.exponent)
     limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
-    seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
     steps = np.diff(np.log(ensemble["range"].values)).min()
+    solver = 2 * simulation.solver("attractive_area", dataset.exponent) / steps
+    factor = simulation.factors("attractive_area", dataset.exponent)
+    sampling = factor * standard_error(local_exponent(ensemble[["attractive_area", "pressure"]]))
     return with_budget(
         dataset,
         "exponent",
         discretisation=ErrorComponent(limit.error, grid_limits.INHERITED),
-        solver=ErrorComponent(
-            2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"
-        ),
-        sampling=ErrorComponent(
-            factor * standard_error(seeds), "Student's t, of the plain mean of seeds"
-        ),
+        solver=ErrorComponent(solver, "of neighbouring areas, by the tolerance, as measured"),
+        sampling=ErrorComponent(sampling, "Student's t, of the plain mean of seeds"),
         **SIMULATED,
     )
 

@@ -23,6 +23,7 @@ from tradeoff.measuring import COVERED, SETTINGS, time_task
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
 FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
 DESCRIBED_SEEDS = 2048
+REPETITIONS = 60  # of means that are drawn
 
 
 @dataclass(eq=False)
@@ -38,17 +39,15 @@ class SeedPool:
     truth_error: np.ndarray  # its standard error
     fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
     costs: dict  # of all loads of a seed, by pixels or kind
-    repetitions: int = 60  # of means that are drawn
-    described: int = DESCRIBED_SEEDS
 
     def __post_init__(self):
         # With replacement: means of few seeds then scatter about the mean of all as they would
         # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
         rng = np.random.default_rng(1)
         count = min(len(fine) for fine in self.fine.values() if len(fine) >= FEWEST_FINE)
-        self.chosen = rng.integers(count, size=(SEEDS[-1], self.repetitions))
-        self.many = rng.integers(len(self.coarse), size=(self.repetitions, COARSE_SEEDS[-1]))
-        self.others = rng.integers(len(self.elsewhere), size=(self.repetitions, self.described))
+        self.chosen = rng.integers(count, size=(SEEDS[-1], REPETITIONS))
+        self.many = rng.integers(len(self.coarse), size=(REPETITIONS, COARSE_SEEDS[-1]))
+        self.others = rng.integers(len(self.elsewhere), size=(REPETITIONS, DESCRIBED_SEEDS))
         self.average_coarse = cache(self._average_coarse)
         self.loads, self.places = len({load for _, load in self.entries}), {}
         for place, key in enumerate(self.entries):

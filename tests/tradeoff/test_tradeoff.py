@@ -95,8 +95,6 @@ def test_control_variates_of_a_pool_reduce_the_error():
         truth_error=0.0 * mean,
         fine_mean=fine[4].mean(0),
         costs={},
-        repetitions=400,
-        described=1024,
     )
     plain, multilevel = (
         np.sqrt(np.mean(pool.draw(Settings(4, 1e-8, 4, n))["area", 0.01] ** 2)) for n in (0, 256)
@@ -129,8 +127,6 @@ def test_committed_table_survives_writing(tmp_path):
     medians = summary.read(ROOT / "config/tradeoff.csv")
     summary.write(tmp_path / "again.csv", medians)
     assert summary.read(tmp_path / "again.csv").equals(medians)
-    with pytest.raises(ValueError, match="no such file"):
-        summary.read(tmp_path / "nowhere.csv")
 
 
 def made_up():
