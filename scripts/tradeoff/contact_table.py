@@ -21,7 +21,6 @@ from stickiness.surface import lattice_spectrum
 from tradeoff.measuring import COVERED, SETTINGS, time_task
 
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
-FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
 DESCRIBED_SEEDS = 2048
 REPETITIONS = 60  # of means that are drawn
 
@@ -35,17 +34,22 @@ class SeedPool:
     controls: np.ndarray  # (seed, descriptor): long waves of the coarse seeds
     elsewhere: np.ndarray  # (seed, descriptor): long waves of seeds that are not solved
     entries: list  # quantity and load of every entry
-    truth: np.ndarray  # best estimate of the mean over all surfaces, on the finest grid
-    truth_error: np.ndarray  # its standard error
-    fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
     costs: dict  # of all loads of a seed, by pixels or kind
 
     def __post_init__(self):
+        # The finest grid has few seeds. The best estimate of the mean over all surfaces on it, and
+        # the mean of the fine seeds alone, about which their plain means scatter.
+        *_, self.best, self.finest = sorted(self.fine)
+        many, few = self.fine[self.best], self.fine[self.finest]
+        ratio = few.sum(0) / many[: len(few)].sum(0)
+        waves = self.controls, self.elsewhere
+        estimate = multilevel.multilevel_mean(many, self.fine[COARSE], self.coarse, *waves)
+        self.truth, self.truth_error = estimate.mean * ratio, estimate.standard_error * ratio
+        self.fine_mean = many.mean(0) * ratio
         # With replacement: means of few seeds then scatter about the mean of all as they would
         # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
         rng = np.random.default_rng(1)
-        count = min(len(fine) for fine in self.fine.values() if len(fine) >= FEWEST_FINE)
-        self.chosen = rng.integers(count, size=(SEEDS[-1], REPETITIONS))
+        self.chosen = rng.integers(len(many), size=(SEEDS[-1], REPETITIONS))
         self.many = rng.integers(len(self.coarse), size=(REPETITIONS, COARSE_SEEDS[-1]))
         self.others = rng.integers(len(self.elsewhere), size=(REPETITIONS, DESCRIBED_SEEDS))
         self.average_coarse = cache(self._average_coarse)
@@ -88,24 +92,18 @@ class SeedPool:
 
 
 def make_pool(measured):
-    """Make the pool of a file of `measure_contact`; the finest grid, of few seeds, is the truth."""
+    """Make the pool of a file of `measure_contact`."""
     usual, unit = datasets.parameters(measured)["tolerance"], float(measured.pair_time)
     is_fine = measured.seed < SOLVED_FROM
     fine_ones, coarse_ones = (measured.isel(solution=k.values) for k in (is_fine, ~is_fine))
-    *_, best, last = pixels = np.unique(measured.pixels).tolist()
-    solved = {p: select(fine_ones, p, usual) for p in pixels}
+    solved = {p: select(fine_ones, p, usual) for p in np.unique(measured.pixels).tolist()}
     more = select(coarse_ones, COARSE, usual)
-    fine = {p: flatten(extrapolate(solved, p))[0] for p in pixels}
+    fine = {p: flatten(extrapolate(solved, p))[0] for p in solved}
     coarse, entries = flatten(more)
-    waves = measured.long_waves.values, measured.other_long_waves.values
-    ratio = fine[last].sum(0) / fine[best][: len(fine[last])].sum(0)
-    estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, *waves)
     costs = {p: float(one.seconds.mean()) / unit for p, one in (*solved.items(), ("coarse", more))}
-    return SeedPool(
-        *(fine, coarse, *waves, entries),
-        *(estimate.mean * ratio, estimate.standard_error * ratio, fine[best].mean(0) * ratio),
-        costs | {"described": float(measured.describing_seconds) / unit},
-    )
+    costs["described"] = float(measured.describing_seconds) / unit
+    waves = measured.long_waves.values, measured.other_long_waves.values
+    return SeedPool(fine, coarse, *waves, entries, costs)
 
 
 def select(measured, pixels, tolerance):
@@ -166,19 +164,18 @@ def cover(errors):
 def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
     fine, costs, loads = pool.fine, pool.costs, pool.loads
-    *grids, last = sorted(fine)
-    exact = fine[last]
+    exact, grids = fine[pool.finest], [pixels for pixels in fine if pixels < pool.finest]
     for pixels in grids:
         errors = cover(pool.by_quantity(fine[pixels][: len(exact)] / exact - 1))
         # Areas are extrapolated from two grids.
         cost = costs[pixels] + (costs[pixels // 2] if pixels > COARSE else 0.0)
         records.add("points per wavelength", str(pixels), errors, cost / loads)
     # Up to the `best` grid with many seeds against it, from there on with few against the finest.
-    *coarser, best = grids
-    first, its_noise = compare_means(fine[best][: len(exact)], exact)
-    errors = {best: (first, its_noise)}
-    for pixels in coarser[1:]:
-        off, noise = compare_means(fine[pixels], fine[best])
+    best = fine[pool.best]
+    first, its_noise = compare_means(best[: len(exact)], exact)
+    errors = {pool.best: (first, its_noise)}
+    for pixels in grids[1:-1]:
+        off, noise = compare_means(fine[pixels], best)
         errors[pixels] = (1 + off) * (1 + first) - 1, np.hypot(noise, its_noise)
     for pixels, parts in errors.items():
         records.add_points("discretisation", *map(pool.by_quantity, parts), pixels=pixels)
@@ -220,8 +217,7 @@ def tabulate_tolerances(measured, records):
 
 def tabulate_seeds(pool, records):
     """Errors of means by the number and kind of seeds, on the finest grid that has many."""
-    best = max(p for p, fine in pool.fine.items() if len(fine) >= FEWEST_FINE)
-    scatter = pool.fine[best].std(0, ddof=1) / np.abs(pool.truth)
+    scatter = pool.fine[pool.best].std(0, ddof=1) / np.abs(pool.truth)
     records.add_points("scatter", pool.by_quantity(scatter))
     for pixels, fine in pool.fine.items():
         if pixels != COARSE:
@@ -234,7 +230,7 @@ def tabulate_seeds(pool, records):
     records.add_points("coarse_share", pool.by_quantity(np.sqrt(1 - explained**2)))
 
     for seeds, more in MEANS:
-        settings = Settings(best, FULL, seeds, more)
+        settings = Settings(pool.best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
         records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / pool.loads)
 

@@ -27,14 +27,13 @@ ADHESIVE_QUANTITIES = {
     "threshold": ("threshold",),
     "pull_off": ("pull_off",),
 }
-ADHESIVE_COLUMNS = tuple(itertools.chain(*ADHESIVE_QUANTITIES.values()))
 ADHESIVE_TOLERANCE = 1e-7  # of the solver of full adhesion, whatever the settings say
 PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
 FEWEST = 8  # seeds from which on a mean of adhesive contact has a control
 
 
 def adhesive_error(problem, settings, pressure, column):
-    """Relative error of one of `ADHESIVE_COLUMNS` that covers 90 %."""
+    """Relative error of a column of full adhesion that covers 90 %."""
     if column == "pull_off":
         # It falls so steeply that the model would promise too much beyond what was measured.
         nearest = min(problem.surface.magnification, PULL_OFF_UP_TO)
