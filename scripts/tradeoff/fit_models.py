@@ -49,14 +49,16 @@ def fit_models(points):
         features = np.column_stack([np.ones(len(group)), group.hurst, np.log(group[SIZES])])
         values, noise = group.value.to_numpy(), group.noise.to_numpy()
         if noise.any():
-            models[key] = fit_noisy(features, values, noise)
+            coefficients, ratio = fit_noisy(features, values, noise)
         else:
-            models[key] = fit_least_squares(features, values)
+            coefficients, ratio = fit_least_squares(features, values)
+        spread = float(np.quantile(ratio, COVERED))
+        models[key] = ErrorModel(*coefficients.tolist(), spread=spread, points=len(ratio))
     return models
 
 
 def fit_least_squares(features, values):
-    """Fit one model to logarithms; features that no two points differ in stay out."""
+    """Fit logarithms: coefficients, 0 of what no two points differ in, and values over the fit."""
     kept = values > FLOOR
     if not kept.any():
         kept[-1] = True
@@ -64,7 +66,7 @@ def fit_least_squares(features, values):
     varied = find_varied(features)
     coefficients = np.zeros(features.shape[1])
     coefficients[varied], *_ = np.linalg.lstsq(features[:, varied], np.log(values))
-    return make_model(coefficients, values / np.exp(features @ coefficients))
+    return coefficients, values / np.exp(features @ coefficients)
 
 
 def fit_noisy(features, values, noise):
@@ -76,7 +78,7 @@ def fit_noisy(features, values, noise):
         others = here if here.all() else ~here
         fitted = maximise_likelihood(features[others], values[others], noise[others])
         ratio[here] = np.abs(values[here]) / np.hypot(np.exp(features[here] @ fitted), noise[here])
-    return make_model(maximise_likelihood(features, values, noise), ratio)
+    return maximise_likelihood(features, values, noise), ratio
 
 
 def maximise_likelihood(features, values, noise):
@@ -104,9 +106,3 @@ def find_varied(features):
     varied = np.ptp(features, axis=0) > 0
     varied[0] = True
     return varied
-
-
-def make_model(coefficients, ratio):
-    """Model with these coefficients; `ratio` holds the measured values over it."""
-    spread = float(np.quantile(ratio, COVERED))
-    return ErrorModel(*coefficients.tolist(), spread=spread, points=len(ratio))
