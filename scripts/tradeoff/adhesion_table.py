@@ -78,12 +78,12 @@ def tabulate_adhesion(measured, records):
             label = "points per wavelength" if knob == "pixels" else knob
             for value in measured[knob].drop_sel({knob: finest[knob]}).values:
                 error, cost = errors.sel({knob: value}), costs.sel({knob: value})
-                records.add(label, f"{value:g}", cover_seeds(name, error), cost)
+                records.add(label, f"{value:g}", split_loads(name, error), cost)
                 if modelled and value != COARSE:
                     add_points(name, knob, value, error, records)
         # The DMT limit costs nothing once the contact without adhesion is solved.
         error = one.limit.sel(usual) / one.full.sel(usual) - 1
-        records.add("model", "DMT", cover_seeds(name, error), 0.0)
+        records.add("model", "DMT", split_loads(name, error), 0.0)
         if of_states:
             tabulate_seeds(name, one, modelled, usual, unit, records)
     for pixels in measured.pixels.values[measured.pixels.values != COARSE] if of_states else ():
@@ -107,10 +107,9 @@ def add_points(name, knob, value, error, records):
         records.add_point("discretisation", name, size, noise, pressure=load, pixels=value)
 
 
-def cover_seeds(name, error):
-    """Error of single surfaces at every load that covers 90 %."""
-    covering = abs(error).quantile(COVERED, "seed")
-    return {(name, load): covering.sel(pressure=load) for load in error.pressure.values}
+def split_loads(name, error):
+    """Errors of single surfaces by quantity and load."""
+    return {(name, load): error.sel(pressure=load) for load in error.pressure.values}
 
 
 def tabulate_seeds(name, one, modelled, usual, unit, records):

@@ -18,7 +18,7 @@ from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.persson.theory import Persson
 from stickiness.repulsive import richardson
 from stickiness.surface import lattice_spectrum
-from tradeoff.measuring import COVERED, SETTINGS, time_task
+from tradeoff.measuring import SETTINGS, time_task
 
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
 DESCRIBED_SEEDS = 2048
@@ -156,17 +156,12 @@ def tabulate_contact(measured, records):
     tabulate_theory(measured, pool, records)
 
 
-def cover(errors):
-    """Errors of single surfaces that cover 90 %, by quantity and load."""
-    return {key: np.quantile(np.abs(error), COVERED) for key, error in errors.items()}
-
-
 def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
     fine, costs, loads = pool.fine, pool.costs, pool.loads
     exact, grids = fine[pool.finest], [pixels for pixels in fine if pixels < pool.finest]
     for pixels in grids:
-        errors = cover(pool.by_quantity(fine[pixels][: len(exact)] / exact - 1))
+        errors = pool.by_quantity(fine[pixels][: len(exact)] / exact - 1)
         # Areas are extrapolated from two grids.
         cost = costs[pixels] + (costs[pixels // 2] if pixels > COARSE else 0.0)
         records.add("points per wavelength", str(pixels), errors, cost / loads)
@@ -212,7 +207,7 @@ def tabulate_tolerances(measured, records):
             }
         together = {key: np.sqrt((one**2).mean()) for key, one in single.items()}
         records.add_points("solver", together, tolerance=tolerance)
-        records.add("tolerance", f"{tolerance:g}", cover(single), seconds / loads / unit)
+        records.add("tolerance", f"{tolerance:g}", single, seconds / loads / unit)
 
 
 def tabulate_seeds(pool, records):
@@ -232,7 +227,7 @@ def tabulate_seeds(pool, records):
     for seeds, more in MEANS:
         settings = Settings(pool.best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
-        records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / pool.loads)
+        records.add("seeds", text, pool.draw(settings), pool.cost(settings) / pool.loads)
 
 
 def tabulate_theory(measured, pool, records):
