@@ -10,7 +10,7 @@ import xarray as xr
 from stickiness import datasets
 from stickiness.accuracy.error_models import COARSE
 from stickiness.statistics import COVERS
-from tradeoff.measuring import COVERED, SETTINGS
+from tradeoff.measuring import COVERED, SETTINGS, split_loads
 
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
 
@@ -105,11 +105,6 @@ def add_points(name, knob, value, error, records):
         if name == "pull_off":  # of one surface; all others are means
             size, noise = np.sqrt(np.mean(off**2)), 0.0
         records.add_point("discretisation", name, size, noise, pressure=load, pixels=value)
-
-
-def split_loads(name, error):
-    """Errors of single surfaces by quantity and load."""
-    return {(name, load): error.sel(pressure=load) for load in error.pressure.values}
 
 
 def tabulate_seeds(name, one, modelled, usual, unit, records):

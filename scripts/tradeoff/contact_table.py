@@ -18,7 +18,7 @@ from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.persson.theory import Persson
 from stickiness.repulsive import richardson
 from stickiness.surface import lattice_spectrum
-from tradeoff.measuring import SETTINGS, time_task
+from tradeoff.measuring import SETTINGS, split_loads, time_task
 
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
 DESCRIBED_SEEDS = 2048
@@ -202,9 +202,7 @@ def tabulate_tolerances(measured, records):
         for quantity, values in derive_columns(solutions).items():
             square = (values / exact[quantity] - 1) ** 2
             error = np.sqrt(square.mean([d for d in square.dims if d not in ("seed", "pressure")]))
-            single |= {
-                (quantity, load): error.sel(pressure=load).values for load in error.pressure.values
-            }
+            single |= split_loads(quantity, error)
         together = {key: np.sqrt((one**2).mean()) for key, one in single.items()}
         records.add_points("solver", together, tolerance=tolerance)
         records.add("tolerance", f"{tolerance:g}", single, seconds / loads / unit)
