@@ -9,7 +9,8 @@ share) and interpolated at the nodes of P(u) (`GapProfile`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,7 +47,7 @@ _BLOCK = 10  # gaps that are looked at together
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Setting:
     """A surface as the theory sees it, at no particular load."""
 
@@ -54,17 +55,7 @@ class Setting:
     kernels: Kernels
     scales: ScaleNodes
     m2: float  #: profile variance of the gradient of the whole surface
-    variant: str  #: see `persson.Persson`
     nodes: float  #: multiplies the number of quadrature nodes
-    curves: dict[float, GapCurve] = field(default_factory=dict)  #: by load, whatever the variant
-
-    def curve(self, p: float) -> GapCurve:
-        """u1 at the load `p`, made once."""
-        if p not in self.curves:
-            if len(self.curves) >= 64:
-                self.curves.clear()
-            self.curves[p] = GapCurve.at(self, p)
-        return self.curves[p]
 
 
 @dataclass(frozen=True)
@@ -84,10 +75,6 @@ class LostContact:
         y = y_end + step
         return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
 
-    def __getitem__(self, part: slice) -> LostContact:
-        """Return a part of the scales."""
-        return LostContact(self.y[part], self.step[part], self.m[part], self.rest[part])
-
 
 @dataclass(frozen=True)
 class GapCurve:
@@ -100,27 +87,6 @@ class GapCurve:
     y_end: float  #: A = erf(y_end) at the finest resolution
     edges: NDArray  #: (k + 1,), of the panels
     series: NDArray  #: (k, order)
-
-    @classmethod
-    def at(cls, setting: Setting, p: float) -> GapCurve:
-        """Sum u1 on panels halved until the last terms of each series are small."""
-        y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
-        low, high = _visible_range(setting, y_end)
-        tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
-        count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
-        edges = np.linspace(low, high, 1 + count)
-        panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
-        while len(panels):
-            start, end = panels.T
-            series = _series(setting, p, y_end, start, end)
-            ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
-            ready |= end - start < _LEAST_PANEL
-            done += zip(start[ready], series[ready], strict=True)
-            middle = 0.5 * (start + end)
-            halves = np.stack([start, middle, middle, end], axis=1)
-            panels = halves[~ready].reshape(-1, 2)
-        starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
-        return cls(p, y_end, np.array([*starts, high]), np.array(series))
 
     def log_gap(self, log_step: NDArray, lost: LostContact) -> NDArray:
         """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude.
@@ -136,6 +102,29 @@ class GapCurve:
         return lost.y**2 - (self.p / erf(lost.y)) ** 2 / lost.rest + smooth
 
 
+@lru_cache(maxsize=128)
+def gap_curve(setting: Setting, p: float) -> GapCurve:
+    """Sum u1 on panels halved until the last terms of each series are small."""
+    y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
+    low, high = _visible_range(setting, y_end)
+    tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
+    count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
+    edges = np.linspace(low, high, 1 + count)
+    panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
+    while len(panels):
+        start, end = panels.T
+        log_steps = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
+        parts = (LostContact.at(setting, p, y_end, log_step) for log_step in log_steps)
+        series = np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
+        ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
+        ready |= end - start < _LEAST_PANEL
+        done += zip(start[ready], series[ready], strict=True)
+        middle = 0.5 * (start + end)
+        panels = np.stack([start, middle, middle, end], axis=1)[~ready].reshape(-1, 2)
+    starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
+    return GapCurve(p, y_end, np.array([*starts, high]), np.array(series))
+
+
 def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     """Range of ln(y - y_end) over which gaps are not negligible beside all others."""
     high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
@@ -144,37 +133,23 @@ def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     return min(low, high - 1.0), high  # next to full contact all gaps are that small
 
 
-def _series(setting: Setting, p: float, y_end: float, start: NDArray, end: NDArray) -> NDArray:
-    """Chebyshev series, row by row, of the smooth part of ln u1 on panels."""
-    log_step = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
-    lost = LostContact.at(setting, p, y_end, log_step.ravel())
-    parts = (lost[i : i + _SERIES_ORDER] for i in range(0, log_step.size, _SERIES_ORDER))
-    return np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
-
-
 def scaled_gap(setting: Setting, p: float, lost: LostContact) -> NDArray:
     """u1 over exp(y^2 - p(m)^2/(M - m)), by the sum over scales finer than each m."""
-    nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
-    coarse = lost.m < 0.5 * setting.m2
-    s2 = np.empty((len(coarse), len(nodes.weight)))
-    s2[coarse] = nodes.below - lost.m[coarse, None]
-    s2[~coarse] = lost.rest[~coarse, None] - nodes.above
+    below, above, weight = setting.scales.beyond(lost.m.min(), lost.m.max())
+    coarse = lost.m[:, None] < 0.5 * setting.m2
+    s2 = np.where(coarse, below - lost.m[:, None], lost.rest[:, None] - above)
     pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
     finest = pressure2 / lost.rest[:, None]
     # What is not finer ends where the exponential is zero.
     np.maximum(s2, pressure2 / (finest + 740.0), out=s2)
     x2 = pressure2 / s2
-    a = (
-        np.sqrt(np.pi)
-        * p**2
-        * erf(lost.y)
-        / (lost.y**3 * setting.kernels.correction.diffusion(lost.y))
-    )
+    slope = lost.y**3 * setting.kernels.correction.diffusion(lost.y)
+    a = np.sqrt(np.pi) * p**2 * erf(lost.y) / slope
     terms = np.exp(finest - x2)
     terms *= setting.kernels.gap_kernel(x2)
     terms *= s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
     terms /= np.sqrt(s2)
-    return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)
+    return 2 / np.sqrt(np.pi) * (terms @ weight)
 
 
 @dataclass(frozen=True)
@@ -187,22 +162,23 @@ class GapProfile:
     closed: float  #: share whose gap and width are below exp(-45) of the others', not in `weight`
 
 
-def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
+@lru_cache(maxsize=128)
+def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapProfile:
     """Quadrature of P(u) over the scales where contact is lost, for gaps up to `reach` h_rms.
 
     The variable is ln(y - y_end): logarithmic in M - m at the fine end, where u1 vanishes as
     exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
     laid so that no Gaussian is much narrower than one of them.
     """
-    curve = setting.curve(p)
+    curve = gap_curve(setting, p)
     y_end = curve.y_end
-    edges, change, thinned = _panel_edges(setting, curve, reach)
+    edges, change, thinned = _panel_edges(setting, variant, curve, reach)
     if len(change) < _MANY_PANELS * setting.nodes:
         change = np.full(len(change), np.inf)
     log_step, weight = _panel_nodes(edges, change)
     lost = LostContact.at(setting, p, y_end, log_step)
     gap = np.exp(curve.log_gap(log_step, lost))
-    width = _width(setting, lost, gap)
+    width = _width(setting, variant, lost, gap)
     if thinned:  # narrower than they are apart they would make a comb of P(u)
         apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
         width = np.maximum(width, apart)
@@ -227,7 +203,7 @@ def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     return at[order], weights[order]
 
 
-def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
+def _width(setting: Setting, variant: str, lost: LostContact, gap: NDArray) -> NDArray:
     """Standard deviation of the Gaussians."""
     spectrum, m2 = setting.spectrum, setting.m2
     _, variance = spectrum.at_gradient_variance(2 * lost.m)
@@ -238,12 +214,14 @@ def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
     q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * rest))
     variance[finest] = 2 * rest / q**2
     h = np.sqrt(variance)
-    if setting.variant == "almqvist2011":
+    if variant == "almqvist2011":
         return h
     return gap * h / np.hypot(gap, h)
 
 
-def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArray, NDArray, bool]:
+def _panel_edges(
+    setting: Setting, variant: str, curve: GapCurve, reach: float
+) -> tuple[NDArray, NDArray, bool]:
     """Edges of panels in ln(y - y_end), the change over each, and whether they are too few.
 
     A change of 1, some four widths of the Gaussians, needs ten nodes. Next to full contact of a
@@ -251,7 +229,7 @@ def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArr
     """
     p, y_end = curve.p, curve.y_end
     low, high = _visible_range(setting, y_end)
-    if setting.variant == "almqvist2011":
+    if variant == "almqvist2011":
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
         low = np.log(y_end) - 42.0
     probe = np.linspace(low, high, 300)
@@ -264,7 +242,7 @@ def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArr
     lost = LostContact.at(setting, p, y_end, grid)
     log_gap = curve.log_gap(grid, lost)
     gap = np.exp(log_gap)
-    width = np.maximum(_width(setting, lost, gap), 1e-300)
+    width = np.maximum(_width(setting, variant, lost, gap), 1e-300)
     seen = np.minimum(gap, reach * setting.spectrum.h_rms)
     centre = 0.5 * (width[1:] + width[:-1])
     change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
