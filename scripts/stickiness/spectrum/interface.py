@@ -84,9 +84,15 @@ class Spectrum(ABC):
         proportion.
         """
 
-    @abstractmethod
     def truncated(self, q1: float) -> Spectrum:
-        """Return the same spectrum cut at the high wave number `q1`."""
+        """Return the same spectrum cut at the high wave number (or norm) q0 < `q1` <= `self.q1`."""
+        if not self.q0 < number("q1", q1) <= self.q1:
+            band = f"({self.q0!r}, {self.q1!r}]"
+            raise ValueError(f"truncated: q1 must lie in (q0, q1] = {band}, got {q1!r}")
+        return self._cut(q1)
+
+    @abstractmethod
+    def _cut(self, q1: float) -> Spectrum: ...
 
     @property
     def knots(self) -> NDArray:
@@ -213,11 +219,3 @@ def check_spectrum(spectrum: Spectrum) -> Spectrum:
     if not isinstance(spectrum, Spectrum):
         raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
     return spectrum
-
-
-def check_cut(spectrum: Spectrum, q1: float) -> None:
-    """Raise a ValueError unless `spectrum` can be truncated at `q1`."""
-    if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
-        raise ValueError(
-            f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
-        )

@@ -12,10 +12,9 @@ from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative, number
 from stickiness.spectrum.direction import CIRCLE, ROUNDING, Ellipse, PowerLaws
-from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_cut
+from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum
 
 _ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
-_STEPS = 64  # of the table in ln q that inversion of a sum starts from, besides the knots
 _PRECISION = 4e-16  # of ln q
 
 
@@ -42,7 +41,7 @@ class PowerLawSegments(Spectrum):
     @cached_property
     def _mean(self) -> PowerLaws:
         """The power laws averaged over directions."""
-        return self._laws if self.isotropic else self.ellipse.average(self._laws)
+        return self.ellipse.average(self._laws)
 
     @property
     def knots(self) -> NDArray:
@@ -74,9 +73,7 @@ class PowerLawSegments(Spectrum):
         q = self._mean.invert_gradient(variance)
         return q, self.variance_above(q)
 
-    def truncated(self, q1: float) -> PowerLawSegments:
-        """Return the same spectrum cut at `q1` (q0 < q1 <= the present end) of the norm."""
-        check_cut(self, q1)
+    def _cut(self, q1: float) -> PowerLawSegments:
         cut = copy(self)
         vars(cut).pop("_mean", None)
         cut._laws, cut.q1, cut.prescribed = self._laws.truncated(q1), float(q1), "C"
@@ -220,14 +217,11 @@ class Shells(Spectrum):
         if len(self.q) == 1:
             raise ValueError("a single shell is a delta function: it has no density")
         middle = (self.q[1:] + self.q[:-1]) / 2
-        edges = np.concatenate(
-            [[self.q0 - (middle[0] - self.q0)], middle, [2 * self.q1 - middle[-1]]]
-        )
+        first, last = self.q0 - (middle[0] - self.q0), 2 * self.q1 - middle[-1]
+        edges = np.concatenate([[first], middle, [last]])
         density = self.variance / (np.pi * np.diff(edges**2))
         (q,) = nonnegative(q=q)
-        i = np.searchsorted(edges, q, side="right") - 1
-        inside = (i >= 0) & (i < len(density))
-        return np.where(inside, density[np.clip(i, 0, len(density) - 1)], 0.0)
+        return np.pad(density, 1)[np.searchsorted(edges, q, side="right")]
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_below`; a shell at `q` itself counts as below."""
@@ -248,9 +242,7 @@ class Shells(Spectrum):
         rest = np.maximum(gradient[i] - variance, 0.0) / self.q[i] ** 2
         return self.q[i], self.variance_above(self.q[i]) + rest
 
-    def truncated(self, q1: float) -> Shells:
-        """Return the shells up to and including `q1`."""
-        check_cut(self, q1)
+    def _cut(self, q1: float) -> Shells:
         keep = self.q <= q1 * (1 + ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
@@ -332,28 +324,18 @@ class Sum(Spectrum):
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
         (variance,) = nonnegative(variance=variance)
-        low, high = np.log(self.band)
-        table = np.union1d(np.log(self.averaged().knots), np.linspace(low, high, _STEPS))
-        known = self.variance_below(np.exp(table), 2)
-        i = np.clip(np.searchsorted(known, variance, side="right") - 1, 0, len(table) - 2)
-        # Rounding aside, each lies between its two of the table.
-        target = np.clip(variance, known[i], known[i + 1])
+        ends = np.log(self.band)
+        target = np.clip(variance, *self.variance_below(np.exp(ends), 2))
 
-        def excess(log_q, target):
+        def excess(log_q: NDArray, target: NDArray) -> NDArray:
             return self.variance_below(np.exp(log_q), 2) - target
 
         tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
-        found = elementwise.find_root(
-            excess, (table[i], table[i + 1]), args=(target,), tolerances=tolerances
-        )
-        # Bands that do not meet leave a range of q without waves.
-        log_q = np.where(known[i] == known[i + 1], table[i], found.x)
-        q = np.clip(np.exp(log_q), *self.band)
+        found = elementwise.find_root(excess, tuple(ends), args=(target,), tolerances=tolerances)
+        q = np.clip(np.exp(found.x), *self.band)
         return q, self.variance_above(q)
 
-    def truncated(self, q1: float) -> Spectrum:
-        """Return the sum of the same spectra cut at `q1`, each of its norm."""
-        check_cut(self, q1)
+    def _cut(self, q1: float) -> Spectrum:
         kept = [part for part in self.parts if part.q0 < q1]
         cut = [part.truncated(q1) if part.q1 > q1 else part for part in kept]
         return Sum(*cut) if len(cut) > 1 else cut[0]
