@@ -63,7 +63,6 @@ class LostContact:
     """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
 
     y: NDArray
-    step: NDArray
     m: NDArray
     rest: NDArray  #: M - m
 
@@ -71,9 +70,8 @@ class LostContact:
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
         """At values of ln(y - y_end), in order."""
         step = np.exp(log_step)
-        rest = p**2 * setting.kernels.area_scale_step(y_end, step)
-        y = y_end + step
-        return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
+        y, rest = y_end + step, p**2 * setting.kernels.area_scale_step(y_end, step)
+        return cls(y, p**2 * setting.kernels.area_scale(y), rest)
 
 
 @dataclass(frozen=True)
@@ -182,7 +180,7 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
     if thinned:  # narrower than they are apart they would make a comb of P(u)
         apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
         width = np.maximum(width, apart)
-    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * lost.step
+    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * np.exp(log_step)
     # of the two complementary differences the one with more digits
     ends = np.array([y_end, y_end + np.exp(edges[0])])
     closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])

@@ -64,14 +64,8 @@ class Persson:
         `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default. On a layer the area, the mean gap and the pressure
-        at a mean gap are known, the distribution of gaps is not: see `layered_scales`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of range.
-    NotImplementedError
-        From what needs the distribution of gaps, on a layer.
+        at a mean gap are known, the distribution of gaps is not (NotImplementedError): see
+        `layered_scales`.
 
     Notes
     -----

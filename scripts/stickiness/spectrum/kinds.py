@@ -90,7 +90,7 @@ class SelfAffine(PowerLawSegments):
     q0, q1 : float
         Lowest and highest wave number [1/length].
     h_rms : float, optional
-        Root mean square height [length] of the continuous spectrum. Give this or `C0`.
+        Root mean square height [length] of the continuous spectrum. Give either this or `C0`.
     C0 : float, optional
         Prefactor [length^(2 - 2H)].
     q_rolloff : float, optional
@@ -99,11 +99,6 @@ class SelfAffine(PowerLawSegments):
         Ratio of the correlation lengths, long over short, from 1 to 1e4.
     angle : float
         Direction of the long correlation length from x [rad].
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range or both or none of `h_rms` and `C0` are given.
 
     Notes
     -----
