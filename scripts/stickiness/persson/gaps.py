@@ -25,16 +25,13 @@ _TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in
 _SERIES_ORDER = 16  # Chebyshev points of a panel
 # Widths in ln(y - y_end) of the first panels of the series, and where halving ends.
 _SERIES_PANEL, _LEAST_PANEL = 1.5, 1e-3
-_ANGLES = np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER
-_POINTS = -np.cos(_ANGLES)
+_POINTS = -np.cos(np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER)
 _TO_SERIES = np.polynomial.chebyshev.chebvander(_POINTS, _SERIES_ORDER - 1).T * (2 / _SERIES_ORDER)
 _TO_SERIES[0] /= 2
-# Gauss quadrature, by the least change that a panel sees.
-_RULES = {
-    least: np.polynomial.legendre.leggauss(order)
-    for least, order in {0.3: 10, 0.08: 5, 0.015: 3, 0.0: 2}.items()
-}
-_MANY_PANELS = 100  # with fewer, next to a strong shell, all have the first of these rules
+# Gauss quadrature of panels that see less than each of these changes, or more than all.
+_CHANGES = 0.015, 0.08, 0.3
+_RULES = [np.polynomial.legendre.leggauss(order) for order in (2, 3, 5, 10)]
+_MANY_PANELS = 100  # with fewer, next to a strong shell, all have the last of these rules
 _PANEL = 1.4  # change over a panel, see `_panel_edges`
 _MOST_MOVES = 2000  # panels laid for Gaussians that move by many of their widths
 _LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
@@ -60,7 +57,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class LostContact:
-    """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
+    """Contact lost at the scales where A = erf(y): what P(u) is made of."""
 
     y: NDArray
     m: NDArray
@@ -68,7 +65,7 @@ class LostContact:
 
     @classmethod
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
-        """At values of ln(y - y_end), in order."""
+        """At values of ln(y - y_end)."""
         step = np.exp(log_step)
         y, rest = y_end + step, p**2 * setting.kernels.area_scale_step(y_end, step)
         return cls(y, p**2 * setting.kernels.area_scale(y), rest)
@@ -81,6 +78,7 @@ class GapCurve:
     Errs by some 1e-7 with the default number of nodes, like the sum over scales itself.
     """
 
+    setting: Setting
     p: float
     y_end: float  #: A = erf(y_end) at the finest resolution
     edges: NDArray  #: (k + 1,), of the panels
@@ -120,7 +118,7 @@ def gap_curve(setting: Setting, p: float) -> GapCurve:
         middle = 0.5 * (start + end)
         panels = np.stack([start, middle, middle, end], axis=1)[~ready].reshape(-1, 2)
     starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
-    return GapCurve(p, y_end, np.array([*starts, high]), np.array(series))
+    return GapCurve(setting, p, y_end, np.array([*starts, high]), np.array(series))
 
 
 def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
@@ -170,17 +168,16 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
     """
     curve = gap_curve(setting, p)
     y_end = curve.y_end
-    edges, change, thinned = _panel_edges(setting, variant, curve, reach)
+    edges, change, thinned = _panel_edges(curve, variant, reach)
     if len(change) < _MANY_PANELS * setting.nodes:
         change = np.full(len(change), np.inf)
     log_step, weight = _panel_nodes(edges, change)
-    lost = LostContact.at(setting, p, y_end, log_step)
-    gap = np.exp(curve.log_gap(log_step, lost))
-    width = _width(setting, variant, lost, gap)
+    y, log_gap, width = _gaussians(curve, variant, log_step)
+    gap = np.exp(log_gap)
     if thinned:  # narrower than they are apart they would make a comb of P(u)
         apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
         width = np.maximum(width, apart)
-    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * np.exp(log_step)
+    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(y**2)) * np.exp(log_step)
     # of the two complementary differences the one with more digits
     ends = np.array([y_end, y_end + np.exp(edges[0])])
     closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])
@@ -189,10 +186,9 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
 
 def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
-    at, weights, left = [], [], np.ones(len(change), dtype=bool)
-    for least, (x, w) in _RULES.items():
-        chosen = left & (change >= least)
-        left &= ~chosen
+    at, weights, kinds = [], [], np.digitize(change, _CHANGES)
+    for kind, (x, w) in enumerate(_RULES):
+        chosen = kinds == kind
         half = 0.5 * np.diff(edges)[chosen, None]
         at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
         weights.append((half * w).ravel())
@@ -201,9 +197,11 @@ def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     return at[order], weights[order]
 
 
-def _width(setting: Setting, variant: str, lost: LostContact, gap: NDArray) -> NDArray:
-    """Standard deviation of the Gaussians."""
-    spectrum, m2 = setting.spectrum, setting.m2
+def _gaussians(curve: GapCurve, variant: str, log_step: NDArray) -> tuple[NDArray, ...]:
+    """y, ln u1 and standard deviation of the Gaussians at values of ln(y - y_end)."""
+    spectrum, m2 = curve.setting.spectrum, curve.setting.m2
+    lost = LostContact.at(curve.setting, curve.p, curve.y_end, log_step)
+    log_gap = curve.log_gap(log_step, lost)
     _, variance = spectrum.at_gradient_variance(2 * lost.m)
     # Next to the finest scale the height variance is the difference of nearly equal numbers;
     # there q hardly varies.
@@ -211,21 +209,17 @@ def _width(setting: Setting, variant: str, lost: LostContact, gap: NDArray) -> N
     rest = lost.rest[finest]
     q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * rest))
     variance[finest] = 2 * rest / q**2
-    h = np.sqrt(variance)
-    if variant == "almqvist2011":
-        return h
-    return gap * h / np.hypot(gap, h)
+    h, gap = np.sqrt(variance), np.exp(log_gap)
+    return lost.y, log_gap, h if variant == "almqvist2011" else gap * h / np.hypot(gap, h)
 
 
-def _panel_edges(
-    setting: Setting, variant: str, curve: GapCurve, reach: float
-) -> tuple[NDArray, NDArray, bool]:
+def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, NDArray, bool]:
     """Edges of panels in ln(y - y_end), the change over each, and whether they are too few.
 
     A change of 1, some four widths of the Gaussians, needs ten nodes. Next to full contact of a
     broad spectrum the Gaussians are so narrow that they move by more of their widths.
     """
-    p, y_end = curve.p, curve.y_end
+    setting, y_end = curve.setting, curve.y_end
     low, high = _visible_range(setting, y_end)
     if variant == "almqvist2011":
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
@@ -235,33 +229,33 @@ def _panel_edges(
     number = (probe - low) / _LOOK + (y_end + np.exp(probe)) ** 2 / _LOOK_FAR
     number -= number[0]
     grid = np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
-    breaks, onsets = (x[(x > low) & (x < high)] for x in _breaks(setting, p, y_end))
-    grid = np.union1d(grid, np.append(breaks, onsets))
-    lost = LostContact.at(setting, p, y_end, grid)
-    log_gap = curve.log_gap(grid, lost)
-    gap = np.exp(log_gap)
-    width = np.maximum(_width(setting, variant, lost, gap), 1e-300)
-    seen = np.minimum(gap, reach * setting.spectrum.h_rms)
+    breaks = _breaks(curve)
+    breaks = breaks[(breaks > low) & (breaks < high)]
+    grid = np.union1d(grid, breaks)
+    y, log_gap, width = _gaussians(curve, variant, grid)
+    width = np.maximum(width, 1e-300)
+    seen = np.minimum(np.exp(log_gap), reach * setting.spectrum.h_rms)
     centre = 0.5 * (width[1:] + width[:-1])
     change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
     moves = 0.3 * np.abs(np.diff(seen)) / centre
     most = _MOST_MOVES * _PANEL
     thinned = bool(moves.sum() > most)
-    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(lost.y**2)
+    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(y**2)
     change += 0.2 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
     total = np.append(0.0, np.cumsum(change))
     count = int(np.ceil(total[-1] * setting.nodes / _PANEL))
     even = np.interp(np.linspace(0, total[-1], count + 1), total, grid)
-    edges = np.union1d(even, np.append(breaks, onsets))
+    edges = np.union1d(even, breaks)
     return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL, thinned
 
 
-def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]:
+def _breaks(curve: GapCurve) -> NDArray:
     """Values of ln(y - y_end) where q(m) is not smooth, the strongest of those that matter.
 
     And, where q jumps, values next to it: on the coarse side of a shell its part in u1 vanishes
     as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
     """
+    setting, p, y_end = curve.setting, curve.p, curve.y_end
     spectrum = setting.spectrum
     if spectrum.is_discrete:
         most, q, jump = _MOST_SHELLS, spectrum.q[:-1], np.diff(np.log(spectrum.q))
@@ -278,8 +272,8 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
     finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
     depth = np.concatenate([depth, finer * _SHARES[:, None]])
     before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
-    near = setting.kernels.invert_area_scale(before / p**2)
-    return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
+    found = np.append(y[chosen], setting.kernels.invert_area_scale(before / p**2))
+    return np.log(found[found > y_end] - y_end)
 
 
 def over_blocks(function: Callable, u: NDArray, profile: GapProfile) -> NDArray:
