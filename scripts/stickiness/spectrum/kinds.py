@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative, number
-from stickiness.spectrum.direction import CIRCLE, ROUNDING, Ellipse, PowerLaws
+from stickiness.spectrum.direction import CIRCLE, Ellipse, expm1_over
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum
 
+_ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
 _ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
 _PRECISION = 4e-16  # of ln q
 
@@ -35,49 +36,89 @@ class PowerLawSegments(Spectrum):
         self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
     ):
         laws = (np.asarray(values, dtype=float) for values in (knots, level, exponent))
-        self.ellipse, self._laws = ellipse, PowerLaws(*laws)
-        self.q0, self.q1 = self._laws.ends
-
-    @cached_property
-    def _mean(self) -> PowerLaws:
-        """The power laws averaged over directions."""
-        return self.ellipse.average(self._laws)
+        self._knots, self._level, self._exponent = self._laws = tuple(laws)
+        self.ellipse, self.q0, self.q1 = ellipse, float(self._knots[0]), float(self._knots[-1])
 
     @property
     def knots(self) -> NDArray:
         """Wave numbers, both ends included, between which C is one power law each."""
-        return self._laws.knots.copy()
+        return self._knots.copy()
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C(q) [length^4], averaged over directions; zero outside the band."""
+        if self.ellipse.is_nearly_circle:
+            return self.psd_of_norm(q)
         return self.ellipse.mean_psd(self._laws, q)
 
     def psd_of_norm(self, norm: ArrayLike) -> NDArray:
-        return self._laws.psd(norm)
+        (q,) = nonnegative(q=norm)
+        inside = (q >= self.q0 * (1 - _ROUNDING)) & (q <= self.q1 * (1 + _ROUNDING))
+        i = self._segment(q)
+        ratio = np.where(inside, q, self._knots[i]) / self._knots[i]
+        return np.where(inside, self._level[i] * ratio ** self._exponent[i], 0.0)
 
     def averaged(self) -> PowerLawSegments:
-        if self.isotropic:
-            return self
-        return PowerLawSegments(self._mean.knots, self._mean.level, self._mean.exponent)
+        return self if self.isotropic else self._mean
 
     def total_variance(self, power: float = 0) -> float:
-        return float(self._laws.below(self.q1, power)) * self.ellipse.mean_stretch(power)
+        return float(self._below_knots(power)[-1]) * self.ellipse.mean_stretch(power)
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
-        return self._mean.below(q, power)
+        mean = self.averaged()
+        q = np.clip(*nonnegative(q=q), mean.q0, mean.q1)
+        i = mean._segment(q)
+        return mean._below_knots(power)[i] + mean._integral(i, mean._knots[i], q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
-        return self._mean.above(q, power)
+        mean = self.averaged()
+        q = np.clip(*nonnegative(q=q), mean.q0, mean.q1)
+        i = mean._segment(q)
+        after = np.append(np.cumsum(mean._whole_segments(power)[::-1])[::-1], 0.0)
+        return after[i + 1] + mean._integral(i, q, mean._knots[i + 1], power)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        q = self._mean.invert_gradient(variance)
+        (variance,), mean = nonnegative(variance=variance), self.averaged()
+        before = mean._below_knots(2)
+        i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(mean._level) - 1)
+        beta = mean._exponent[i] + 4
+        level = 2 * np.pi * mean._level[i] * mean._knots[i] ** 4
+        log_ratio = _log1p_over(beta, (variance - before[i]) / level)
+        q = np.clip(mean._knots[i] * np.exp(log_ratio), mean.q0, mean.q1)
         return q, self.variance_above(q)
 
+    @cached_property
+    def _mean(self) -> PowerLawSegments:
+        """The spectrum averaged over directions."""
+        return PowerLawSegments(*self.ellipse.average(self._laws))
+
     def _cut(self, q1: float) -> PowerLawSegments:
-        cut = copy(self)
+        cut, keep = copy(self), self._knots[:-1] < q1
+        knots = np.append(self._knots[:-1][keep], q1)
+        PowerLawSegments.__init__(cut, knots, self._level[keep], self._exponent[keep], self.ellipse)
         vars(cut).pop("_mean", None)
-        cut._laws, cut.q1, cut.prescribed = self._laws.truncated(q1), float(q1), "C"
+        cut.prescribed = "C"
         return cut
+
+    # Integrals are summed from the end where the terms are small, so that spectra of ten decades
+    # lose no digits to cancellation.
+
+    def _segment(self, q: NDArray) -> NDArray:
+        index = np.searchsorted(self._knots, q, side="right") - 1
+        return np.clip(index, 0, len(self._level) - 1)
+
+    def _integral(self, i: NDArray, a: NDArray, b: NDArray, power: float) -> NDArray:
+        """2 pi * integral of q^(1 + power) C from a to b, both in segment i."""
+        beta = self._exponent[i] + 2 + power
+        from_knot = np.log(a / self._knots[i])
+        level = self._level[i] * self._knots[i] ** (2 + power)
+        return 2 * np.pi * level * np.exp(beta * from_knot) * expm1_over(beta, np.log(b / a))
+
+    def _whole_segments(self, power: float) -> NDArray:
+        i = np.arange(len(self._level))
+        return self._integral(i, self._knots[:-1], self._knots[1:], power)
+
+    def _below_knots(self, power: float) -> NDArray:
+        return np.append(0.0, np.cumsum(self._whole_segments(power)))
 
 
 class SelfAffine(PowerLawSegments):
@@ -238,7 +279,7 @@ class Shells(Spectrum):
         return self.q[i], self.variance_above(self.q[i]) + rest
 
     def _cut(self, q1: float) -> Shells:
-        keep = self.q <= q1 * (1 + ROUNDING)
+        keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
@@ -404,6 +445,12 @@ def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> 
         raise ValueError(
             f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
         )
+
+
+def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
+    """Inverse of `expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
+    safe = np.where(beta == 0, 1.0, beta)
+    return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)
 
 
 def _merge_shells(one: Shells, other: Shells) -> Shells:
