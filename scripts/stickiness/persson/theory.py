@@ -198,8 +198,7 @@ class Persson:
             )
         (p,) = positive(p=p)
         (u,) = nonnegative(u=u)
-        finite = u[np.isfinite(u)]
-        largest = float(np.max(finite, initial=0.0)) / self.spectrum.h_rms
+        largest = float(np.max(u[np.isfinite(u)], initial=0.0)) / self.spectrum.h_rms
         # In powers of two, so that profiles are shared between calls.
         doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
         reach = min(_REACH * 2**doublings, _FARTHEST)

@@ -21,7 +21,10 @@ _ALIKE = 1e-4  # ratios nearer to 1 change no average by more than 1e-8
 _NODES = 64  # of averages over whole ellipses
 _PIECE = 32  # nodes of those over the part of an ellipse between two knots
 _CELLS = 56  # power laws for each knot
-_CELL_NODES = 16
+# Nodes and weights on 0 to 1, of a cell, for functions that are like a square root at both ends.
+_TURN, _GAUSS = np.polynomial.legendre.leggauss(16)
+_TURN = 0.5 * np.pi * (1 + _TURN)
+_SHARE, _WEIGHT = 0.5 * (1 - np.cos(_TURN)), 0.25 * np.pi * np.sin(_TURN) * _GAUSS
 _CLOSEST = 1e-10  # ends of cells in ln q
 # Angles of the amplitude of cos 2 phi, and the ratio beyond which it hardly changes.
 _ANGLES, _LARGEST_FOUND = 2000, 20.0
@@ -113,15 +116,14 @@ class Ellipse:
         edges = np.unique(np.add.outer(np.log(laws[0]), around))
         edges = edges[np.append(True, np.diff(edges) > _CLOSEST)]
         width, start = np.diff(edges), np.exp(edges[:-1])
-        share, weight = _cell_quadrature()
-        at = width[:, None] * share
+        at = width[:, None] * _SHARE
         density = np.exp(2 * at) * self.mean_psd(laws, start[:, None] * np.exp(at))
-        empty = density @ weight == 0  # between the bands of a spectrum that has a gap
+        empty = density @ _WEIGHT == 0  # between the bands of a spectrum that has a gap
         density[empty] = 1.0
         high = np.expm1(2 * at) / np.expm1(2 * width)[:, None]
-        centre = (density * high) @ weight / (density @ weight)
+        centre = (density * high) @ _WEIGHT / (density @ _WEIGHT)
         slope = _find_slopes(centre, width) / width
-        level = (density @ weight) / (np.exp(slope[:, None] * at) @ weight)
+        level = (density @ _WEIGHT) / (np.exp(slope[:, None] * at) @ _WEIGHT)
         return np.exp(edges), np.where(empty, 0.0, level), slope - 2
 
     @property
@@ -167,20 +169,12 @@ def expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
     return np.where(beta == 0, x, np.expm1(safe * x) / safe)
 
 
-def _cell_quadrature() -> tuple[NDArray, NDArray]:
-    """Nodes and weights on 0 to 1 for functions that are like a square root at both ends."""
-    x, weight = np.polynomial.legendre.leggauss(_CELL_NODES)
-    turn = 0.5 * np.pi * (1 + x)
-    return 0.5 * (1 - np.cos(turn)), 0.25 * np.pi * np.sin(turn) * weight
-
-
 def _find_slopes(centre: NDArray, width: NDArray) -> NDArray:
     """Change over each cell of ln(q^2 C) that puts the gradient's centre where it is."""
-    share, weight = _cell_quadrature()
 
     def excess(slope, centre, width):
-        density = np.exp(slope[..., None] * (share - 0.5)) * weight
-        high = np.expm1(2 * width[..., None] * share) / np.expm1(2 * width[..., None])
+        density = np.exp(slope[..., None] * (_SHARE - 0.5)) * _WEIGHT
+        high = np.expm1(2 * width[..., None] * _SHARE) / np.expm1(2 * width[..., None])
         return np.sum(density * high, axis=-1) / np.sum(density, axis=-1) - centre
 
     ends = np.full_like(centre, -_STEEPEST), np.full_like(centre, _STEEPEST)

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
-from functools import cached_property, reduce
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative, number
 from stickiness.spectrum.direction import CIRCLE, Ellipse, expm1_over
@@ -16,7 +15,6 @@ from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum
 
 _ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
 _ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
-_PRECISION = 4e-16  # of ln q
 
 
 class PowerLawSegments(Spectrum):
@@ -358,19 +356,6 @@ class Sum(Spectrum):
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         return sum(part.variance_above(q, power) for part in self.parts)
 
-    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        (variance,) = nonnegative(variance=variance)
-        ends = np.log(self.band)
-        target = np.clip(variance, *self.variance_below(np.exp(ends), 2))
-
-        def excess(log_q: NDArray, target: NDArray) -> NDArray:
-            return self.variance_below(np.exp(log_q), 2) - target
-
-        tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
-        found = elementwise.find_root(excess, tuple(ends), args=(target,), tolerances=tolerances)
-        q = np.clip(np.exp(found.x), *self.band)
-        return q, self.variance_above(q)
-
     def _cut(self, q1: float) -> Spectrum:
         kept = [part for part in self.parts if part.q0 < q1]
         cut = [part.truncated(q1) if part.q1 > q1 else part for part in kept]
@@ -414,7 +399,11 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
             )
     shells = [one.is_discrete for one in spectra]
     if all(shells):
-        return reduce(_merge_shells, spectra)
+        q = np.concatenate([one.q for one in spectra])
+        order = np.argsort(q, kind="stable")
+        q, variance = q[order], np.concatenate([one.variance for one in spectra])[order]
+        first = _find_first(q)  # shells at one wave number hold the sum
+        return Shells(q[first], np.add.reduceat(variance, first))
     if any(shells):
         raise ValueError(
             "combine: shells and a density have no common form; take surface.lattice_spectrum of "
@@ -451,15 +440,6 @@ def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
     """Inverse of `expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
     safe = np.where(beta == 0, 1.0, beta)
     return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)
-
-
-def _merge_shells(one: Shells, other: Shells) -> Shells:
-    """Shells of both; those at one wave number, to rounding, hold the sum."""
-    q = np.concatenate([one.q, other.q])
-    order = np.argsort(q, kind="stable")
-    q, variance = q[order], np.concatenate([one.variance, other.variance])[order]
-    first = _find_first(q)
-    return Shells(q[first], np.add.reduceat(variance, first))
 
 
 def _find_first(q: NDArray) -> NDArray:
