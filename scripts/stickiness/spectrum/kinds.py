@@ -169,7 +169,13 @@ class SelfAffine(PowerLawSegments):
         anisotropy: float = 1.0,
         angle: float = 0.0,
     ):
-        _check_band(hurst, q0, q1, q_rolloff)
+        number("hurst", hurst, most=1)
+        number("q0", q0)
+        if not number("q1", q1) > q0:
+            raise ValueError(f"q1 must be finite and above q0 = {q0!r}, got {q1!r}")
+        if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
+            band = f"q0 = {q0!r} and q1 = {q1!r}"
+            raise ValueError(f"q_rolloff must lie between {band}, got {q_rolloff!r}")
         self.ellipse = Ellipse(anisotropy, angle)
         if (h_rms is None) == (C0 is None):
             raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
@@ -421,19 +427,6 @@ def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tup
     if not (np.all(np.isfinite(q)) and q[0] > 0 and np.all(np.diff(q) > 0)):
         raise ValueError("q must be positive, finite and strictly increasing")
     return q, values
-
-
-def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> None:
-    number("hurst", hurst)
-    if not hurst <= 1:
-        raise ValueError(f"hurst must be in (0, 1], got {hurst!r}")
-    number("q0", q0)
-    if not number("q1", q1) > q0:
-        raise ValueError(f"q1 must be finite and above q0 = {q0!r}, got {q1!r}")
-    if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
-        raise ValueError(
-            f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
-        )
 
 
 def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
