@@ -18,7 +18,6 @@ from stickiness.solids import Layer
 from stickiness.spectrum.interface import Spectrum
 
 _ORDER = 8  # of Gauss quadrature on panels
-_FINE, _MOST_PARTS = 0.1, 20  # parts of panels, in ln m
 
 
 class LayeredScales:
@@ -60,7 +59,7 @@ class LayeredScales:
         """Wave numbers, m there, and what m grows by with the weight of each."""
         edges = np.log(self.spectrum.q0) + scale_edges(self.spectrum)
         m = np.array([self.variance_below(q) for q in np.exp(edges)])
-        edges, _ = split_panels(edges, m, _FINE / nodes, _MOST_PARTS)
+        edges, _ = split_panels(edges, m)
         x, w = np.polynomial.legendre.leggauss(max(2, round(_ORDER * nodes)))
         share, w = 0.5 * (1 + x), 0.5 * w
         start, width = edges[:-1, None], np.diff(edges)[:, None]

@@ -66,7 +66,7 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     if coarse.shape[1] > 2 * _MOST_COARSE * max(nodes, 1.0):
         return _grouped_nodes(_gauss_nodes(spectrum, edges, max(2, round(4 * nodes))), nodes)
     edge = 0.5 * spectrum.variance_below(spectrum.q0 * np.exp(edges), 2)
-    fine_edges, start = split_panels(edges, edge, _FINE, _MOST_PARTS)
+    fine_edges, start = split_panels(edges, edge)
     fine = _gauss_nodes(spectrum, fine_edges, order)
     panels = np.arange(len(edges))
     return ScaleNodes(fine, coarse, edge, order * start, order * panels, _PANEL_MARGIN)
@@ -87,10 +87,10 @@ def scale_edges(spectrum: Spectrum) -> NDArray:
     return np.union1d(edges, np.log(spectrum.knots[1:-1] / spectrum.q0))
 
 
-def split_panels(edges: NDArray, m: NDArray, fine: float, most: int) -> tuple[NDArray, NDArray]:
-    """Split panels into parts over which ln m grows by `fine`, and where each panel's begin."""
+def split_panels(edges: NDArray, m: NDArray) -> tuple[NDArray, NDArray]:
+    """Split panels into parts over which ln m grows little, and where each panel's begin."""
     growth = np.log(m[1:]) - np.log(np.maximum(m[:-1], 1e-300))  # a ratio may overflow
-    parts = np.clip(np.ceil(growth / fine), 1, most).astype(int)
+    parts = np.clip(np.ceil(growth / _FINE), 1, _MOST_PARTS).astype(int)
     start = np.append(0, np.cumsum(parts))
     return np.interp(np.arange(start[-1] + 1), start, edges), start
 
