@@ -30,7 +30,6 @@ _CLOSEST = 1e-10  # ends of cells in ln q
 _ANGLES, _LARGEST_FOUND = 2000, 20.0
 _STEEPEST = 60.0  # change of ln(q^2 C) over a cell
 
-
 PowerLaws = tuple[NDArray, NDArray, NDArray]  #: knots, levels and exponents, see `kinds`
 
 
