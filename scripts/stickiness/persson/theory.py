@@ -103,8 +103,7 @@ class Persson:
             m2 = self._layered.variance_below(spectrum.q1)
         else:
             m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
-        scales = scale_nodes(spectrum, nodes)
-        self._setting = gaps.Setting(spectrum, universal, scales, m2, nodes)
+        self._setting = gaps.Setting(spectrum, universal, scale_nodes(spectrum, nodes), m2, nodes)
 
     def with_variant(self, variant: Variant) -> Persson:
         """Return the same theory with another width of the Gaussians.

@@ -200,10 +200,8 @@ class Spectrum(ABC):
                 "of its unit; otherwise lower q1 or length"
             )
         i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
-        half = (i > 0) | (j > 0)
-        i, j = i[half], j[half]
-        band = self.modes_in_band(i, j, dq)
-        i, j = i[band], j[band]
+        kept = ((i > 0) | (j > 0)) & self.modes_in_band(i, j, dq)
+        i, j = i[kept], j[kept]
         rank = i**2 + j**2
         if not self.ellipse.is_circle:  # equal norms have equal ranks
             rank = np.round(np.log(self.ellipse.norm(i, j)), 10)

@@ -75,7 +75,8 @@ class PowerLawSegments(Spectrum):
         return after[i + 1] + mean._integral(i, q, mean._knots[i + 1], power)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        (variance,), mean = nonnegative(variance=variance), self.averaged()
+        (variance,) = nonnegative(variance=variance)
+        mean = self.averaged()
         before = mean._below_knots(2)
         i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(mean._level) - 1)
         beta = mean._exponent[i] + 4
