@@ -164,9 +164,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
             candidates, dilute = None, False
         if dilute:
             local = field.image[candidates.points].astype(float) + shift
-            left = max_iterations - iterations
             points, pressure, count = candidates.correct_pressure(
-                points, pressure, local, 0.3 * tol, left
+                points, pressure, local, 0.3 * tol, max_iterations - iterations
             )
             iterations += count
             # such a correction gains a factor of 100
@@ -196,9 +195,8 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
         np.subtract(float(gaps.mean()), gaps, out=residuals, casting="same_kind")
         residuals /= np.float32(scale)
         gaps = None  # frees memory
-        change, count = close_gap(
-            precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
-        )
+        operators, left = (precondition, precondition.compliance), max_iterations - iterations
+        change, count = close_gap(*operators, residuals, goal / scale, changed == 0, left)
         iterations += count
         change = np.multiply(change, scale, dtype=float)
         change -= change.mean()
@@ -318,12 +316,5 @@ def _state(grid, best, field, last, iterations):
     np.maximum(gap, 0, out=gap)
     gap[touching] = 0
     filled[touching] = pressure
-    return State(
-        pressure=filled.reshape(grid.shape),
-        gap=gap.reshape(grid.shape),
-        shift=shift,
-        area_fraction=touching.size / gap.size,
-        residual=residual,
-        iterations=iterations,
-        fft_pairs=grid.pairs,
-    )
+    fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size
+    return State(*fields, shift, area, residual, iterations, grid.pairs)

@@ -104,9 +104,8 @@ class Candidates:
             scale = float(np.abs(misfit).max()) or 1.0
             misfit = (misfit / scale).astype(np.float32)
             reduction = max(_REDUCTION_WHILE_CHANGING, 0.5 * goal / scale)
-            change, more = close_gap(
-                _Touching(self, active), misfit, reduction, True, limit - count
-            )
+            operators = (self._among(of, active) for of in (self.stiffness, self.compliance))
+            change, more = close_gap(*operators, misfit, reduction, True, limit - count)
             count += more
             after[active] += (change - change.mean(dtype=float)) * scale
             steady = not (joined & ~touched).any() and after[active].min() > 0
@@ -119,22 +118,15 @@ class Candidates:
             gap -= gap[active].mean()
         return self.points[active], after[active], count
 
+    def _among(self, operator, active):
+        """An operator on all candidates as one on those that touch."""
+        touching, field = np.flatnonzero(active), np.zeros(active.size, np.float32)
 
-class _Touching:
-    """Compliance, and its preconditioner when called, of the candidates that touch."""
+        def apply(values):
+            field[touching] = values
+            return operator(field)[touching]
 
-    def __init__(self, candidates, active):
-        self._candidates = candidates
-        self._active = np.flatnonzero(active)
-        self._field = np.zeros(active.size, np.float32)
-
-    def compliance(self, pressure):
-        self._field[self._active] = pressure
-        return self._candidates.compliance(self._field)[self._active]
-
-    def __call__(self, gap):
-        self._field[self._active] = gap
-        return self._candidates.stiffness(self._field)[self._active]
+        return apply
 
 
 class _Split:

@@ -20,11 +20,11 @@ _FAR_WEIGHT = 0.3  # of a zero at infinity: far from all contact the extension v
 _SMALLEST_REDUCTION = 1e-4  # of the gap, by a correction in single precision
 
 
-def close_gap(contact, residual, goal, largest, limit):
+def close_gap(precondition, compliance, residual, goal, largest, limit):
     """Change of pressure, of zero sum, that closes the gap on a set of points; and iterations.
 
-    In single precision until the rms residual (or the `largest`) is down to `goal`. `contact` has
-    the `compliance` on these points and is, when called, a preconditioner. Overwrites `residual`.
+    In single precision until the rms residual (or the `largest`) is down to `goal`. Both operators
+    are on these points. Overwrites `residual`.
     """
     change, count = np.zeros(residual.size, np.float32), 1
     if residual.size == 1 or not residual.any():
@@ -32,7 +32,7 @@ def close_gap(contact, residual, goal, largest, limit):
     goal = max(goal, _SMALLEST_REDUCTION)
     direction, product = None, 1.0
     while True:
-        z = contact(residual)
+        z = precondition(residual)
         z -= z.mean()
         previous, product = product, float(residual @ z)
         if not product > 0:  # nothing but rounding is left
@@ -42,7 +42,7 @@ def close_gap(contact, residual, goal, largest, limit):
         else:
             direction *= np.float32(product / previous)
             direction += z
-        image = contact.compliance(direction)
+        image = compliance(direction)
         step = np.float32(product / float(direction @ image))
         change += step * direction
         image *= step
