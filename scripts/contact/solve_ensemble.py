@@ -9,7 +9,7 @@ from common.contact_curves import VARIABLES, coarse_solutions, load_curves, step
 from common.conventions import annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, make_heights, waves_across
-from contact.ensembles import add_statistics, describe_sampling, join_coarse, write_means
+from contact.ensembles import join_coarse, write_means
 from stickiness import surface as synthesis
 
 
@@ -21,23 +21,20 @@ def main(job):
         [realisation(surface, int(seed), params.pixels_per_wavelength, curves) for seed in seeds],
         xr.DataArray(seeds, dims="seed", name="seed"),
     )
-    others = xr.Dataset()
+    others = []
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
-        others = coarse_solutions(surface, *count, *curves)
-        others = join_coarse([annotate(others, **VARIABLES)])
-    dataset = add_statistics(annotate(fine, **VARIABLES), others)
-    parameters = {
+        others = [annotate(coarse_solutions(surface, *count, *curves), **VARIABLES)]
+    made = {
         **surface,
         "case": job.wildcards.comparison,
         "seeds": seeds.tolist(),
         "tolerance": params.tolerance,
-        "largest_residual": float(fine.residual.max()),
         "pixels_per_wavelength": params.pixels_per_wavelength,
         "grid_points": grid_points(surface, params.pixels_per_wavelength),
     }
-    parameters |= describe_sampling(parameters, dataset)
-    write_means(dataset, parameters, job.input.laws, job.output[0])
+    fine, others = annotate(fine, **VARIABLES), join_coarse(others)
+    write_means(fine, others, made, job.input.laws, job.output[0])
 
 
 def realisation(surface, seed, pixels_per_wavelength, curves):

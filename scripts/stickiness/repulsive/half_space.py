@@ -82,10 +82,8 @@ class HalfSpace:
         self._convolution = convolution.choose(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = effective_wavenumbers(self.shape, self.lengths, solid).T
-        weight = np.full(q.shape[0], 2.0)
-        weight[0] = 1.0
-        if n1 % 2 == 0:
-            weight[-1] = 1.0
+        index = np.arange(q.shape[0])  # waves mirror one another but for the first and a last
+        weight = np.where((index == 0) | (2 * index == n1), 1.0, 2.0)
         self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * n0 * n1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
@@ -104,15 +102,14 @@ class HalfSpace:
         `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
         the displacement, the others stay as they are in `out` (default: all).
         """
-        symbol = self._compliance
-        return self._convolve(self._convolution, pressure, symbol, out, rows_in, rows_out)
+        return self._convolve(self._convolution, self._compliance, pressure, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
         """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
-        symbol = self._stiffness
-        return self._convolve(self._convolution, displacement, symbol, out, rows_in, rows_out)
+        symbols = self._convolution, self._stiffness
+        return self._convolve(*symbols, displacement, out, rows_in, rows_out)
 
-    def _convolve(self, convolution, field, symbol, out, rows_in, rows_out):
+    def _convolve(self, convolution, symbol, field, out, rows_in, rows_out):
         if out is None:
             empty = np.empty if rows_out is None else np.zeros
             out = empty(self.shape, self.dtype)
@@ -149,7 +146,7 @@ class FreeHalfSpace(HalfSpace):
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
         """Displacement, zero far away; arguments as of `HalfSpace.compliance`."""
-        out = self._convolve(self._padded, pressure, self._symbol, out, rows_in, rows_out)
+        out = self._convolve(self._padded, self._symbol, pressure, out, rows_in, rows_out)
         self.pairs += self._share - 1  # which has been counted as one
         return out
 
