@@ -46,10 +46,7 @@ def load_curves(heights, length, steps, *path):
 
 
 def load_curve(heights, length, pressures, ranges, tolerance, names=()):
-    """Contact quantities at every pressure.
-
-    `names` are further quantities to measure, which a case wants.
-    """
+    """Contact quantities at every pressure, and further ones by `names`, which a case wants."""
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
         surface = {name: MEASURED[name](heights, contact.gap, length) for name in names}

@@ -50,10 +50,7 @@ def choose_means(quantities):
 
 
 def join_coarse(files, kept=(*COARSE, "attractive_area")):
-    """Coarse solutions of all files under names that do not clash with the fine ones.
-
-    The seeds that are not solved are in the first file.
-    """
+    """Coarse solutions of all files, renamed, and the seeds of the first that are not solved."""
     if not files:
         return xr.Dataset()
     solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")

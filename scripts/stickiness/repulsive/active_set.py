@@ -230,11 +230,9 @@ def _gap(grid, field, points, pressure):
 
 
 def _highest(problem):
-    """Points that may touch, for want of a guess: the highest, many of them; all at a high load.
-
-    At small loads the area of contact is about twice the load over the rms slope.
-    """
+    """Points that may touch, for want of a guess: the highest, many of them; all at a high load."""
     heights, sure = problem.heights, problem.periodic and problem.solid == HALF_SPACE
+    # at small loads
     area = 2 * problem.load / (half_space.measure_slope(heights, problem.sides) or 1.0)
     count = int(_FIRST_SET_FACTOR * area * heights.size) + 1
     if not sure or count > _LARGEST_FIRST_SET * heights.size:

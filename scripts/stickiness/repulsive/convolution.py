@@ -22,11 +22,7 @@ _ALIGNED = 64  # bytes
 
 
 class _Convolution:
-    """Transforms of blocks of rows; how the columns are transformed is a matter of its kinds.
-
-    A kind sets `_modes`, the wavenumbers along a row, `_spectrum`, and `_by_rows`, the same with
-    the rows of the grid first.
-    """
+    """Transforms of blocks of rows, into a `_spectrum` that subclasses multiply by the symbol."""
 
     _packed = False
 
@@ -71,10 +67,7 @@ class _Convolution:
             out[span] = self._real[:count, : out.shape[1]]
 
     def _blocks(self, field, rows):
-        """Index of each block of rows, its size, and whether FFTW may work on it where it is.
-
-        The index is a slice, which copies nothing, where rows follow one another.
-        """
+        """Index of each block of rows, its size, and whether FFTW may work on it where it is."""
         step = field.strides[0]
         usable = self._packed and field.flags.c_contiguous and field.dtype == self._dtype
         usable = usable and field.shape == self.shape and field.ctypes.data % _ALIGNED == 0
@@ -84,6 +77,7 @@ class _Convolution:
             first, last = int(block[0]), int(block[-1])
             together, whole = last - first + 1 == block.size, block.size == self._rows
             direct = usable and together and whole and first * step % _ALIGNED == 0
+            # A slice copies nothing.
             yield slice(first, last + 1) if together else block, block.size, direct
 
 

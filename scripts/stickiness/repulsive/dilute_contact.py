@@ -40,10 +40,7 @@ def is_worthwhile(shape, sides, count):
 
 
 def select_candidates(grid, last, points, below, image, shift):
-    """Candidates at an iterate: the `last` ones unless some that penetrate, `below`, are missing.
-
-    `points` touch, and `image` plus `shift` is the gap. None if they are too many.
-    """
+    """Candidates, unless too many: the `last` ones, unless some that penetrate are missing."""
     if last is not None:
         grid.active[last.points] = True
         missing = not grid.active[below].all()
@@ -185,10 +182,7 @@ def _multiply(matrix, values, image):
 
 
 def _pair(points, shape, split):
-    """Matrices, for `_multiply`, of the near compliance and of the stiffness next by.
-
-    None if there are too many pairs.
-    """
+    """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
     size, width, span = points.size, shape[1] + 2 * _REACH, np.int32(2 * _REACH + 1)
     row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.

@@ -19,10 +19,7 @@ _CACHES = []  # of all functions that `keep_per_thread` decorates
 
 
 def keep_per_thread(most):
-    """Decorate a function of hashable arguments: keep the `most` last results of each thread.
-
-    Operators contain FFTW plans and buffers, which two threads must not share.
-    """
+    """Let a function keep its `most` last results: threads must not share plans and buffers."""
 
     def decorate(make):
         @lru_cache(maxsize=most)
@@ -52,10 +49,7 @@ def wavenumbers(shape, lengths):
 
 
 def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
-    """Wave numbers ``|q|``/S at which a half-space is as stiff as the solid; `wavenumbers`' shape.
-
-    Twice the stiffness [E*]. Zero stays zero: the mean displacement is not the operators' matter.
-    """
+    """Wave numbers ``|q|``/S, zero at q = 0, at which a half-space is as stiff as the solid."""
     q = wavenumbers(shape, lengths)
     if solid != HALF_SPACE:
         half = shape[0] // 2 + 1  # the other wave vectors mirror these
@@ -70,8 +64,7 @@ class HalfSpace:
     """Compliance ``2 S/|q|`` of a periodic solid and its inverse, the stiffness, but for q = 0.
 
     It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
-    pressure under a pixel lifted alone, per unit of lift. The object contains buffers: no two
-    threads may use it at once (`half_space` returns a separate one for every thread).
+    pressure under a pixel lifted alone, per unit of lift. No two threads may use it at once.
     """
 
     def __init__(self, shape, lengths, dtype, solid):
@@ -97,19 +90,16 @@ class HalfSpace:
         return self._convolution.symbol(q)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*].
-
-        `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
-        the displacement, the others stay as they are in `out` (default: all).
-        """
+        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*]."""
         return self._convolve(self._convolution, self._compliance, pressure, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
-        """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
+        """Pressure [E*], of zero mean, that causes a displacement."""
         symbols = self._convolution, self._stiffness
         return self._convolve(*symbols, displacement, out, rows_in, rows_out)
 
     def _convolve(self, convolution, symbol, field, out, rows_in, rows_out):
+        """Convolve a field that is zero but in `rows_in`; other rows of `out` stay as they are."""
         if out is None:
             empty = np.empty if rows_out is None else np.zeros
             out = empty(self.shape, self.dtype)
@@ -145,7 +135,7 @@ class FreeHalfSpace(HalfSpace):
         self._symbol = self._padded.symbol(spectrum)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement, zero far away; arguments as of `HalfSpace.compliance`."""
+        """Displacement, zero far away."""
         out = self._convolve(self._padded, self._symbol, pressure, out, rows_in, rows_out)
         self.pairs += self._share - 1  # which has been counted as one
         return out
@@ -165,11 +155,7 @@ def displace_by_pixel(shape, pixel):
 
 
 def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
-    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread.
-
-    Fields are ``shape`` points, in double or single precision; displacements come out in the unit
-    of the sides `lengths` and of the solid's thickness.
-    """
+    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread."""
     return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid, periodic)
 
 

@@ -221,10 +221,7 @@ def load_path(heights, length, pressures, tol=1e-8, **options):
 
 
 def _relax(problem, guess, tol, limit):
-    """Solve a scaled problem from a guess or, without one, from coarser grids.
-
-    Iterations and convolutions are those of all methods.
-    """
+    """Solve a scaled problem by all methods, from a guess or, without one, from coarser grids."""
     work = []
     unsure = problem.solid != HALF_SPACE or not problem.periodic
     guess = guess or _guess_from_coarser_grids(problem, work)
@@ -242,8 +239,7 @@ def _relax(problem, guess, tol, limit):
 def _guess_from_coarser_grids(problem, work):
     """First guess of the gap or, with free edges, of the pressure; empty for a small grid.
 
-    It is found in single precision. `work` gets the convolutions on every coarser grid, times its
-    points.
+    `work` gets the convolutions on every coarser grid, times its points.
     """
     shape = problem.heights.shape
     if min(shape) < 2 * _MIN_COARSE_POINTS:
