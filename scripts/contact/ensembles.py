@@ -23,10 +23,8 @@ COARSE = ("area_fraction", "mean_gap", "rms_slope")
 OPTIONAL = ("attractive_area", *MEASURED)
 LONG_WAVES = ("long_waves", "other_long_waves")
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
-AVERAGED = {
-    **{name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")},
-    "gap_density": gap_density,
-}
+AVERAGED = {name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")}
+AVERAGED["gap_density"] = gap_density
 TEXTS = {name: conventions.VARIABLES[name][1] for name in AVERAGED}
 VARIABLES = {
     **MEASURED_TEXTS,

@@ -39,13 +39,15 @@ class _Convolution:
     def _zeros(self, rows, columns):
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
 
-    def apply(self, symbol, field, out, rows_in, rows_out):
+    def apply(self, symbol, field, out, rows_in=None, rows_out=None):
         """Convolve `field` into `out`, another array, with what `symbol` returned.
 
         `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
-        wanted. Both arrays may be the corner of the grid that holds these rows: `field` is zero
-        beyond, and `out` gets no more.
+        wanted, all by default. Both arrays may be the corner of the grid that holds these rows:
+        `field` is zero beyond, and `out` gets no more.
         """
+        rows_in = np.arange(len(field)) if rows_in is None else rows_in
+        rows_out = np.arange(len(out)) if rows_out is None else rows_out
         if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
         for span, count, direct in self._blocks(field, rows_in):

@@ -147,8 +147,7 @@ class _Split:
 
     def convolve(self, field):
         """Long waves of all points of the coarse grid; the next call overwrites the result."""
-        field, every = field.reshape(self.coarse), np.arange(self.coarse[0])
-        self._convolution.apply(self._symbol, field, self._image, every, every)
+        self._convolution.apply(self._symbol, field.reshape(self.coarse), self._image)
         return self._image.ravel()
 
 

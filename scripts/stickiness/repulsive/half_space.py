@@ -26,11 +26,8 @@ def keep_per_thread(most):
         def kept(thread, *arguments):
             return make(*arguments)
 
-        def of_this_thread(*arguments):
-            return kept(threading.get_ident(), *arguments)
-
         _CACHES.append(kept)
-        return of_this_thread
+        return lambda *arguments: kept(threading.get_ident(), *arguments)
 
     return decorate
 
@@ -100,12 +97,7 @@ class HalfSpace:
 
     def _convolve(self, convolution, symbol, field, out, rows_in, rows_out):
         """Convolve a field that is zero but in `rows_in`; other rows of `out` stay as they are."""
-        if out is None:
-            empty = np.empty if rows_out is None else np.zeros
-            out = empty(self.shape, self.dtype)
-        every = np.arange(self.shape[0])
-        rows_in = every if rows_in is None else rows_in
-        rows_out = every if rows_out is None else rows_out
+        out = np.zeros(self.shape, self.dtype) if out is None else out
         convolution.apply(symbol, field, out, rows_in, rows_out)
         self.pairs += 1
         return out

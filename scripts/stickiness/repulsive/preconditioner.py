@@ -115,12 +115,11 @@ class _Mean:
         self._symbol = self._convolution.symbol(symbol.T)
         self._rows = np.empty((coarse[0], shape[1]), np.float32)
         self._field, self._image = np.zeros((2, *coarse), np.float32)
-        self._every = np.arange(coarse[0])
 
     def gather(self, field, weights=None):
         """Take the sums of a field in single precision, or of its product with weights."""
         _add_to_coarse(field, weights, *self._axes, self._rows, self._field)
-        self._convolution.apply(self._symbol, self._field, self._image, self._every, self._every)
+        self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):
         """Sums at all points of a grid, times weights."""
