@@ -45,7 +45,7 @@ class Problem:
     @property
     def smoother(self):
         """Approximate inverse of the stiffness."""
-        return _kept_smoother(self.heights.shape, self.sides, self.solid)
+        return half_space.keep(Smoother, self.heights.shape, self.sides, self.solid)
 
     def elastic(self, gap):
         """Pressure of zero mean that deforms the solid to a gap."""
@@ -96,9 +96,6 @@ class FrozenTraction:
     def evaluate(self, gap):
         """Traction, its derivative and its potential."""
         return self.field, np.zeros_like(gap), self.field * gap
-
-
-_kept_smoother = half_space.keep_per_thread(24)(Smoother)
 
 
 @dataclass(eq=False)

@@ -54,7 +54,7 @@ def select_candidates(grid, last, points, below, image, shift):
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid.shape, grid.sides, likely.size):
         return None
-    split = _kept_split(grid.shape, tuple(grid.sides), grid.solid)
+    split = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid)
     pairs = _pair(likely, grid.shape, split)
     return None if pairs is None else Candidates(grid, likely, split, *pairs)
 
@@ -149,9 +149,6 @@ class _Split:
         """Long waves of all points of the coarse grid; the next call overwrites the result."""
         self._convolution.apply(self._symbol, field.reshape(self.coarse), self._image)
         return self._image.ravel()
-
-
-_kept_split = half_space.keep_per_thread(12)(_Split)
 
 
 def _long(shape, lengths, width):

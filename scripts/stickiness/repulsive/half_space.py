@@ -15,27 +15,22 @@ from stickiness.arguments import positive
 from stickiness.repulsive import convolution
 from stickiness.solids import HALF_SPACE
 
-_CACHES = []  # of all functions that `keep_per_thread` decorates
+_MOST_KEPT = 48  # operators and the like, of all threads
 
 
-def keep_per_thread(most):
-    """Let a function keep its `most` last results: threads must not share plans and buffers."""
+def keep(kind, *arguments):
+    """Object of a kind, kept for the next call: threads must not share plans and buffers."""
+    return _kept(threading.get_ident(), kind, *arguments)
 
-    def decorate(make):
-        @lru_cache(maxsize=most)
-        def kept(thread, *arguments):
-            return make(*arguments)
 
-        _CACHES.append(kept)
-        return lambda *arguments: kept(threading.get_ident(), *arguments)
-
-    return decorate
+@lru_cache(maxsize=_MOST_KEPT)
+def _kept(thread, kind, *arguments):
+    return kind(*arguments)
 
 
 def clear_caches():
-    """Free the plans and buffers that functions decorated with `keep_per_thread` hold."""
-    for kept in _CACHES:
-        kept.cache_clear()
+    """Free the plans and buffers of all objects that are kept."""
+    _kept.cache_clear()
 
 
 def wavenumbers(shape, lengths):
@@ -148,13 +143,8 @@ def displace_by_pixel(shape, pixel):
 
 def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
     """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread."""
-    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid, periodic)
-
-
-@keep_per_thread(24)
-def _kept_half_space(shape, lengths, dtype, solid, periodic):
     kind = HalfSpace if periodic else FreeHalfSpace
-    return kind(shape, lengths, dtype, solid)
+    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid)
 
 
 def check_length(length, shape):

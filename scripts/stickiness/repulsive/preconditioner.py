@@ -64,7 +64,7 @@ class Preconditioner:
         self.rows = grid.rows(points)
         self.mean = None
         if points.size < grid.heights.size:
-            self.mean = _kept_mean(tuple(grid.shape), tuple(grid.sides))
+            self.mean = half_space.keep(_Mean, tuple(grid.shape), tuple(grid.sides))
             self.quick.field[points] = 1
             self.mean.gather(self.quick.field.reshape(grid.shape))
             self.quick.field[points] = 0
@@ -130,9 +130,6 @@ class _Mean:
         out = np.empty(points.size, np.float32)
         _interpolate_at(points, self._image, *self._axes, out)
         return out
-
-
-_kept_mean = half_space.keep_per_thread(12)(_Mean)
 
 
 def _interpolation(n, m):
