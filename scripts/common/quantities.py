@@ -131,7 +131,8 @@ def fit_kappa(ensemble, models):
         limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
         dataset = add_errors(dataset, name, values, more, plain=True, limit=limit)
-        dataset = annotate(dataset, **KAPPA_VARIABLES)
+        texts = {n: text for n, text in KAPPA_VARIABLES.items() if n.startswith(name)}
+        dataset = annotate(dataset, **texts)
         errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
         value = dataset[name].assign_coords(pressure=load)
         parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
