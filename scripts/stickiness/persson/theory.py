@@ -14,7 +14,6 @@ All terms are positive, and C(q), which shells do not have, drops out. T, F, kap
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import replace
 from typing import Literal, get_args
 
 import numpy as np
@@ -65,14 +64,8 @@ class Persson:
         `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default. On a layer the area, the mean gap and the pressure
-        at a mean gap are known, the distribution of gaps is not: see `layered_scales`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of range.
-    NotImplementedError
-        From what needs the distribution of gaps, on a layer.
+        at a mean gap are known, the distribution of gaps is not (NotImplementedError): see
+        `layered_scales`.
 
     Notes
     -----
@@ -107,12 +100,8 @@ class Persson:
         self.solid, self._layered = check_solid(solid), None
         if solid != HALF_SPACE:
             self._layered = LayeredScales(spectrum, solid, nodes)
-            m2 = self._layered.variance_below(spectrum.q1)
-        else:
-            m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
-        scales = scale_nodes(spectrum, nodes)
-        self._setting = gaps.Setting(spectrum, universal, scales, m2, variant, nodes)
-        self._profiles: dict[tuple[float, float], gaps.GapProfile] = {}
+        m2 = self._variance_below(spectrum.q1)
+        self._setting = gaps.Setting(spectrum, universal, scale_nodes(spectrum, nodes), m2, nodes)
 
     def with_variant(self, variant: Variant) -> Persson:
         """Return the same theory with another width of the Gaussians.
@@ -121,17 +110,29 @@ class Persson:
         """
         _check_variant(variant)
         other = copy(self)
-        other.variant, other._profiles = variant, {}
-        other._setting = replace(self._setting, variant=variant)
+        other.variant = variant
         return other
 
-    def area_fraction(self, p: ArrayLike) -> NDArray:
-        """Relative contact area A/A_nom at mean pressures `p` >= 0 over E*, of their shape."""
+    def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
+        """Relative contact area A/A_nom at mean pressures `p` >= 0 over E*, of their shape.
+
+        `magnification`: resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen, the
+        finest by default. With a direction, q0 is the wave number of the longest of all waves.
+        """
         (p,) = finite(p=p)
         if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
         warn_of_pressure(float(np.max(p, initial=0.0)), float(np.sqrt(2 * self._setting.m2)))
-        y = self._setting.kernels.invert_area_scale(self._setting.m2 / np.where(p > 0, p, 1.0) ** 2)
+        m = self._setting.m2
+        if magnification is not None:
+            if np.ndim(magnification) or not magnification >= 1:
+                raise ValueError(
+                    f"magnification must be a number of at least 1, got {magnification!r}"
+                )
+            m = self._variance_below(magnification * self.spectrum.q0)
+        if m == 0:  # no wave is seen
+            return np.where(p > 0, 1.0, 0.0)[()]
+        y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
         return np.where(p > 0, erf(y), 0.0)[()]
 
     def mean_gap(self, p: ArrayLike) -> NDArray:
@@ -143,11 +144,11 @@ class Persson:
         (p,) = positive(p=p)
         if self._layered is not None:
             return self._layered.mean_gap(p, self._setting.kernels)
-        nodes = self._setting.scales.fine
-        s = np.sqrt(nodes.below)
+        below, _, weight = self._setting.scales.fine
+        s = np.sqrt(below)
         x2 = (p[..., None] / s) ** 2
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
-        return 2 / np.sqrt(np.pi) * np.sum(nodes.weight * kernel, axis=-1)
+        return 2 / np.sqrt(np.pi) * np.sum(weight * kernel, axis=-1)
 
     def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
         """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].
@@ -181,6 +182,12 @@ class Persson:
         """
         return self._over_gaps(u, p, gaps.cumulative)
 
+    def _variance_below(self, q: float) -> float:
+        """Twice the variance of the pressure in full contact of the waves up to `q` [E*]."""
+        if self._layered is not None:
+            return self._layered.variance_below(q)
+        return 0.5 * float(self.spectrum.variance_below(q, 2))
+
     def _pressure_at(self, target: float) -> float:
         def excess(log_p: float) -> float:
             return float(np.log(np.maximum(self.mean_gap(np.exp(log_p)), 1e-300) / target))
@@ -207,18 +214,14 @@ class Persson:
             )
         (p,) = positive(p=p)
         (u,) = nonnegative(u=u)
-        finite = u[np.isfinite(u)]
-        largest = float(np.max(finite, initial=0.0)) / self.spectrum.h_rms
+        largest = float(np.max(u[np.isfinite(u)], initial=0.0)) / self.spectrum.h_rms
         # In powers of two, so that profiles are shared between calls.
         doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
         reach = min(_REACH * 2**doublings, _FARTHEST)
         rows = []
         for load in map(float, p.ravel()):
-            if (load, reach) not in self._profiles:
-                if len(self._profiles) >= 64:
-                    self._profiles.clear()
-                self._profiles[load, reach] = gaps.gap_profile(self._setting, load, reach)
-            rows.append(gaps.over_blocks(function, u.ravel(), self._profiles[load, reach]))
+            profile = gaps.gap_profile(self._setting, self.variant, load, reach)
+            rows.append(gaps.over_blocks(function, u.ravel(), profile))
         return np.reshape(rows, p.shape + u.shape)[()]
 
 
