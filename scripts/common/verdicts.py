@@ -14,9 +14,8 @@ MOST_STRAIN = 0.3  # up to which a layer is taken for linear
 def find_limits(dataset, name="remaining"):
     """Low and high limit of what is known of a pair: of the share that remains, they decide.
 
-    Over both ends of the surface and the limits of the model. On a measured surface those of the
-    spectra drawn within its errors, which have the errors of the model as well, by quantiles.
-    `name` may be another quantity that follows from what remains.
+    Over both ends of the surface and the limits of the model; on a measured surface quantiles of
+    the spectra drawn within its errors, with errors of the model. `name` may be another quantity.
     """
     low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
     if f"{name}_quantile" in dataset:

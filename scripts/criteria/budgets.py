@@ -15,15 +15,15 @@ CLOSED = {
     "bandwidth": not_applicable("of the spectrum stated"),
 }
 OF_MODEL = "of the model, the farther of both limits"
+OF_OURS = f"{OF_MODEL}; other criteria state none"
 OF_SPECTRUM = "of the spectrum measured; none of one end of what is given"
 
 
 def add_budgets(dataset, draws):
     """Add error budgets to what is quoted of pairs: the spectrum, and the model.
 
-    Ends of a surface that was not measured are two surfaces, each known exactly. The threshold is
-    the modulus times the margin and has the same relative error; the pull-off goes with the share.
-    Other criteria than the verdict's state no error.
+    Ends of a surface that was not measured are two surfaces, each known exactly. The threshold has
+    the relative error of the margin, the pull-off that of the share.
     """
     ours = dataset.criterion == REMAINING
     of_margin = np.expm1(COVERS * dataset.error_of_spectrum.fillna(0.0))
@@ -40,14 +40,9 @@ def add_budgets(dataset, draws):
     ):
         model = between_limits(dataset, limits)
         if "criterion" in dataset[name].dims:
-            model = ErrorComponent(
-                model.error.where(ours), f"{OF_MODEL}; other criteria state none"
-            )
-        parts = CLOSED | {
-            "sampling": ErrorComponent(relative * dataset[name], OF_SPECTRUM),
-            "model": model,
-        }
-        dataset = with_budget(dataset, name, **parts)
+            model = ErrorComponent(model.error.where(ours), OF_OURS)
+        sampling = ErrorComponent(relative * dataset[name], OF_SPECTRUM)
+        dataset = with_budget(dataset, name, **CLOSED | {"sampling": sampling, "model": model})
     return add_budget_of_probability(dataset, draws)
 
 
@@ -59,12 +54,8 @@ def add_budget_of_probability(dataset, draws):
     middle = (share + COVERS**2 / (2 * number)) / shrunk
     half = COVERS * np.sqrt(share * (1 - share) / number + (COVERS / (2 * number)) ** 2) / shrunk
     scatter = ErrorComponent((abs(middle - share) + half).fillna(0.0), "of the number of draws")
-    parts = {
-        "discretisation": not_applicable("drawn"),
-        "sampling": scatter,
-        "model": not_applicable("drawn"),
-    }
-    return with_budget(dataset, "probability", **CLOSED | parts)
+    parts = dict.fromkeys(("discretisation", "model"), not_applicable("drawn"))
+    return with_budget(dataset, "probability", **CLOSED | parts | {"sampling": scatter})
 
 
 def between_limits(dataset, name):

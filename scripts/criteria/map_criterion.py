@@ -87,10 +87,8 @@ class Roughness:
     def a_v(self, h, q0, which):
         """Value, low or high limit of a_V at the range over h.
 
-        Beyond the magnifications of the table only the height of the finest waves over the range
-        matters. a_V is then that of the largest magnification in the table, at a range as large
-        compared with its finest waves, times the change of a_V at infinite magnification between
-        the two ranges.
+        Beyond the table a_V is that of its largest magnification, at a range as large compared with
+        the finest waves, times its change at infinite magnification between the two ranges.
         """
         range_, zeta = 1 / h, np.maximum(self._q1 / q0, self._narrowest)
         held = np.minimum(zeta, self._broadest)
@@ -106,27 +104,27 @@ class Roughness:
         slope, a_v = self.slope(h, q0), self.a_v(h, q0, which)
         return equivalent_sphere.attraction(h, q0, slope, length, 1.0, a_v)
 
+    def over_weak(self, h, q0, length):
+        """Strength of the edges over the largest at which they are weak."""
+        return self.attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
-def find_limits(asked, constant_a_v, roughness):
-    """Largest h_rms/range that sticks by every form of the criterion, and where the forms hold.
+    def by_dmt(self, h, q0, length, which):
+        """Attraction over repulsion in the DMT limit."""
+        return criteria.traction_ratio(h, q0, length, 1.0, self.a_v(h, q0, which))
 
-    With the range as unit of length only range q0, l_a/range and the shortest wavelength remain.
-    """
-
-    def by_dmt(h, q0, length, which, sign):
-        return criteria.traction_ratio(h, q0, length, 1.0, roughness.a_v(h, q0, which))
-
-    def by_edges(h, q0, length, which, sign):
-        found = roughness.attraction(h, q0, length, which)
+    def by_edges(self, h, q0, length, which, sign):
+        """Attraction over repulsion by the edges, or its limit by the model."""
+        found = self.attraction(h, q0, length, which)
         return found.ratio * found.error_factor**sign
 
-    def over_weak(h, q0, length):
-        return roughness.attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
-    ratios = {"weak_limit": over_weak}
+def find_limits(asked, constant_a_v, roughness):
+    """Largest h_rms/range that sticks by every form of the criterion, and where forms are valid."""
+    ratios = {"weak_limit": roughness.over_weak}
     for ending, (which, sign) in ENDS.items():
-        ratios[f"h_rms_limit{ending}"] = partial(by_dmt, which=which, sign=sign)
-        ratios[f"h_rms_limit_edges{ending}"] = partial(by_edges, which=which, sign=sign)
+        ratios[f"h_rms_limit{ending}"] = partial(roughness.by_dmt, which=which)
+        edges = partial(roughness.by_edges, which=which, sign=sign)
+        ratios[f"h_rms_limit_edges{ending}"] = edges
     dims = ("range_times_q0", "adhesion_length_over_range")
     axes = {dim: logarithmic_grid(asked[dim]) for dim in dims}
     at = np.meshgrid(*axes.values(), indexing="ij")

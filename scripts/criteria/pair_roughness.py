@@ -5,9 +5,10 @@ beside. The surface of a material that is rough itself adds its spectrum. A laye
 thickness changes the energy that it takes to conform.
 """
 
+from dataclasses import fields
+
 import numpy as np
 import xarray as xr
-from scipy.special import erf
 
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
 from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
@@ -17,10 +18,9 @@ from stickiness.spectrum.kinds import Tabulated
 
 ENDS = ("smooth", "rough")
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-ENERGIES = ("elastic_energy", "elastic_energy_draws")
-DRAWS = ("h_rms_draws", "q0_draws", "elastic_energy_draws")
-OF_SURFACE = (*MOMENTS, "elastic_energy", "q0", *DRAWS)
-FULL = 0.99  # contact area fraction from which on a_V has no meaning
+# Energies, and those of a half-space that bound them on a layer.
+BOUNDS = {f"elastic_energy{end}": f"half_space_energy{end}" for end in ("", "_draws")}
+OF_SURFACE = (*MOMENTS, "q0", "h_rms_draws", "q0_draws", *BOUNDS)
 TOO_DIFFERENT = (
     "the two rough solids differ too much in scale: at the load at which a_V is evaluated, "
     f"{LOAD:g} E* q0 h_rms, they are in full contact"
@@ -28,32 +28,37 @@ TOO_DIFFERENT = (
 
 
 def combine(material, surface, a_v, second=None):
-    """Roughness of a `Material` on an analysed surface, with a_V at its range.
+    """Roughness of a `Material`, with its `second` surface if it is rough, on an analysed surface.
 
-    `a_v` is what `find_a_v` has for the surface, `second` the dataset of the surface of a material
-    that is rough itself.
+    `a_v` is what `find_a_v` has for the surface.
     """
-    pair = describe(surface)
+    pair, doubts = describe(surface), [find_doubts([surface, second])]
     if second is not None:
         pair = add_surfaces(surface, second, material.solid)
-        area = erf(np.sqrt(np.pi) * LOAD * pair.q0 * pair.h_rms / pair.rms_slope)  # Persson's
-        if area.max() < FULL:
-            spectra = zip(ENDS, find_spectra(surface, second), strict=True)
+        spectra = zip(ENDS, find_spectra(surface, second), strict=True)
+        try:
             a_v = [find_end_a_v(pair, *each) for each in spectra]
-        else:
-            pair.attrs["not_judged"] = TOO_DIFFERENT
+        except ValueError:  # attractive areas vanish within rounding
+            doubts.append(TOO_DIFFERENT)
     if material.solid != HALF_SPACE:
         pair = put_on_layer(pair, material.solid, find_spectra(surface, second))
     at = [each.at(material.range / h) for each, h in zip(a_v, pair.h_rms.values, strict=True)]
     names = ("a_v", "a_v_low", "a_v_high")
-    return pair.assign({n: ("end", x) for n, x in zip(names, np.transpose(at), strict=True)})
+    pair = pair.assign({n: ("end", x) for n, x in zip(names, np.transpose(at), strict=True)})
+    return pair.assign_attrs(not_judged="\n".join(filter(None, doubts)))
+
+
+def find_doubts(surfaces):
+    """Why a pair is not judged, by the attributes of its surfaces; empty if it is."""
+    reasons = (one.attrs.get("not_judged") for one in surfaces if one is not None)
+    return "\n".join(filter(None, reasons))
 
 
 def describe(surface):
     """Roughness of a smooth half-space on an analysed surface."""
     pair = surface[[name for name in OF_SURFACE if name in surface]].sel(end=list(ENDS))
     return pair.drop_attrs().assign(
-        half_space_energy=pair.elastic_energy,
+        **{bound: pair[name] for name, bound in BOUNDS.items() if name in pair},
         stiffening=xr.ones_like(pair.elastic_energy),
         relative_compliance=1.0,
         anisotropy_error_factor=find_anisotropy_error_factor(float(surface.get("axis_ratio", 1.0))),
@@ -97,7 +102,7 @@ def add_surfaces(surface, second, solid):
         sum(s.elastic_energy(solid) for s in find_spectra(each)) for each in (surface, second)
     )
     share = float(stored / (stored + more))
-    known = [name for name in DRAWS if name in one]
+    known = [name for name in one if name.endswith("_draws")]
     if known and known[0] in other:
         size = one.sizes["draw"]
         more = {name: ("draw", np.resize(other[name], size)) for name in known}
@@ -109,14 +114,14 @@ def add_surfaces(surface, second, solid):
         one = one.drop_dims("draw")
     factors = one.anisotropy_error_factor, other.anisotropy_error_factor
     pair = one.assign(anisotropy_error_factor=max(factors))
-    for name in set(OF_SURFACE) & set(one):
-        if name in ENERGIES:
+    for name in set(one) - {"stiffening", "relative_compliance", "anisotropy_error_factor"}:
+        if "energy" in name:
             pair[name] = one[name] + other[name]
         elif name.startswith("q0"):
             pair[name] = one[name] ** share * other[name] ** (1 - share)
         else:
             pair[name] = np.hypot(one[name], other[name])
-    return pair.assign(half_space_energy=pair.elastic_energy)
+    return pair
 
 
 def put_on_layer(pair, solid, spectra):
@@ -125,27 +130,19 @@ def put_on_layer(pair, solid, spectra):
     ratio = np.divide(energy, [spectrum.elastic_energy() for spectrum in spectra])
     # A film is softer to some waves, its layer stiffer to others: a half-space bounds nothing.
     bound = np.nan if isinstance(solid.backing, Film) else 1.0
-    found = pair.assign(
-        elastic_energy=pair.elastic_energy * ratio,
-        half_space_energy=pair.half_space_energy * bound,
-        stiffening=("end", ratio),
-        relative_compliance=float(solid.factor(float(pair.q0))),
-    )
-    if DRAWS[0] in pair:
-        # The spectra of the draws are not kept: the layer acts on them as on both ends.
-        found["elastic_energy_draws"] = pair.elastic_energy_draws * np.sqrt(np.prod(ratio))
-        found["half_space_energy_draws"] = pair.elastic_energy_draws * bound
+    compliance = float(solid.factor(float(pair.q0)))
+    found = pair.assign(stiffening=("end", ratio), relative_compliance=compliance)
+    # The spectra of the draws are not kept: the layer acts on them as on both ends.
+    for name, factor in zip(BOUNDS, (ratio, np.sqrt(np.prod(ratio))), strict=True):
+        if name in pair:
+            found[name] = pair[name] * factor
+            found[BOUNDS[name]] = pair[BOUNDS[name]] * bound
     return found
 
 
 def read_draws(pair):
     """`Roughness` of the draws of a measured surface; None of others."""
-    if DRAWS[0] not in pair:
+    if "h_rms_draws" not in pair:
         return None
-    bound = pair.get("half_space_energy_draws")
-    return Roughness(
-        *(pair[name].values for name in DRAWS),
-        relative_compliance=float(pair.relative_compliance),
-        half_space_energy=None if bound is None else bound.values,
-        anisotropy_error_factor=float(pair.anisotropy_error_factor),
-    )
+    names = [field.name for field in fields(Roughness)]
+    return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})

@@ -12,13 +12,9 @@ SIMULATED = ("a_v_mean", "a_v_mean_error")
 def measure_a_v(inputs, pressure):
     """a_V of a broad spectrum at a load over E* q0 h_rms, and the parts of its error budget.
 
-    The value is a_V of a simulated case in the first interval of the fit, times the ratio of
-    theory on the broadest continuous spectrum to theory on the lattice spectrum of the case.
-    Simulation has neither the bandwidth of real surfaces nor, in a small cell, their long waves.
-    Theory is close to simulation on the same spectrum and extrapolates to both.
-
-    `inputs.a_v` is of the simulated case, `inputs.lattice` of theory on the lattice spectrum of the
-    same case, and `inputs.theory` of a sweep over magnification.
+    The value is a_V of a simulated case (`inputs.a_v`) in the first interval of the fit, times the
+    ratio of theory on the broadest spectrum of a sweep (`inputs.theory`) to theory on the lattice
+    spectrum of the case (`inputs.lattice`): simulation has not the bandwidth of real surfaces.
     """
     fit = datasets.read(inputs.a_v, SIMULATED)
     if not np.isclose(fit.pressure, pressure).any():

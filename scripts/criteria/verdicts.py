@@ -1,6 +1,9 @@
-"""Verdicts on every material and every surface: one dataset of all that is said of the pairs."""
+"""Verdicts on every material and every surface: one dataset of all that is said of the pairs.
 
-from dataclasses import fields
+Beside each verdict are curves of what remains against the modulus, the heights and the rate.
+"""
+
+from dataclasses import fields, replace
 
 import numpy as np
 import xarray as xr
@@ -9,7 +12,6 @@ from common.conventions import logarithmic_grid
 from common.materials import read_material
 from common.verdicts import find_limits
 from criteria.budgets import add_budgets
-from criteria.curves import CURVES, DIMS, QUANTILES, draw_errors, follow_remaining
 from criteria.pair_roughness import ENDS, MOMENTS, combine, find_a_v, read_draws
 from stickiness import datasets
 from stickiness.criteria.pair import (
@@ -17,13 +19,26 @@ from stickiness.criteria.pair import (
     NOT_JUDGED,
     QUANTITIES,
     REGIMES,
+    SIGNS,
     WORDS,
     Pair,
     decide,
     judge,
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.statistics import COVERS
 
+DIMS = ("material", "surface", "end")
+QUANTILES = (0.05, 0.5, 0.95)  # of the draws of a measured surface
+SEED = 2
+# Factors on E* and on the heights at an unchanged shape of the spectrum; 1 is among both.
+MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
+ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
+AXES = {  # dimension, description, and why a value may be missing, of every curve
+    "modulus": ("modulus_factor", "for E* times a factor", "elastic backing"),
+    "roughness": ("roughness_factor", "for the pair's heights times a factor", "not judged"),
+    "rate": ("frequency", "at a frequency", "beyond the material's table, or elastic backing"),
+}
 OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "hurst", "psd")
 FILM, UNMEASURED = "elastic backing", "not measured"
 REMAINS = LIMITED["remaining"][1]
@@ -34,6 +49,7 @@ ERRORS = {  # of measured surfaces
     "error_of_model": ("1", "standard deviation of ln margin by the model", UNMEASURED),
     "share_error_of_spectrum": ("1", f"standard deviation by the spectrum: {REMAINS}", UNMEASURED),
 }
+DRAWN = ("margin", "remaining", "pull_off")  # whose quantiles over draws are computed
 # Units, descriptions and, where a value may be missing, what that means.
 VARIABLES = {
     **QUANTITIES,
@@ -43,7 +59,17 @@ VARIABLES = {
         for name, (units, text) in LIMITED.items()
     },
     **ERRORS,
-    **CURVES,
+    "modulus_factor": ("1", "factor on the plane-strain modulus"),
+    "roughness_factor": ("1", "factor on the heights, at unchanged shape of the spectrum"),
+    **{
+        f"remaining_by_{axis}{end}": (
+            "1",
+            f"{REMAINS}, {text}{f', {end[1:]} limit' if end else ''}",
+            missing,
+        )
+        for axis, (_, text, missing) in AXES.items()
+        for end in SIGNS
+    },
     "material": ("1", "material"),
     "surface": ("1", "real surface"),
     "end": ("1", "smooth or rough end of what is known of the surface"),
@@ -83,23 +109,18 @@ def judge_materials(surfaces, material_surfaces, asked):
 def find_verdicts(materials, surfaces, material_surfaces, frequencies):
     """Every variable of `VARIABLES`, with error budgets, for `Material`s on surfaces by name.
 
-    `material_surfaces` has the datasets of the surfaces of materials that are rough themselves.
-    The frequencies are in Hz.
+    `material_surfaces` are those of materials that are rough themselves; frequencies are in Hz.
     """
     solids = list(materials.values())
-    seconds = [material_surfaces.get(solid.surface) for solid in solids]
     on = [(surface, find_a_v(surface)) for surface in surfaces.values()]
     roughness = [
-        [combine(solid, *one, second) for one in on]
-        for solid, second in zip(solids, seconds, strict=True)
+        [combine(solid, *one, material_surfaces.get(solid.surface)) for one in on]
+        for solid in solids
     ]
     dataset = judge_pairs(solids, roughness, frequencies)
     dataset = dataset.assign_coords(material=list(materials), surface=list(surfaces))
-    given = [
-        [(one, second, pair) for one, pair in zip(surfaces.values(), row, strict=True)]
-        for second, row in zip(seconds, roughness, strict=True)
-    ]
-    dataset["not_judged"] = DIMS[:2], np.array([list(map(find_doubts, row)) for row in given], "O")
+    doubts = [[pair.attrs["not_judged"] for pair in row] for row in roughness]
+    dataset["not_judged"] = DIMS[:2], np.array(doubts, "O")
     sticky = dataset.margin > 1
     differs = (sticky != sticky.sel(criterion=REMAINING)).any("end")
     dataset = dataset.assign(verdict=decide_pairs(dataset), disagrees=differs.astype("i1"))
@@ -115,12 +136,6 @@ def decide_pairs(dataset):
     low, high = find_limits(dataset)
     grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
     return low.copy(data=decide(low, high, grows))
-
-
-def find_doubts(given):
-    """Why a pair is not judged, by the attributes of its datasets; empty if it is."""
-    reasons = (one.attrs.get("not_judged") for one in given if one is not None)
-    return "\n".join(filter(None, reasons))
 
 
 def judge_pairs(solids, roughness, frequencies):
@@ -168,23 +183,18 @@ def judge_pairs(solids, roughness, frequencies):
 
 def judge_measured(solids, draws):
     """Distributions over the draws of measured surfaces; NaN on others."""
-    shape = len(solids), len(draws[0])
-    numbers = {name: np.full(shape, np.nan) for name in ERRORS}
-    quantiles = {name: np.full((*shape, len(QUANTILES)), np.nan) for name in LIMITED}
-    for place in np.ndindex(shape):
-        solid, one = solids[place[0]], draws[place[0]][place[1]]
-        if one is None:
-            continue
-        found = judge_draws(solid, one)
-        for name in ERRORS:
-            numbers[name][place] = found[name]
-        for name in ("margin", "remaining", "pull_off"):
-            quantiles[name][place] = np.quantile(found[name], QUANTILES)
-        if solid.is_scalable:
-            quantiles["modulus_threshold"][place] = solid.modulus * quantiles["margin"][place]
-    return {name: (DIMS[:2], values) for name, values in numbers.items()} | {
-        f"{name}_quantile": ((*DIMS[:2], "quantile"), x) for name, x in quantiles.items()
-    }
+    unknown = dict.fromkeys((*ERRORS, *DRAWN), np.nan)
+    found = [
+        [unknown if one is None else judge_draws(solid, one) for one in row]
+        for solid, row in zip(solids, draws, strict=True)
+    ]
+    dataset = xr.Dataset({n: (DIMS[:2], [[x[n] for x in row] for row in found]) for n in ERRORS})
+    for name in DRAWN:
+        values = [[np.quantile(one[name], QUANTILES) for one in row] for row in found]
+        dataset[f"{name}_quantile"] = (*DIMS[:2], "quantile"), values
+    moduli = [solid.modulus if solid.is_scalable else np.nan for solid in solids]
+    thresholds = dataset.margin_quantile * xr.DataArray(moduli, dims="material")
+    return dataset.assign(modulus_threshold_quantile=thresholds)
 
 
 def judge_draws(solid, draws):
@@ -201,6 +211,75 @@ def judge_draws(solid, draws):
         "error_of_model": np.std(np.log(margins / at_value)),
         "share_error_of_spectrum": np.std(draws.share(length, solid.range)),
     }
+
+
+def follow_remaining(pair, solids, draws, strain, rates):
+    """Share that remains along factors on E* and on the heights, and along the rate.
+
+    `draws` has a row of `read_draws` for every material, `rates` are moduli (material, frequency).
+    """
+    # With a film the modulus of the layer alone changes the response: only heights are followed.
+    scalable = np.array([solid.is_scalable for solid in solids])
+    quoted = np.array([solid.modulus for solid in solids])
+    along = {
+        "modulus": np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan),
+        "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
+        "rate": np.where(scalable, rates.T, np.nan),
+    }
+    found = {"modulus_factor": MODULUS_FACTORS, "roughness_factor": ROUGHNESS_FACTORS}
+    for axis, moduli in along.items():
+        heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
+        curves = follow(pair, solids, draws, strain, AXES[axis][0], moduli, heights)
+        found |= {f"remaining_by_{axis}{end}": x for end, x in zip(SIGNS, curves, strict=True)}
+    return found
+
+
+def follow(pair, solids, draws, strain, dim, moduli, heights):
+    """Share with the limits that decide, for moduli (dim, material) and factors on heights (dim,).
+
+    A modulus that is not known is NaN, and so are its shares.
+    """
+    known = xr.DataArray(~np.isnan(moduli), dims=(dim, "material"))
+    moduli = np.where(known, moduli, pair.modulus[:, 0, 0])
+    at = scale_heights(pair, heights[:, None, None, None])
+    at = replace(at, modulus=moduli[..., None, None])
+    found = xr.Dataset(
+        {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
+    )
+    quantiles = [
+        [follow_draws(solid, one, moduli[:, i], heights) for one in draws[i]]
+        for i, solid in enumerate(solids)
+    ]
+    found["remaining_quantile"] = (*DIMS[:2], dim, "quantile"), np.array(quantiles)
+    found["layer_strain"] = strain * xr.DataArray(heights, dims=dim)
+    curves = (found.remaining, *find_limits(found))
+    return tuple(x.where(known).transpose(*DIMS, dim, missing_dims="ignore") for x in curves)
+
+
+def scale_heights(rough, factor):
+    """A `Pair` or a `Roughness` with its heights times a factor: no spectrum is integrated."""
+    return replace(
+        rough,
+        h_rms=rough.h_rms * factor,
+        elastic_energy=rough.elastic_energy * factor**2,
+        half_space_energy=rough.half_space_energy * factor**2,
+    )
+
+
+def follow_draws(solid, draws, moduli, heights):
+    """Quantiles of the share over the draws of a surface, ``(dim, quantile)``; NaN without."""
+    if draws is None:
+        return np.full((len(moduli), len(QUANTILES)), np.nan)
+    (moduli, heights), place = np.unique([moduli, heights], axis=1, return_inverse=True)
+    length = solid.work_of_adhesion / moduli[:, None]
+    rough = scale_heights(draws, heights[:, None])
+    shares = rough.share(length, solid.range, draw_errors(draws))
+    return np.quantile(shares, QUANTILES, axis=-1).T[place]
+
+
+def draw_errors(draws):
+    """Errors of the model for every draw, in units of its limits, which cover 90 %."""
+    return np.random.default_rng(SEED).normal(size=len(draws.h_rms)) / COVERS
 
 
 def withhold(dataset):

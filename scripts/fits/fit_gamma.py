@@ -28,13 +28,15 @@ EVERY = "all"  # the three quantities with equal weights
 CONFIDENCE = 0.95
 RANDOM = {"draws": 1000, "seed": 1}
 INTERVAL = f"{CONFIDENCE:.0%} confidence interval of gamma, over windows, their cases and errors"
+MISFIT = "root mean square of ln(theory/simulation) at the"
 VARIABLES = {
     "correction": "correction of the theory",
     "quantity": f"what is compared; {EVERY}: the three with equal weights",
     "gamma": "gamma at which theory agrees best with simulation",
     "gamma_low": f"low end of the {INTERVAL}",
     "gamma_high": f"high end of the {INTERVAL}",
-    "misfit": "root mean square of ln(theory/simulation) at the best gamma",
+    "misfit": f"{MISFIT} best gamma",
+    "misfit_own": f"{MISFIT} gamma of the correction's source",
     "quantities_agree": "1 where one gamma lies within the intervals of the three quantities; "
     f"where 0, the one for {EVERY} is a compromise that may suit none of them",
     "own_gamma": "gamma of the correction's source",
@@ -51,7 +53,7 @@ def main(job):
         [fit(cases, draws, index, quantity) for quantity in (*QUANTITIES, EVERY)]
         for index in range(len(CORRECTIONS))
     ]
-    names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit")
+    names = ("gamma", "gamma_low", "gamma_high", "spread", "misfit", "misfit_own")
     dims, values = ("correction", "quantity"), np.moveaxis(rows, -1, 0)
     dataset = xr.Dataset(
         {name: (dims, value) for name, value in zip(names, values, strict=True)},
@@ -70,9 +72,9 @@ def main(job):
 
 
 def case(ensemble, comparison):
-    """Logarithms of theory over simulation, (correction, gamma, point), and their errors (point).
+    """Mean squares of ln(theory/simulation), mean products with its errors, mean squares of these.
 
-    Loads for which the window holds summits enough.
+    By quantity, along correction and gamma, over loads at which the window holds summits enough.
     """
     made = datasets.parameters(ensemble)
     lattice = lattice_spectrum(model_spectrum(made), cell_size(made))
@@ -96,7 +98,8 @@ def case(ensemble, comparison):
         if "range" in simulated.dims:
             simulated = simulated.sel(pressure=few).interp({"range": list(RANGES)})
         mean, error = (part.values.ravel() for part in simulated.values())
-        found[name] = np.array(logs) - np.log(mean), np.nan_to_num(error / COVERS / mean)
+        logs, error = np.array(logs) - np.log(mean), np.nan_to_num(error / COVERS / mean)
+        found[name] = np.mean(logs**2, axis=-1), np.mean(logs * error, axis=-1), np.mean(error**2)
     return found
 
 
@@ -117,7 +120,7 @@ def sample(rng, count, windows):
 
 
 def fit(cases, draws, correction, quantity):
-    """Gamma, the ends of its confidence interval, the 90 % spread, and the misfit at it."""
+    """Gamma, the ends of its interval, the 90 % spread, the misfits at it and at the source's."""
     names = QUANTITIES if quantity == EVERY else (quantity,)
     every = np.arange(len(cases))[None]
     still = every, np.zeros((len(QUANTITIES), *every.shape))
@@ -130,7 +133,8 @@ def fit(cases, draws, correction, quantity):
     gammas = lowest(CubicSpline(np.log(GRID), drawn, axis=1))
     ends = np.quantile(gammas, [0.5 - CONFIDENCE / 2, 0.5 + CONFIDENCE / 2])
     spread = np.quantile(np.abs(gammas - best), 0.9)
-    return best, *ends, spread, np.sqrt(max(float(curve(np.log(best))), 0.0))
+    at = np.log([best, correction_of(CORRECTIONS[correction]).gamma])
+    return best, *ends, spread, *np.sqrt(np.maximum(curve(at), 0.0))
 
 
 def add_budgets(dataset, spread):
@@ -153,13 +157,9 @@ def mean_squares(cases, name, correction, chosen, off):
 
     The points of a case are off together.
     """
-    tables, errors = zip(*(case[name] for case in cases), strict=True)
-    tables = [table[correction] for table in tables]
-    squares = np.array([np.mean(t**2, axis=1) for t in tables])
-    mixed = np.array([np.mean(t * e, axis=1) for t, e in zip(tables, errors, strict=True)])
-    own = np.array([np.mean(e**2) for e in errors])
-    shift = off[QUANTITIES.index(name)][..., None]
-    moved = squares[chosen] - 2 * shift * mixed[chosen] + shift**2 * own[chosen][..., None]
+    squares, mixed, errors = map(np.array, zip(*(case[name] for case in cases), strict=True))
+    at, shift = (chosen, correction), off[QUANTITIES.index(name)][..., None]
+    moved = squares[at] - 2 * shift * mixed[at] + shift**2 * errors[chosen][..., None]
     return moved.mean(axis=1)
 
 

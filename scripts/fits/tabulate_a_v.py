@@ -41,19 +41,21 @@ def main(job):
     dataset = annotate(dataset.merge(simulated(comparisons)), **VARIABLES)
     error = COVERS * dataset.simulation_error * dataset.simulation_ratio
     counted = budget.not_applicable("counted with the sampling")
-    parts = {
-        "discretisation": counted,
-        "solver": counted,
-        "sampling": budget.ErrorComponent(
+    dataset = budget.with_budget(
+        dataset,
+        "simulation_ratio",
+        discretisation=counted,
+        solver=counted,
+        sampling=budget.ErrorComponent(
             error, "of a further surface, the errors of the cases included"
         ),
-        "bandwidth": budget.unknown_error(
+        bandwidth=budget.unknown_error(
             "the trend beyond the largest magnification is not simulated"
         ),
-        "model": budget.not_applicable("simulation over theory is what is quoted"),
-    }
+        model=budget.not_applicable("simulation over theory is what is quoted"),
+    )
     datasets.write(
-        budget.with_budget(dataset, "simulation_ratio", **parts),
+        dataset,
         job.output[0],
         title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
         parameters={
@@ -77,12 +79,10 @@ def reach(theory):
 def simulated(comparisons):
     """Ratio of simulation to theory at every range, smooth in load and magnification.
 
-    ln ratio = parabola in ln p + trend log2(zeta/largest zeta), fitted at each range over all cases
-    and loads, each case with the same say however many loads it has. The ratio is that at the
-    largest magnification. Cases differ by more than their errors, by Hurst exponent and window: a
-    variance between them (a random effect, by moments) enters weights and error, the latter that of
-    a further case. It adds what leaving out one case after the other changes (jackknife), and the
-    cases' errors, which are not taken to average out, as grids err to one side in all of them.
+    ln ratio = parabola in ln p + trend log2(zeta/largest zeta), fitted at each range, every case
+    with the same say. Cases differ by more than their errors: a variance between them (a random
+    effect, by moments) enters weights and error, which is that of a further case. It adds a
+    jackknife, and the cases' errors: grids err to one side in all cases, so no average helps.
     """
     points = collect(comparisons)
     between = scatter(points)
@@ -107,10 +107,7 @@ def simulated(comparisons):
 
 
 def collect(comparisons):
-    """Logarithms of simulation over theory and their errors at every load of every case.
-
-    Loads at which the window is too small are left out.
-    """
+    """Logarithms of simulation over theory, with errors, at loads for which windows are large."""
     parts = []
     count = round(-np.log10(SMALLEST_RANGE) * PER_DECADE) + 1
     ranges = np.geomspace(SMALLEST_RANGE, 1, count)
@@ -121,11 +118,10 @@ def collect(comparisons):
         error = quoted.attractive_area_difference_total_error / COVERS / over
         part = xr.Dataset({"log": -np.log(over), "error": error})
         part = part.rename(pressure="point").dropna("point")
-        count, zeta = part.sizes["point"], float(datasets.parameters(comparison)["magnification"])
-        known = {"case": case, "sharing": count, "magnification": zeta}
-        known = {name: ("point", np.full(count, value)) for name, value in known.items()}
-        known["pressure"] = "point", part.point.values
-        parts.append(part.assign(known).drop_vars("point"))
+        zeta = datasets.parameters(comparison)["magnification"]
+        known = {"case": case, "sharing": part.sizes["point"], "magnification": zeta}
+        known = {name: xr.full_like(part.point, value, float) for name, value in known.items()}
+        parts.append(part.assign(**known, pressure=part.point).drop_vars("point"))
     points = xr.concat(parts, "point").transpose("point", "range")
     if not points.sizes["point"]:
         raise ValueError(
@@ -136,10 +132,7 @@ def collect(comparisons):
 
 
 def fit(points, error, kept=slice(None)):
-    """Log ratio at every load and the largest magnification, and its change per doubling of that.
-
-    Only the points `kept` are fitted.
-    """
+    """Log ratio at every load and the largest magnification, and its change per doubling of it."""
     loads, largest = np.unique(points.pressure), float(points.magnification.max())
     points, error = points.isel(point=kept), error.isel(point=kept)
     degree = min(2, len(np.unique(points.pressure)) - 1)

@@ -8,8 +8,7 @@ import xarray as xr
 
 from common.materials import read_material
 from common.verdicts import find_limits
-from criteria.curves import MODULUS_FACTORS, ROUGHNESS_FACTORS
-from criteria.verdicts import judge_pairs
+from criteria.verdicts import MODULUS_FACTORS, ROUGHNESS_FACTORS, judge_pairs
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine

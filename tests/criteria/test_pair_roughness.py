@@ -145,7 +145,7 @@ def test_a_smooth_partner_changes_nothing():
 
 @pytest.mark.slow
 def test_solids_of_very_different_scale_are_not_judged():
-    steep = wall(h_rms=1e-3).assign(q0=6e7)
+    steep = wall(h_rms=1e-3).assign(q0=6e8)
     found = judged({"rough": TAPE | {"surface": "wall"}}, {"wall": steep})
     assert found.not_judged.item() == TOO_DIFFERENT
     assert WORDS[found.verdict.item()] == "not judged"

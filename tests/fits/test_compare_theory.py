@@ -41,7 +41,7 @@ def made_by_theory():
 @pytest.mark.parametrize("quantity", ["area_fraction", "mean_gap", "attractive_area", "all"])
 def test_gamma_of_the_theory_itself_is_found(made_by_theory, quantity):
     draws = fit_gamma.sample(np.random.default_rng(1), 200, [1])
-    best, low, high, spread, misfit = fit_gamma.fit([made_by_theory], draws, 0, quantity)
+    best, low, high, spread, misfit, _ = fit_gamma.fit([made_by_theory], draws, 0, quantity)
     assert best == pytest.approx(GAMMA, rel=0.01)
     assert low < GAMMA < high
     assert 0 < spread < high - low

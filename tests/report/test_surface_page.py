@@ -12,7 +12,7 @@ from common import contact_picture, conventions
 from common.formatting import number, with_error
 from common.materials import read_material
 from criteria import judge_surface, pair_roughness, verdicts
-from criteria.verdicts import find_doubts
+from criteria.pair_roughness import find_doubts
 from real_surfaces import analyse_surface, contact_measured, picture_contact
 from report import surface_figures, write_surface
 from report.table_rows import describe_pair

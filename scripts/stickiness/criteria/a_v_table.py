@@ -47,14 +47,10 @@ def local_a_v(area: ArrayLike, pressure: ArrayLike, ranges: ArrayLike) -> NDArra
 def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> float:
     """Range below which Persson's theory no longer resolves the edges of the contact.
 
-    Below it one variant of the theory lets P(u) grow without bound, the other tends to a constant,
-    while gaps next to an edge have P ~ u^(-1/3). The range is the largest at which the attractive
-    area of the first is `PARTED` times the second. The theory there is 1.0 to 1.2 times what
-    simulation finds next to edges, and 0.8 to 1.4 times the estimate of Pastewka and Robbins.
-
-    `infinite` and `finite` are the attractive areas (or a_V) (n,) at increasing `ranges` by the
-    variants with infinite and finite P(0). The result is between the ranges, along a power law; the
-    smallest of them if the variants never part.
+    That is the largest at which the attractive area (or a_V) of the variant with `infinite` P(0) is
+    `PARTED` times that of the variant with a `finite` one, between increasing `ranges` along a
+    power law; the smallest range if the variants never part. The theory there is 1.0 to 1.2 times
+    what simulation finds next to edges, and 0.8 to 1.4 times the estimate of Pastewka and Robbins.
     """
     ranges, infinite, finite = positive(ranges=ranges, infinite=infinite, finite=finite)
     logs = np.log(infinite / finite) - np.log(PARTED)
@@ -81,15 +77,11 @@ class SurfaceAv:
 
     def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
         """Value, low and high limit at ranges over h_rms, interpolated in logarithms."""
-        logs = [
-            np.interp(np.log(range_over_h_rms), np.log(self.ranges), np.log(a)) for a in self.theory
-        ]
-        every = np.exp(logs)
-        return (
-            plain(every[0]),
-            plain(every.min(axis=0) * max(1 - self.relative_error, 0.01)),
-            plain(every.max(axis=0) * (1 + self.relative_error)),
-        )
+        at, ranges = np.log(range_over_h_rms), np.log(self.ranges)
+        every = np.exp([np.interp(at, ranges, np.log(a_v)) for a_v in self.theory])
+        low = every.min(axis=0) * max(1 - self.relative_error, 0.01)
+        high = every.max(axis=0) * (1 + self.relative_error)
+        return plain(every[0]), plain(low), plain(high)
 
 
 def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
@@ -115,10 +107,9 @@ def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
 class AvEstimate:
     """a_V with its error; arrays of the common shape of the arguments.
 
-    `value` is theory as quoted times the ratio of simulation to theory. `low` and `high` cover
-    about 90 %, as factors: in quadrature `NORMAL_90` times the standard error of the ratio, the
-    spread of the other theories and the largest error of the quadrature. Not covered are
-    assumptions that all of them share (Gaussian heights, elastic half-space, no roll-off).
+    `value` is theory as quoted times simulation over theory; `low` and `high` cover about 90 %. Not
+    covered are assumptions that all theories share (Gaussian heights, elastic half-space, no
+    roll-off).
     """
 
     value: NDArray
@@ -146,10 +137,8 @@ class AvTable:
         self._theory = {name: _interpolate(np.log(table[name]), "cubic") for name in _CUBIC}
         self._theory |= {name: _interpolate(table[name]) for name in _LINEAR}
         self._ratio = _hold(np.log(table.simulation_ratio))
-        self._ratio_error, self._trend = (
-            _hold(table.simulation_error),
-            _hold(table.simulation_trend),
-        )
+        self._ratio_error = _hold(table.simulation_error)
+        self._trend = _hold(table.simulation_trend)
         self._known = {name: float(table[name]) for name in _NUMBERS}
         self._simulated = float(table.simulated_range.min())
 
@@ -169,13 +158,15 @@ class AvTable:
         for name, values in zip(_AXES, given, strict=True):
             self._check(name, values)
         h, zeta, p, eps = (x.ravel() for x in given)
-        at, broad = (h, np.log(zeta), np.log(p), np.log(eps)), np.isinf(zeta)
-        theory = np.empty((4, h.size))
-        for which, look_up in ((broad, self._look_up_limit), (~broad, self._look_up_finite)):
-            if which.any():
-                theory[:, which] = look_up(*(x[which] for x in at))
-        logs, below, above, edge = theory
-        where = np.stack(at[2:], axis=-1)
+        at, broad = np.array([h, np.log(zeta), np.log(p), np.log(eps)]), np.isinf(zeta)
+        # ln a_V, reach of the other theories below and above, and whether below the edge range
+        found = np.zeros((4, h.size))
+        if broad.any():
+            found[:3, broad] = self._look_up(*at[[0, 2, 3]][:, broad], ending="_limit")
+        if not broad.all():
+            found[:, ~broad] = self._look_up_finite(*at[:, ~broad])
+        logs, below, above, edge = found
+        where = at[2:].T
         trend = self._trend(where[:, 1:])
         ends = self._known["smallest_magnification"], self._known["largest_magnification"]
         least, most = np.log2(ends)
@@ -197,22 +188,17 @@ class AvTable:
         parts = value, low, high, below, above, simulation, edge.astype(bool)
         return AvEstimate(*(part.reshape(given[0].shape)[()] for part in parts))
 
-    def _look_up_limit(self, h, log_zeta, log_p, log_eps):
-        """As `_look_up_finite`, at infinite magnification: no range is below the edge range."""
-        at = np.stack([h, log_p, log_eps], axis=-1)
-        names = ("a_v_limit", "theory_below_limit", "theory_above_limit")
-        return *(self._theory[name](at) for name in names), np.zeros(len(h))
+    def _look_up(self, *at, ending=""):
+        names = ("a_v", "theory_below", "theory_above")
+        return [self._theory[f"{name}{ending}"](np.stack(at, axis=-1)) for name in names]
 
     def _look_up_finite(self, h, log_zeta, log_p, log_eps):
-        """Logarithm of a_V, reach of the other theories below and above, below the edge range."""
-        know = self._theory
-        log_edge = know["edge_range"](np.stack([h, log_zeta, log_p], axis=-1))
+        log_edge = self._theory["edge_range"](np.stack([h, log_zeta, log_p], axis=-1))
         edge = log_eps < log_edge
         held = np.clip(np.where(edge, log_edge, log_eps), None, np.log(self.bounds["range"][1]))
-        at = np.stack([h, log_zeta, log_p, held], axis=-1)
-        logs, below, above = (know[name](at) for name in ("a_v", "theory_below", "theory_above"))
+        logs, below, above = self._look_up(h, log_zeta, log_p, held)
         # The variants part here by definition; another estimate of what edges give takes over.
-        other = know["edge_a_v"](np.stack([h, log_zeta], axis=-1)) - logs
+        other = self._theory["edge_a_v"](np.stack([h, log_zeta], axis=-1)) - logs
         below = np.where(edge, np.maximum(-other, 0), below)
         above = np.where(edge, np.maximum(other, 0), above)
         return logs, below, above, edge
@@ -221,8 +207,7 @@ class AvTable:
         low, high = self.bounds[name]
         inside = (values >= low * (1 - 1e-9)) & (values <= high * (1 + 1e-9))
         infinite = " or infinite" if name == "magnification" else ""
-        if infinite:
-            inside |= np.isposinf(values)
+        inside |= bool(infinite) & np.isposinf(values)
         if not inside.all():
             raise ValueError(
                 f"{name} must lie between {low:g} and {high:g}{infinite}, where a_V is "

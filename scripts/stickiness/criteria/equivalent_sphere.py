@@ -1,17 +1,12 @@
 """Attraction next to the edges of contact at equal area: from weak edges to tough ones as in JKR.
 
-Next to an edge the pressure is ``B x^(1/2)`` inside and the gap ``C x^(3/2)`` outside, with ``C =
-4B/3E*``. Maugis' traction over the width ``d = (range/C)^(2/3)`` depends on Tabor's parameter of
-the edge alone, ``tau = l_a d/range^2``: edges are weak at ``tau << 1``, tough at ``tau >> 1``.
-
-A rough contact is taken for its *equivalent sphere*: of equal tau and equal t, attractive over
-contact area, after Maugis (doi:10.1016/0021-9797(92)90285-T). Its contact has the radius a and its
-zone the radius c, which is c_0 at vanishing traction; the attraction over its DMT limit is ``R = 2
-[c^2 arccos(a/c) + a sqrt(c^2 - a^2)]/(pi (c_0^2 - a^2))``, without a constant to fit. Simulation
-over the model is 1.03 +- .06 for tau < 0.2 and 0.75 to 1.35 beyond, up to tau = 4.6 and down to
-t = 0.2 (benchmarks/tough_edges.py).
-
-Lengths are in one unit of the caller's choice, pressures in units of E*; l_a = w/E*.
+With a gap ``C x^(3/2)`` next to an edge, Maugis' traction over the width ``d = (range/C)^(2/3)``
+depends on Tabor's parameter ``tau = l_a d/range^2`` of the edge alone: weak << 1, tough >> 1. A
+rough contact is taken for its *equivalent sphere*, of equal tau and equal t, attractive over
+contact area (doi:10.1016/0021-9797(92)90285-T). Its contact has the radius a, its zone c, and c_0
+at vanishing traction; the attraction over its DMT limit is ``2 [c^2 arccos(a/c) + a sqrt(c^2 -
+a^2)]/(pi (c_0^2 - a^2))``. Simulation over the model is 1.03 +- .06 for tau < 0.2 and 0.75 to 1.35
+beyond, up to tau = 4.6 and down to t = 0.2 (benchmarks/tough_edges.py). l_a = w/E*.
 """
 
 from __future__ import annotations
@@ -64,34 +59,21 @@ def attraction(
     a_v: ArrayLike,
     kappa_rep: float = KAPPA_REP,
 ) -> EdgeAttraction:
-    """Attraction over repulsion at equal area of contact, by the equivalent sphere.
-
-    `rms_slope` is the root mean square gradient of all waves, `kappa_rep` the slope of area against
-    load without adhesion; the other arguments are those of `criteria.traction_ratio`.
-    """
+    """Attraction over repulsion at equal area of contact; see `criteria.traction_ratio`."""
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
     # Mean pressure in the contact is E* h'/kappa, attraction over it sigma_0 t.
     strength_over_pressure = adhesion_length / range * kappa_rep / rms_slope
     area = dmt / strength_over_pressure
     tau = edge_strength(area, strength_over_pressure)
     change = effect(area, tau)
-    return EdgeAttraction(
-        ratio=plain(dmt * change),
-        error_factor=plain(error_factor(area, tau)),
-        effect=change,
-        attractive_over_contact=plain(area),
-        strength=tau,
-    )
+    return EdgeAttraction(plain(dmt * change), error_factor(area, tau), change, plain(area), tau)
 
 
 @takes_positive
 def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> float | NDArray:
-    """Tabor's parameter tau = l_a d/range^2 of the edges of a rough contact.
-
-    From ``delta/d = (16/3pi) tau`` at weak adhesion and the effect ``(4/pi) t^(-1/2)`` of small
-    zones, in a contact whose area is proportional to its load. `traction` is the attractive one
-    over the mean pressure in the contact, sigma_0 A_rep/F.
-    """
+    """Tabor's tau = l_a d/range^2 of the edges; `traction` is over the mean pressure in contact."""
+    # From delta/d = (16/3pi) tau at weak adhesion and the effect (4/pi) t^(-1/2) of small zones, in
+    # a contact whose area is proportional to its load.
     return plain(0.75 * traction / np.sqrt(attractive_over_contact))
 
 
@@ -105,10 +87,7 @@ def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> flo
 
 @takes_positive
 def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
-    """Attraction at equal area of contact over its DMT limit, of the equivalent sphere.
-
-    `weak_effect` for small strengths tau, `tough_effect` for large ones.
-    """
+    """Attraction over its DMT limit: `weak_effect` for small tau, `tough_effect` for large ones."""
     t, tau = np.broadcast_arrays(attractive_over_contact, strength)
     # Radius of contact and of curvature are 1; c = 1/cos(angle). The edge of a sphere has
     # range/d = (8/3pi) sqrt(t) for small t, which defines its traction at any t.
@@ -139,11 +118,10 @@ def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
 
 @takes_positive
 def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArray:
-    """`weak_effect` at equal approach of the sphere, instead of equal area of contact.
+    """`weak_effect` at equal approach of the sphere; it tends to ``(4/3pi) sqrt(t)`` at small t.
 
-    ``2 [(1 + t) arctan(sqrt t) - sqrt t]/(pi t)``, which tends to 1 at large t as well, but to
-    ``(4/3pi) sqrt(t)`` at small t. A pull at the radius r of an open edge takes ``(2/pi)
-    arccos(a/r)`` of itself off the load, by reciprocity with the flat punch.
+    A pull at the radius r of an open edge takes ``(2/pi) arccos(a/r)`` of itself off the load, by
+    reciprocity with the flat punch.
     """
     t, root = attractive_over_contact, np.sqrt(attractive_over_contact)
     return plain(2 * ((1 + t) * np.arctan(root) - root) / (np.pi * t))
@@ -151,11 +129,7 @@ def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArr
 
 @takes_positive
 def tough_effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
-    """`effect` at large strength: JKR, ``(4/pi) sqrt(pi/(4 t tau))`` for small t.
-
-    The ratio to repulsion is then ``t^(3/4)`` times the root of the adhesion length: t grows as
-    range^(2/3), so that the range drops out.
-    """
+    """`effect` at large strength: JKR, ``(4/pi) sqrt(pi/(4 t tau))`` for small t."""
     t, tau = attractive_over_contact, strength
     # sqrt(8 pi w a^3) over sigma_0 pi a^2 t, in the units and with the traction of `effect`.
     reach = _hertz_gap(np.arctan(np.sqrt(t)))
@@ -177,10 +151,7 @@ def tough(attractive_over_contact: ArrayLike, strength: ArrayLike) -> bool | NDA
 def adhesion_length_threshold(
     h_rms: ArrayLike, q0: ArrayLike, rms_slope: ArrayLike, range: ArrayLike, a_v: ArrayLike
 ) -> float | NDArray:
-    """Adhesion length [length] at which the attraction balances the repulsion.
-
-    The modulus threshold is the work of adhesion over it. Parameters as of `attraction`.
-    """
+    """Adhesion length [length] at which the attraction balances the repulsion."""
     surface = np.broadcast_arrays(h_rms, q0, rms_slope, range, a_v)
     h, q0, slope, range, a_v = surface
 

@@ -20,12 +20,12 @@ from stickiness.arguments import finite, plain, positive, takes_positive
 from stickiness.spectrum.kinds import Spectrum
 
 __all__ = [  # noqa: PLE0604
-    *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT"),
-    *("Verdict", "bearing_area", "dahlquist"),
+    *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
+    *("Verdict", "bearing_area", "dahlquist", "dmt_validity"),
     *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit"),
     *("modulus_threshold", "pastewka_robbins", "pastewka_robbins_a_v"),
     *("pastewka_robbins_a_v_power_law", "persson_tosatti", "slope_angle"),
-    *("traction_ratio", "violano"),
+    *("traction_ratio", "violano", "violano_printed"),
 ]
 
 PRINTED_A_V = 1.5  #: the coefficient 9/4 printed in the paper is (3/2) a_V with this a_V
@@ -44,6 +44,14 @@ class Verdict:
     sticky: bool | NDArray  #: whether the contact sustains tension, ``margin > 1``
     #: threshold over actual value; how the ratio is formed is in the criterion's docstring
     margin: float | NDArray
+
+
+@dataclass(frozen=True)
+class DmtValidity:
+    """Whether adhesion is weak enough for the repulsive gaps to describe the attraction."""
+
+    valid: bool | NDArray  #: whether ``margin > 1``
+    margin: float | NDArray  #: h_rms over its lower limit `jtb_limit`
 
 
 def _verdict(name: str, margin: ArrayLike) -> Verdict:
@@ -157,7 +165,7 @@ def violano(
     """Violano et al. (2019): sticky when h_rms/range < [(3 a_V/2)(l_a/range)/(range q0)]^(3/5).
 
     The margin is `h_rms_limit` over h_rms. Parameters as in `traction_ratio`. The criterion
-    rests on DMT gaps, which hold where h_rms exceeds `jtb_limit`.
+    rests on DMT gaps; `dmt_validity` tells where these are valid.
 
     Examples
     --------
@@ -165,6 +173,24 @@ def violano(
     True
     """
     return _verdict("violano", h_rms_limit(q0, adhesion_length, range, a_v) / h_rms)
+
+
+@takes_positive
+def violano_printed(
+    h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
+) -> Verdict:
+    """`violano` with the coefficient 9/4 as printed, that is with a_V = 3/2."""
+    limit = h_rms_limit(q0, adhesion_length, range, PRINTED_A_V)
+    return _verdict("violano_printed", limit / h_rms)
+
+
+@takes_positive
+def dmt_validity(
+    h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
+) -> DmtValidity:
+    """Whether h_rms exceeds `jtb_limit`, so that the repulsive gaps describe the attraction."""
+    margin = h_rms / jtb_limit(q0, adhesion_length, range)
+    return DmtValidity(plain(margin > 1), plain(margin))
 
 
 # --- Other criteria --------------------------------------------------------------------------
@@ -243,25 +269,31 @@ def pastewka_robbins_a_v_power_law(
 
 
 @takes_positive
-def fuller_tabor(h_rms: ArrayLike, rms_curvature: ArrayLike, adhesion_length: ArrayLike) -> Verdict:
+def fuller_tabor(
+    h_rms: ArrayLike,
+    rms_curvature: ArrayLike,
+    adhesion_length: ArrayLike,
+    radius: ArrayLike | None = None,
+) -> Verdict:
     """Fuller & Tabor (1975): sticky when theta = h_rms^(3/2)/(R^(1/2) l_a) is below 10.
 
-    The margin is 10 over theta: at 10 the pull-off force has practically gone. The summit radius R,
-    originally that of equal spheres, is 2/h'', the radius of the paraboloid whose Laplacian is the
-    root mean square one. Nayak's mean summit curvature (8/3) sqrt(m4/pi) gives 1.085/h'', a theta
-    larger by 1.36.
+    The margin is 10 over theta: at 10 the pull-off force has practically gone.
 
     Parameters
     ----------
     h_rms, rms_curvature, adhesion_length : array_like
         Root mean square height [length] and Laplacian h'' [1/length]; work of adhesion over E*
         [length].
+    radius : array_like, optional
+        Summit radius R [length], originally that of equal spheres. Default: 2/h'', the radius of
+        the paraboloid whose Laplacian is the root mean square one. Nayak's mean summit curvature
+        (8/3) sqrt(m4/pi) gives 1.085/h'', a theta larger by 1.36.
 
     References
     ----------
     Fuller & Tabor, Proc. R. Soc. A 345, 327 (1975), doi:10.1098/rspa.1975.0138.
     """
-    radius = 2 / rms_curvature
+    radius = 2 / rms_curvature if radius is None else radius
     return _verdict("fuller_tabor", 10.0 * np.sqrt(radius) * adhesion_length / h_rms**1.5)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria import equivalent_sphere
-from stickiness.criteria.formulas import jtb_limit
+from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 
 WORDS = (
@@ -37,6 +37,7 @@ QUANTITIES = {
     for ending in SIGNS
 } | {
     "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
+    "range_over_h_rms": ("1", "range of attraction over rms height"),
     "pair_h_rms": ("m", "rms height of the pair, of both solids if both are rough"),
     "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
     "pair_rms_slope": ("1", "rms gradient of the pair"),
@@ -81,10 +82,7 @@ class Pair(Roughness):
         return self.tension(self.adhesion_length, self.range, sign) * self.modulus
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
-        """Adhesion length [m] above which the wanted share remains.
-
-        With `sign` +1 or -1 by the high or low limit of the share.
-        """
+        """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""
         return self.threshold(self.range, self.wanted_share, sign)
 
     @cached_property
@@ -104,8 +102,8 @@ def decide(
 ) -> NDArray:
     """Codes of the verdicts (int8), their places in `WORDS`.
 
-    `low` and `high` are limits of the share of the work of adhesion that remains, `wanted` is the
-    share from which a pair sticks; `grows` says whether contact grows by itself at the finest wave.
+    `low` and `high` are limits of the share that remains, `wanted` is the share from which a pair
+    sticks; `grows` says whether contact grows by itself at the finest wave.
     """
     low, high = np.asarray(low), np.asarray(high)
     return np.select(
@@ -128,13 +126,14 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         found[f"margin{ending}"] = length / threshold
         found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
     found |= {
+        "range_over_h_rms": pair.range / pair.h_rms,
         "energy_ratio": length / pair.elastic_energy,
         "edge_strength": edges.strength,
         "attractive_over_contact": edges.attractive_over_contact,
         "over_dmt": edges.effect,
         "regime": np.select([weak, between, tough], range(3), 3).astype("i1"),
         "simulated": np.asarray(edges.simulated).astype("i1"),
-        "jtb_margin": pair.h_rms / jtb_limit(pair.q0, length, pair.range),
+        "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
     }
     for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
         found[f"pair_{name}"] = getattr(pair, name)

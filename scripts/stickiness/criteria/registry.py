@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -114,7 +113,7 @@ _TABLE = (
     Criterion(
         "violano_printed",
         "derived (9/4 as printed)",
-        margin=_margin_of(partial(formulas.violano, a_v=formulas.PRINTED_A_V), *_HEIGHTS),
+        margin=_margin_of(formulas.violano_printed, *_HEIGHTS),
         power=3 / 5,
         reason=f"The same with a_V = {formulas.PRINTED_A_V:g} instead of {{a_v}}.",
         line=Line("black", ":", 1.2, filled=False),

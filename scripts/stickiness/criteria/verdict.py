@@ -167,12 +167,7 @@ def verdict(
         raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
-    pair = Pair(
-        **known,
-        **material,
-        a_v=value,
-        wanted_share=wanted_share,
-    )
+    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share)
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
     limits = {f"{name}_limits": (found[f"{name}_low"], found[f"{name}_high"]) for name in LIMITED}
