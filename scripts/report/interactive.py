@@ -177,7 +177,8 @@ def draw_contact(contact, pull_off, texts):
     codes, widest = code_maps(contact)
     first = min(FIRST_LOAD, len(texts) - 1)
     shown = ColumnDataSource({"code": [codes[first]]})
-    text = Div(text=texts[first], sizing_mode="stretch_width")
+    # Labels of materials are the user's: as text, not as HTML.
+    text = Div(text=texts[first], render_as_text=True, sizing_mode="stretch_width")
     look = {"title": "Load, from light to heavy", "show_value": False}
     look |= {"name": "load", "sizing_mode": "stretch_width"}
     slider = Slider(start=0, end=len(texts) - 1, value=first, **look)

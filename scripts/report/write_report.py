@@ -32,9 +32,9 @@ def main(job):
     claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "sources"])
     verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin", "disagrees"])
     tested = datasets.read(inputs.experiments, ["outcome", "criterion_outcome"])
-    surfaces, ensembles, answers = (
+    surfaces, ensembles, comparisons, answers = (
         {Path(path).stem: datasets.read(path) for path in inputs[kind]}
-        for kind in ("surfaces", "ensembles", "answers")
+        for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
     pairs = arrange_pairs(verdicts, surfaces)
     materials = datasets.parameters(verdicts)["materials"]
@@ -71,6 +71,7 @@ def main(job):
         surfaces=surfaces,
         sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
         answers={name: at_load(answer) for name, answer in answers.items()},
+        comparisons=comparisons,
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
         trade_figure=embed(inputs.trade_figure, inputs.trade_caption),
