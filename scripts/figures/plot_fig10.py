@@ -3,6 +3,7 @@
 from itertools import pairwise
 
 import numpy as np
+import pandas as pd
 
 from common import plotting
 from common.edge_points import COLUMNS, select_certain
@@ -21,7 +22,7 @@ def main(job):
     points = join_surfaces([datasets.read(path, COLUMNS) for path in job.input.edges])
     with plotting.open_figure(job.output, "AB", 3.4) as panels:
         draw_weak(panels["A"], points)
-        draw_ratios(panels["B"], list(points.values()))
+        draw_ratios(panels["B"], points.values())
 
 
 def join_surfaces(files):
@@ -46,10 +47,11 @@ def draw_weak(ax, points):
     plotting.draw_guide(ax, wide, at_approach, "at equal approach", (3, 0.4))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
-    for index, (name, (area, strength, effect, ratio, error)) in enumerate(points.items()):
-        weak = strength < equivalent_sphere.WEAK
-        bars = (effect * error / ratio)[weak]
-        ax.errorbar(area[weak], effect[weak], bars, label=name, **LOOK, **pick_look(index))
+    for index, (name, found) in enumerate(points.items()):
+        weak = found[found.edge_strength < equivalent_sphere.WEAK]
+        bars = weak.effect * weak.over_model_total_error / weak.over_model
+        look = LOOK | pick_look(index, label=name)
+        ax.errorbar(weak.attractive_over_contact, weak.effect, bars, **look)
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
@@ -64,18 +66,19 @@ def draw_ratios(ax, points):
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
     for (low, high), factor in zip(pairwise(ends), factors, strict=True):
         plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
-    for index, (_, strength, _, ratio, error) in enumerate(points):
-        ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index), alpha=0.5)
+    for index, found in enumerate(points):
+        look = LOOK | pick_look(index, alpha=0.5)
+        ax.errorbar(found.edge_strength, found.over_model, found.over_model_total_error, **look)
     ax.axhline(1, color=GREY, linewidth=0.9)
     # Means between the strengths of `BINS`, as steps with their standard errors.
-    _, strength, _, ratio, _ = np.concatenate(points, axis=1)
-    look = {"color": BLACK, "linewidth": 2}
-    for low, high in pairwise(BINS):
-        inside = ratio[(strength >= low) & (strength < high)]
-        if inside.size > 1:  # else there is no error of the mean
-            error = inside.std(ddof=1) / np.sqrt(inside.size)
-            ax.plot([low, high], [inside.mean()] * 2, **look)
-            ax.errorbar(np.sqrt(low * high), inside.mean(), error, **look)
+    every, look = pd.concat(points), {"color": BLACK, "linewidth": 2}
+    bins = pd.cut(every.edge_strength, BINS, right=False)
+    for strengths, ratio in every.over_model.groupby(bins, observed=True):
+        if ratio.size > 1:  # else there is no error of the mean
+            ax.plot([strengths.left, strengths.right], [ratio.mean()] * 2, **look)
+            ax.errorbar(
+                np.sqrt(strengths.left * strengths.right), ratio.mean(), ratio.sem(), **look
+            )
     ax.plot([], [], **look, label="means, with standard errors")
     ax.legend(loc="upper left")
     ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))

@@ -59,21 +59,21 @@ def compare_cells(simulated, lattices):
 
 def compare_sphere(edges):
     """Simulated weak attraction over the equivalent sphere's, set by set."""
-    area, strength, _, ratio, _ = select_certain(edges)
-    return ratio[(strength < equivalent_sphere.WEAK) & (area >= LEAST_AREA)]
+    points = select_certain(edges)
+    weak = points.edge_strength < equivalent_sphere.WEAK
+    return points.over_model[weak & (points.attractive_over_contact >= LEAST_AREA)]
 
 
 def compare_remaining(table):
     """Share of predicted works near the simulated ones, and means by energy ratio."""
-    wide = remaining_table.is_wide(table)
-    works = table.assign(wide=wide).melt(["wide", "predicted"], ["approach", "separation"])
+    works = table.melt(["wide", "predicted"], ["approach", "separation"])
     works = works[works.value > LEAST_SHARE]
     near = abs(works.predicted / works.value - 1) < WELL_KNOWN
-    tough = table[wide & (table.zone < 0.11)]
+    tough = table[table.wide & (table.zone < 0.11)]
     groups = tough.groupby(pd.cut(tough.energy_ratio, ENERGY_RATIOS), observed=True)
     columns = ["energy_ratio", "approach", "separation", "predicted", "pull_off"]
     return {
-        "points": wide.sum(),
+        "points": table.wide.sum(),
         "near": near.groupby(works.wide).agg(["mean", "size"]),
         "means": groups[columns].mean(),
     }

@@ -297,9 +297,9 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
     q = WAVE_NUMBERS
     more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
     more |= {"fitted": np.array([0, 1, 1, 0], dtype="i1"), "q1": 1e6, "q_cutoff": 1e5}
-    plot_fig6.draw_measured(ax, spectrum("wafer", **more), plot_fig6.EXPONENT, plotting.BLUE)
+    plot_fig6.draw_spectra(ax, [spectrum("wafer", **more)], plot_fig6.EXPONENT)
     drawn(ax, q[:3], [1e-5] * 3, marker="o")
-    drawn(ax, q[:3], [np.nan, 2e-5, 2e-5], color=plotting.BLACK)
+    drawn(ax, q, [np.nan, 2e-5, 2e-5, np.nan], color=plotting.BLACK)
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, 1.645 * 2e-6, rtol=1e-3)  # 90 %, not one standard error
 
