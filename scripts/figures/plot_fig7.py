@@ -42,14 +42,13 @@ def draw_plane(ax, data):
             **SMALL,
         )
     ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=plotting.ADHESION_LENGTH)
-    limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()}
+    ax.autoscale(False)
     strength = data.zone_strength.transpose(*PLANE).values
     ax.contour(ranges, lengths, strength, levels=[1], colors=BLACK)
     contour = make_key(r"$l_ad/\epsilon^2$ = 1", color=BLACK)
     ax.legend(handles=[contour], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
     ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
-    ax.set(**limits)
     bar = ax.figure.colorbar(mesh, ax=ax, label=RATIO)
     plotting.write_ticks(bar.ax.yaxis, [0.25, 0.5, 1, 2, 4])
     bar.ax.minorticks_off()
