@@ -205,7 +205,7 @@ def case():
     area = np.outer([1, 10], 0.02 * ranges ** (2 / 3))
     a_v = np.multiply.outer(FACTORS, [[2.5, 1.5], [9.0, 9.0]])
     surface = {"hurst": 0.8, "magnification": 64, "window": 4}
-    return plot_fig3.Case(
+    return plot_fig3.join(
         dataset(coords, {"attractive_area_mean*": area}, **surface),
         dataset(windows, {"a_v_mean*": [[3.0, 2.0], [9.0, 9.0]]}, **surface),
         dataset(windows, {"a_v": a_v}, **surface),
@@ -213,7 +213,7 @@ def case():
 
 
 def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, case):
-    ranges = case.areas["range"].values
+    ranges = case["range"].values
     coords = {"hurst": [0.8], "load": [0], "variant": VARIANTS}
     coords |= {"magnification": [10.0, 1000.0], "range": ranges}
     area = np.outer(FACTORS, ranges)[None, None, :, None] * np.ones((1, 1, 1, 2, 1))
