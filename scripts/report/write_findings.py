@@ -26,6 +26,8 @@ def main(job):
     verdicts = read(inputs.verdicts).verdict.transpose("material", "surface").to_pandas()
     experiments, trade = read(inputs.experiments), summary.read(inputs.tradeoff)
     of_contact = trade.problem == "contact"
+    edges = select_certain(map(read, inputs.edges))
+    weak = edges.edge_strength < equivalent_sphere.WEAK
     write_page(
         inputs.template,
         job.output[0],
@@ -34,7 +36,7 @@ def main(job):
         cells=compare_cells(map(read, inputs.a_v), map(read, inputs.lattices)),
         gamma=read(inputs.gamma),
         dmt=weakest.dropna("range_over_h_rms", subset=["dmt_ratio"]),
-        sphere=compare_sphere(list(map(read, inputs.edges))),
+        sphere=edges.over_model[weak & (edges.attractive_over_contact >= LEAST_AREA)],
         least_area=LEAST_AREA,
         remaining=compare_remaining(remaining_table.read(inputs.remaining)),
         within=WELL_KNOWN,
@@ -55,13 +57,6 @@ def compare_cells(simulated, lattices):
         theory = at_load(lattice).isel(window=0).sel(variant=VARIANT).a_v
         rows.append((*cell, at.a_v_mean, error_budget.total_error(at, "a_v_mean"), theory))
     return sorted(rows, key=lambda row: row[:3])
-
-
-def compare_sphere(edges):
-    """Simulated weak attraction over the equivalent sphere's, set by set."""
-    points = select_certain(edges)
-    weak = points.edge_strength < equivalent_sphere.WEAK
-    return points.over_model[weak & (points.attractive_over_contact >= LEAST_AREA)]
 
 
 def compare_remaining(table):

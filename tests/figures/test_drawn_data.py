@@ -11,6 +11,7 @@ from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.colors import same_color
 
 from common import plotting
+from common.edge_points import select_certain
 from figures import (
     plot_fig1,
     plot_fig2,
@@ -424,7 +425,7 @@ def edges():
 
 def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
     halves = [edges.isel(adhesion_length_over_range=[i]) for i in (0, 1)]
-    plot_fig10.draw_weak(ax, plot_fig10.join_surfaces(halves))  # of one surface, a single name
+    plot_fig10.draw_weak(ax, select_certain(halves))  # of one surface, a single name
     drawn(ax, [0.2, 1.0], [3.0, 2.0], marker="o")
     t = np.geomspace(0.05, 200, 200)
     drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
@@ -433,7 +434,7 @@ def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
 
 
 def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
-    plot_fig10.draw_ratios(ax, list(plot_fig10.join_surfaces([edges]).values()))
+    plot_fig10.draw_ratios(ax, select_certain([edges]))
     drawn(ax, [0.01, 0.02, 1.0], [1.1, 0.9, 0.8], marker="o")
     (_, halves), (_, of_mean) = bar_lengths(ax)
     np.testing.assert_allclose(halves, TOTAL * np.array([1.1, 0.9, 0.8]))
