@@ -1,6 +1,7 @@
 """Picture of contact and pull-off of measured heights, and what its interactive form shares."""
 
 import numpy as np
+import pandas as pd
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize, to_hex
@@ -74,14 +75,10 @@ def follow_tension(pull_off):
     per_gap, gap = unit_for(float(pull_off.mean_gap.max()), "m")
     largest = float(pull_off.mean_traction.max())
     per_tension, tension = unit_for(max(largest, 1.0), "Pa")
-    curves = []
-    for way, name, colour in WAYS:
-        states = pull_off.isel(state=pull_off.separating.values == way)
-        columns = {
-            "gap": states.mean_gap.values * per_gap,
-            "tension": states.mean_traction.values * per_tension,
-        }
-        curves.append((name, colour, columns))
+    states = pd.DataFrame({"gap": pull_off.mean_gap * per_gap})
+    states["tension"] = pull_off.mean_traction * per_tension
+    separating = pull_off.separating.values
+    curves = [(name, colour, states[separating == way]) for way, name, colour in WAYS]
     # The squeeze may press far harder than the surfaces attract each other.
     lowest = max(-2 * largest, 1.1 * float(pull_off.mean_traction.min()))
     limits = lowest * per_tension, 1.3 * largest * per_tension
