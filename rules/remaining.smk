@@ -43,7 +43,8 @@ rule tabulate_remaining:
             for seed in measured["seeds"]
         ],
     output:
-        f"{REMAINING}/remaining.csv",
+        table=f"{REMAINING}/remaining.csv",
+        summary=f"{REMAINING}/remaining.md",
     log:
         f"{REMAINING}/logs/tabulate_remaining/remaining.log",
     benchmark:

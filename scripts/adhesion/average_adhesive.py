@@ -31,6 +31,7 @@ STATES = {
     "external_pressure": "mean pressure over E* q0 h_rms",
     "repulsive_area": "area at a gap of zero over nominal area",
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
+    "attractive_area": "area within the range, not in contact, over nominal area",
 }
 # Slopes and fits have as their control the quantity of the DMT limit of the same name.
 SLOPES = {
@@ -57,7 +58,7 @@ NET = [name for name in ALL if "net" in name.split("_")]
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 # Pixels across the zone of attraction below which an attraction is a statement about the grid.
 NARROWEST = 1.5
-AREAS = ("repulsive_area", "net_repulsive_area")
+AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT limit that without adhesion
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
     "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
@@ -72,6 +73,7 @@ FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
 OTHERS = {
     "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
     "residual": "largest residual of all realisations",
+    "iterations": "mean iterations on the fine grid",
     "zone_strength": "width of the zone of attraction over range^2/adhesion length",
 }
 VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
@@ -173,22 +175,20 @@ def average(states, full, ensemble, adhesion, made):
         }
         parts = [(xr.zeros_like(value) + parts[s]).transpose(*value.dims) for s in SOURCES]
         dataset[f"{name}_error"] = xr.concat(parts, source)
-    return dataset.assign(residual=states.residual.max(["seed", "resolution"]))
+    residual = states.residual.max(["seed", "resolution"])
+    return dataset.assign(residual=residual, iterations=fine(states.iterations).mean("seed"))
 
 
 def add_pixels(states, made):
     """States with as much more area as the count of turned pixels cannot rule out.
 
-    Areas are counts of pixels. If adhesion turned k of them in all realisations together, its mean
-    number lies below the upper limit of a Poisson count with 90 % confidence: 2.3 for k = 0. The
-    scatter between realisations cannot tell this, as it vanishes where no pixel turned. The limit
-    takes pixels as independent. Where they turn in strips along the edges, scatter is larger and
-    is the error.
+    That is the upper limit of a Poisson count: 2.3 if no pixel turned, of which scatter knows
+    nothing. Where pixels turn in strips along the edges, scatter is larger and is the error.
     """
     pixels = states.sizes["seed"] * (made["grid_points"] * made["refine"]) ** 2
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
-    return states.assign({name: states[name] + unseen / pixels for name in AREAS})
+    return states.assign({n: states[n] + unseen / pixels for n in STATES if "area" in n})
 
 
 def add_dmt(states, full):
@@ -231,11 +231,8 @@ def add_slopes(states, ensemble, linear):
 
 
 def pressure_at(states, ensemble):
-    """Pressure without adhesion at the area of the adhesive contact, NaN beyond the largest load.
-
-    Along the load curve of the same seed, whose edges are between the pixels: it is scaled to the
-    area in pixels at the pressure of the same mean gap.
-    """
+    """Pressure without adhesion at the area of adhesive contact, NaN beyond the largest load."""
+    # The curve has edges between the pixels: it is scaled to the area in pixels at the same gap.
     curve = fine(ensemble.area_fraction).sel(seed=states.seed)
     area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
     loads = np.log(curve.pressure.values)
@@ -249,13 +246,11 @@ def pressure_at(states, ensemble):
 
 
 def zone_width(ensemble, at):
-    """Mean width of the zone of attraction without adhesion, times q0.
-
-    The gap beside an edge grows with the distance to the power 3/2.
-    """
+    """Mean width of the zone of attraction without adhesion, times q0."""
     made = datasets.parameters(ensemble)
     edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
     edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
+    # The gap beside an edge grows with the distance to the power 3/2.
     return cell_size(made) / made["grid_points"] * np.cbrt(range_ / edge) ** 2
 
 

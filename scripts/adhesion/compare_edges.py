@@ -35,7 +35,6 @@ VARIABLES = {
     "over_model": ("1", "simulation over model, mean over realisations", MISSING),
 }
 QUOTED = ("effect", "over_model")
-ALONE = ("pixel_area_fraction", "attractive_area")
 NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
 
 
@@ -43,7 +42,7 @@ def main(job):
     averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
     q0_h_rms = float(averages.q0_h_rms)
     adhesive = read_all(job.input.realisations, NEEDED)
-    alone = read_all(job.input.alone, ALONE)
+    alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
     pairs = [[each.sel(seed=seed) for each in (adhesive, alone)] for seed in adhesive.seed]
     coarse, states = (
         xr.concat([compare(*pair, q0_h_rms, grid) for pair in pairs], "seed") for grid in (0, -1)
@@ -103,10 +102,8 @@ def compare(adhesive, alone, q0_h_rms, grid):
 
 
 def at_equal_area(adhesive, alone):
-    """Load without adhesion at the area with it, and growth of the attractive area to there.
-
-    Both grids are of whole pixels but not the same, so that relative changes are compared.
-    """
+    """Load without adhesion at the area with it, and growth of the attractive area to there."""
+    # The grids are not the same: relative changes of areas in pixels are compared.
     logs = np.log(alone.pressure.values), np.log(alone.pixel_area_fraction.values)
     pressure = adhesive.pressure
 

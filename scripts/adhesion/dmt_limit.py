@@ -39,11 +39,7 @@ def find_linear(adhesion, ensemble):
 
 
 def quantities_of(adhesion, linear, solved):
-    """`QUANTITIES` of a set of adhesive parameters.
-
-    `solved` has the variables of an ensemble, of its coarse solutions or of its means, see
-    `ensemble_means.coarse`, so that one function gives a mean and its control.
-    """
+    """`QUANTITIES` of a set, of an ensemble, of its coarse solutions or of its means."""
     solved = solved.sel(pressure=axes(adhesion)[0])
     attraction = integrate_law(adhesion, solved.attractive_area)
     external, area = solved.pressure - attraction, solved.area_fraction * solved.rms_slope
@@ -85,13 +81,11 @@ def integrate_areas(areas, law):
 
 
 def fit_slope(external, area, linear):
-    """Fitted slope of pressure against area through the origin; NaN for fewer than two loads.
-
-    Where a load is missing there is no slope: the others alone would have another.
-    """
+    """Fitted slope of pressure against area through the origin; NaN for fewer than two loads."""
     inside = linear & (linear.sum("pressure") > 1)
     product, square = (external * area).where(inside), (area**2).where(inside)
     slope = product.sum("pressure") / square.sum("pressure")
+    # Where a load is missing there is no slope: the others alone would have another.
     return slope.where((product.notnull() | ~inside).all("pressure") & inside.any("pressure"))
 
 
@@ -102,10 +96,7 @@ def linearity_error(values, linear):
 
 
 def write_limit(adhesion, ensemble, laws, errors, output):
-    """Write a set of adhesive parameters in the DMT limit, averaged over an ensemble.
-
-    `errors` has, at every point, ``dmt_valid`` and ``dmt_error``, the measured error of the limit.
-    """
+    """Write a set in the DMT limit; `errors` are ``dmt_valid`` and ``dmt_error`` by point."""
     pressures, lengths, ranges = axes(adhesion)
     dataset = xr.Dataset(
         {

@@ -15,14 +15,18 @@ import xarray as xr
 
 from common.adhesion_sets import LEAST, scaled_law
 from common.conventions import annotate
+from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import pixels, read_first
 from stickiness import adhesive, datasets
+from stickiness.error_budget import ErrorComponent, unknown_error, with_budget
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 
 CONTROLS = ("mean_gap", "pressure")
 TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
+# Relative, of pull-offs to this tolerance and to 1e-7 in the target tradeoff: 4e-5 to 4e-4 of six.
+SOLVER = 5e-4
 BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
 STEPS = (2, 1)
 MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
@@ -31,7 +35,15 @@ STATES = {
     "mean_gap": "mean gap over h_rms",
     "repulsive_area_fraction": "area at a gap of zero over nominal area",
     "net_repulsive_area_fraction": "area at a gap of zero and compressed over nominal area",
+    "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
+    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
+    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
+}
+QUOTED = {
+    "pull_off_pressure": "mean pressure over E* q0 h_rms at which a press lets go",
+    "pull_off_area": "area at a gap of zero over nominal area at pull-off",
+    "lost_share": "energy lost over the work done on the surfaces, at given mean gaps",
 }
 STEPPED = {
     "separating": "1 on the way back",
@@ -42,6 +54,7 @@ STEPPED = {
 VARIABLES = {
     n: ("1", text, "beyond the end of the curve") for n, text in (STATES | STEPPED).items()
 }
+VARIABLES |= {name: ("1", text) for name, text in QUOTED.items()}
 VARIABLES |= {"control": "what is prescribed", "state": "number of the state along the curve"}
 
 
@@ -58,7 +71,7 @@ def main(job):
     longest = max((one.state for one in curves), key=len)
     dataset = xr.combine_by_coords([one.reindex(state=longest) for one in curves])
     datasets.write(
-        annotate(dataset, **VARIABLES),
+        add_quoted(dataset),
         job.output[0],
         title="approach and separation of one realisation with adhesion",
         parameters={**datasets.parameters(surface), **loop},
@@ -88,6 +101,32 @@ def follow(heights, length, loop, adhesion_length_over_range, control):
                 row["jumped"] = float(point.event in ("jump-in", "jump-out"))
                 rows.append(row | {"work": point.work, "dissipated": point.dissipated})
     return pd.DataFrame(rows).rename_axis("state").to_xarray()
+
+
+def add_quoted(dataset):
+    """Add what is quoted of the curves, on the fine grid, with its errors."""
+    press, gap = (dataset.sel(control=control, drop=True) for control in CONTROLS[::-1])
+    last = press.isel(state=press.mean_pressure.count("state") - 1)
+    quoted = {
+        "pull_off_pressure": last.mean_pressure,
+        "pull_off_area": last.repulsive_area_fraction,
+        "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
+    }
+    coarse, fine = (
+        xr.Dataset(quoted).drop_vars("state").isel(resolution=grid, drop=True) for grid in (0, -1)
+    )
+    dataset = annotate(dataset.assign(fine), **VARIABLES)
+    for name in QUOTED:
+        change, solver = fine[name] - coarse[name], SOLVER * fine[name]
+        dataset = with_budget(
+            dataset,
+            name,
+            discretisation=ErrorComponent(change, "change from half the resolution"),
+            solver=ErrorComponent(solver, "by the tolerance, as measured of pull-offs"),
+            sampling=unknown_error("a single realisation"),
+            **SIMULATED,
+        )
+    return dataset
 
 
 if __name__ == "__main__":

@@ -36,13 +36,18 @@ STATE = {
     "attraction": "attractive part of the mean pressure over E* q0 h_rms",
     "repulsive_area": "area at a gap of zero over nominal area, by pixels",
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
+    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
+    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
+    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
     "residual": "unbalanced pressure over the strength or the flattening pressure",
+    "iterations": "iterations of conjugate gradients",
 }
 ATTRIBUTES = {  # of a state, where the name is another
     "external_pressure": "mean_pressure",
     "attraction": "adhesive_pressure",
     "repulsive_area": "repulsive_area_fraction",
     "net_repulsive_area": "net_repulsive_area_fraction",
+    "attractive_area": "adhesive_area_fraction",
 }
 ALONE = {
     "area_alone": "contact area without adhesion over nominal area, by pixels",

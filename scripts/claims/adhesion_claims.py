@@ -85,14 +85,12 @@ def largest_simulated(data):
 
 @claim(10)
 def hysteresis(loop):
-    coarse, fine = (loop.isel(resolution=i).sel(control="pressure") for i in (0, -1))
+    strong, fine = loop.isel({LENGTH: -1}), loop.isel(resolution=-1).sel(control="pressure")
     weak, press = (fine.isel({LENGTH: i}).dropna("state") for i in (0, -1))
-    tension, last = float(press.mean_pressure[-1]), press.isel(state=-1)
-    coarse = coarse.isel({LENGTH: -1}).mean_pressure.dropna("state")
-    error = abs(float(coarse[-1]) - tension)
+    tension, last = float(strong.pull_off_pressure), press.isel(state=-1)
+    error = float(error_budget.part(strong, "pull_off_pressure", "discretisation"))
     load = float(press.mean_pressure.max()) / 5
     loading, unloading = (area_at(press, load, way) for way in (0, 1))
-    gap = loop.isel(resolution=-1, adhesion_length_over_range=-1).sel(control="mean_gap")
     pulls = tension < -2 * error and float(last.net_repulsive_area_fraction) > 0
     return Finding(
         tension,
@@ -104,9 +102,8 @@ def hysteresis(loop):
         load=load,
         loading=loading,
         unloading=unloading,
-        # Energy lost over the work done on the surfaces along the loop.
-        lost=gap.dissipated.sum() / gap.work.where(gap.work > 0).sum(),
-        jumps=int(gap.jumped.sum()),
+        lost=strong.lost_share,
+        jumps=int(strong.isel(resolution=-1).sel(control="mean_gap").jumped.sum()),
         weak=weak.isel(state=-1),
     )
 

@@ -72,6 +72,7 @@ def small_gap_exponent(fig3a):
     broad = exponent.isel(magnification=-1)
     at, beyond = (np.interp(np.log(SMALL_GAPS), np.log(one.gap), one) for one in (shown, broad))
     off, off_beyond = (float(np.abs(values + 1 / 3).max()) for values in (at, beyond))
+    spans = [(float(one.magnification), find_third(one)) for one in exponent]
     return Finding(
         at[2],
         grade(max(off, off_beyond) < 0.05, off < 0.1),
@@ -80,7 +81,18 @@ def small_gap_exponent(fig3a):
         gaps=SMALL_GAPS,
         exponents=[(shown.magnification, at), (broad.magnification, beyond)],
         hurst=float(exponent.hurst),
+        widest=max(spans, key=lambda span: span[1][1] / span[1][0]),
     )
+
+
+def find_third(exponent):
+    """Ends of the longest unbroken range of gaps whose exponent is about -1/3; 1, 1 if none."""
+    close = np.abs(exponent.values + 1 / 3) < 0.05
+    starts, ends = np.flatnonzero(np.diff(close, prepend=False, append=False)).reshape(-1, 2).T
+    if not starts.size:
+        return 1.0, 1.0
+    longest = np.argmax(ends - starts)
+    return tuple(exponent.gap.values[[starts[longest], ends[longest] - 1]])
 
 
 @claim(4)

@@ -7,7 +7,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Finding, claim, describe_cell, grade
-from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME
+from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME, describe
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
@@ -325,12 +325,12 @@ def compare(table, hurst):
 
 @claim(22)
 def stickiness_of_experiments(experiments):
-    entries = datasets.parameters(experiments)["experiments"]
+    names = [f"{one['experiment']} ({one['case']})" for one in describe(experiments)["cases"]]
     rubber = experiments.sel(case=RUBBER)
     read = (experiments.tests == 1) & (experiments.observed_known == GRADES.index("read"))
     codes = experiments.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
     missed, some, compatible = (
-        [name_case(str(case), entries) for case in codes.case.values[codes.values == code]]
+        [name for name, found in zip(names, codes.values, strict=True) if found == code]
         for code in (MISSED, SOME, COMPATIBLE)
     )
     # The worst outcome among the observations that were read from a publication.
@@ -345,10 +345,3 @@ def stickiness_of_experiments(experiments):
         compatible=compatible,
         wanted=DEFAULT_SHARE,
     )
-
-
-def name_case(case, experiments):
-    """Author and label of a case."""
-    experiment, name = case.split("/")
-    entry = experiments[experiment]
-    return f"{entry.get('short', entry['label'])} ({entry['cases'][name]['label']})"

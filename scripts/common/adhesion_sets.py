@@ -46,17 +46,14 @@ def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
 def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
     """State at the mean gap of a contact without adhesion.
 
-    `weaker` is None or the adhesion length and the gap of a state with the same range and mean gap.
-    While the attraction is below `NEARLY_LINEAR` of the load, the gap changes in proportion to it,
-    and the first guess is extrapolated.
+    `weaker` is None or adhesion length and gap of a state at the same range, with attraction up to
+    `NEARLY_LINEAR`: the gap changes in proportion to it.
     """
     start = contact.gap
     if weaker is not None:
         known_length, gap = weaker
-        start = gap - contact.gap
-        start *= law.adhesion_length / known_length
-        start += contact.gap
-        np.maximum(start, 0, out=start)
+        change = (gap - contact.gap) * (law.adhesion_length / known_length)
+        start = np.maximum(contact.gap + change, 0)
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance
     )

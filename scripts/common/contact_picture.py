@@ -1,7 +1,6 @@
 """Picture of contact and pull-off of measured heights, and what its interactive form shares."""
 
 import numpy as np
-import pandas as pd
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize, to_hex
@@ -13,7 +12,6 @@ from common.plotting import BLUE, GREY, RED
 CONTACT = 255  # code of a pixel in contact; lower ones are gaps
 GAPS = [to_hex(colormaps["bone_r"](code / (CONTACT - 1))) for code in range(CONTACT)]
 WAYS = ((0, "approach", BLUE), (1, "separation", RED))
-PRINTED_LOADS = 4  # beside one another
 
 
 def draw_still(contact, pull_off, output):
@@ -26,25 +24,23 @@ def draw_still(contact, pull_off, output):
         return
     codes, widest = code_maps(contact)
     (width, height), unit = sides_of(contact)
-    ratios = [min(max(1.5 * height / width, 0.8), 3.0), 2.2]
-    rows = ["ABCD", ".EE."]
-    if pull_off.attrs["left_out"]:
-        rows, ratios = rows[:1], ratios[:1]
-    heights = {"height_ratios": ratios}
-    with plotting.open_figure([output], ";".join(rows), sum(ratios) + 0.9, **heights) as panels:
-        loads = np.linspace(1, len(codes) - 1, PRINTED_LOADS).round().astype(int)
+    ratios = [min(max(1.5 * height / width, 0.8), 3.0)]
+    rows = "ABCD"
+    if not pull_off.attrs["left_out"]:
+        rows, ratios = f"{rows};.EE.", [*ratios, 2.2]
+    with plotting.open_figure([output], rows, sum(ratios) + 0.9, height_ratios=ratios) as panels:
+        maps = [panels[letter] for letter in "ABCD"]
+        loads = np.linspace(1, len(codes) - 1, len(maps)).round().astype(int)
         look = {"cmap": ListedColormap([*GAPS, RED]), "vmin": 0, "vmax": CONTACT}
         look |= {"extent": [0, width, 0, height], "origin": "lower", "interpolation": "nearest"}
-        for letter, index in zip(rows[0], loads, strict=True):
-            panels[letter].imshow(codes[index], **look)
-            area = percent(contact.area_fraction[index])
-            panels[letter].set_title(f"{area} contact", loc="right")
-            panels[letter].set_xlabel(f"x [{unit}]")
-            panels[letter].tick_params(labelleft=letter == "A")
+        for ax, index in zip(maps, loads, strict=True):
+            ax.imshow(codes[index], **look)
+            ax.set_title(f"{percent(contact.area_fraction[index])} contact", loc="right")
+            ax.set_xlabel(f"x [{unit}]")
+            ax.tick_params(labelleft=ax is maps[0])
         per_gap, unit = unit_for(widest, "m")
         scale = ScalarMappable(Normalize(0, widest * per_gap), ListedColormap(GAPS))
-        axes = [panels[letter] for letter in rows[0]]
-        axes[0].figure.colorbar(scale, ax=axes, shrink=0.8, label=f"gap [{unit}]")
+        ax.figure.colorbar(scale, ax=maps, shrink=0.8, label=f"gap [{unit}]")
         if "E" in panels:
             curves, gap, tension, limits = follow_tension(pull_off)
             for name, colour, curve in curves:
@@ -75,10 +71,11 @@ def follow_tension(pull_off):
     per_gap, gap = unit_for(float(pull_off.mean_gap.max()), "m")
     largest = float(pull_off.mean_traction.max())
     per_tension, tension = unit_for(max(largest, 1.0), "Pa")
-    states = pd.DataFrame({"gap": pull_off.mean_gap * per_gap})
-    states["tension"] = pull_off.mean_traction * per_tension
-    separating = pull_off.separating.values
-    curves = [(name, colour, states[separating == way]) for way, name, colour in WAYS]
+    curves = []
+    for way, name, colour in WAYS:
+        states = pull_off.isel(state=pull_off.separating.values == way)
+        gaps, tensions = states.mean_gap.values, states.mean_traction.values
+        curves.append((name, colour, {"gap": gaps * per_gap, "tension": tensions * per_tension}))
     # The squeeze may press far harder than the surfaces attract each other.
     lowest = max(-2 * largest, 1.1 * float(pull_off.mean_traction.min()))
     limits = lowest * per_tension, 1.3 * largest * per_tension

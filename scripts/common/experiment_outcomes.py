@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from common.config.entries import CONDITIONS, OBSERVED
 from common.formatting import number, percent, quantity
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
@@ -13,23 +14,6 @@ SILENT = -1  # of a criterion, on an observation that does not test it
 MARKS = {SILENT: "–", MISSED: "✗", SOME: "≈", COMPATIBLE: "✓"}
 TONES = {SILENT: "open", MISSED: "no", SOME: "partly", COMPATIBLE: "yes"}
 FEWEST_WAVES = 5.0  # across what holds a sphere, from which the model of a sphere applies
-# Name and unit of what was observed.
-QUANTITIES = {
-    "limiting_roughness": ("limiting rms height", "m"),
-    "relative_pull_off": ("relative pull-off", None),
-    "work_of_approach": ("work of approach", "J/m²"),
-    "work_of_separation": ("work of separation", "J/m²"),
-    "sticks": ("sticks", None),
-}
-INPUTS = {  # where words are not those of the key
-    "radius": "radius of the sphere",
-    "plane_strain_modulus": "modulus",
-    "youngs_modulus": "modulus",
-    "poisson_ratio": "Poisson's ratio",
-    "range": "range of the attraction",
-    "hurst": "Hurst exponent",
-    "h_rms": "rms height",
-}
 LEAST_EFFECT = 1.1  # factor by which an input must change a prediction to be named
 MOST_EFFECT = 1e3  # factor beyond which it goes from nothing to something
 LEAST = 5e-8  # J/m²; less is written as none
@@ -59,7 +43,8 @@ def describe_case(case, experiments):
     entry = experiments[experiment]
     outcome, waves = int(case.outcome), float(case.waves_in_contact)
     few = ", too few" if waves < FEWEST_WAVES else ""
-    label, unit = QUANTITIES[case["quantity"].item()]
+    unit, label = OBSERVED[case["quantity"].item()]
+    unit = unit and unit.replace("^2", "²")
     names = ("observed_low", "observed_high", "predicted", "predicted_lowest", "predicted_highest")
     low, high, value, lowest, highest = (float(case[name]) for name in names)
     if unit == "J/m²":
@@ -103,4 +88,4 @@ def describe_effect(name, effect):
     if effect < LEAST_EFFECT:
         return "no unknown input"
     factor = "from none to some" if effect > MOST_EFFECT else f"factor {number(effect, 2)}"
-    return f"{INPUTS.get(name, name.replace('_', ' '))} ({factor})"
+    return f"{CONDITIONS[name][1]} ({factor})"

@@ -53,12 +53,9 @@ def estimate_first_order(values):
 def find_halved(realisations):
     """Indices, up to three, of the finest grids that are each twice as fine as the one before."""
     resolution = realisations.resolution.values
-    chosen = [len(resolution) - 1]
-    while chosen[0] > 0 and len(chosen) < 3:
-        if not np.isclose(resolution[chosen[0]], 2 * resolution[chosen[0] - 1]):
-            break
-        chosen.insert(0, chosen[0] - 1)
-    return chosen
+    doubled = np.isclose(resolution[1:], 2 * resolution[:-1])[:-3:-1]
+    last = len(resolution) - 1
+    return list(range(last - int(np.argmin([*doubled, False])), last + 1))
 
 
 def subpixel_part(name, fine, values):

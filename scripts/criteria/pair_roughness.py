@@ -9,11 +9,11 @@ import numpy as np
 import xarray as xr
 from scipy.special import erf
 
-from common.real_spectra import real_spectrum
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
 from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum import combine as add_roughness
+from stickiness.spectrum.kinds import Tabulated
 
 ENDS = ("smooth", "rough")
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
@@ -64,6 +64,13 @@ def find_spectra(surface, second=None):
     """Spectra of both ends, with the spectrum of the other solid if that is rough itself."""
     one = [real_spectrum(surface, end) for end in ENDS]
     return one if second is None else list(map(add_roughness, one, find_spectra(second)))
+
+
+def real_spectrum(surface, end="rough"):
+    """Spectrum of one end of an analysed real surface, up to its q1."""
+    inside = surface.wave_number <= float(surface.q1) * (1 + 1e-9)
+    known = surface.sel(end=end).isel(wave_number=np.flatnonzero(inside))
+    return Tabulated(known.wave_number.values, known.psd.values)
 
 
 def find_a_v(surface):

@@ -1,18 +1,19 @@
 """Published experiments: works of approach and separation and pull-off, beside what was seen.
 
 Everything that is not known is swept: each input between its plausible ends, the others in their
-middle.
+middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
 """
 
 from dataclasses import dataclass
 from functools import cache
+from itertools import product
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from common import experiment_outcomes as outcomes
-from common.config.entries import CONDITIONS, OBSERVED_UNITS, conditions_of
+from common.config.entries import CONDITIONS, OBSERVED, conditions_of
 from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOMES, SILENT, SOME
 from common.job import start
 from common.templates import write_page
@@ -40,7 +41,7 @@ LARGEST_EFFECT = 1e9  # of an input, instead of an infinite one
 
 _QUANTITY = "the quantity observed, in its SI unit"
 _CURVE = "pull-off over that from a smooth surface"
-_LOWEST, _HIGHEST = (f"{end} limit with each input at its ends" for end in ("lowest", "highest"))
+_LOWEST, _HIGHEST = (f"{end} limit over all that is plausible" for end in ("lowest", "highest"))
 _BEYOND = "looks at no roughness, or beyond the heights followed"
 VARIABLES = {
     "case": ("1", "experiment and case"),
@@ -103,7 +104,8 @@ class Observation:
     """One observation, and the conditions it was made under.
 
     `inputs` has, by name, arrays of one value for every combination of what is plausible: first all
-    inputs in the middle, then each of `swept` at its low and high end, the others in the middle.
+    inputs in the middle, then each of `swept` at its low and high end, the others in the middle,
+    then all corners.
     """
 
     place: str  # experiment and case
@@ -155,7 +157,7 @@ def read_observation(experiment, name, entry):
     """One case of an experiment of the configuration, in SI units."""
     case = entry["cases"][name]
     observed, conditions = case["observed"], conditions_of(entry, case)
-    ends = {key: read_ends(given, CONDITIONS[key]) for key, given in conditions.items()}
+    ends = {key: read_ends(given, CONDITIONS[key][0]) for key, given in conditions.items()}
     swept = tuple(key for key, found in ends.items() if len(found) > 1)
     inputs = combine_inputs(ends, swept)
     if "plane_strain_modulus" in inputs:
@@ -163,8 +165,7 @@ def read_observation(experiment, name, entry):
     else:
         inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
     quantity, by_relation = observed["quantity"], "relation" in observed
-    unit = OBSERVED_UNITS.get(quantity)
-    limits = observed["factor"] if by_relation else read_ends(observed, unit)
+    limits = observed["factor"] if by_relation else read_ends(observed, OBSERVED[quantity][0])
     return Observation(
         place=f"{experiment}/{name}",
         quantity=quantity,
@@ -185,12 +186,14 @@ def read_ends(given, unit):
 
 def combine_inputs(ends, swept):
     """Values of every input for all combinations; see `Observation`."""
-    inputs = {key: np.full(1 + 2 * len(swept), found[0]) for key, found in ends.items()}
-    for place, key in enumerate(swept):
+    middle = {key: found[0] for key, found in ends.items()}
+    for key in swept:
         low, high = ends[key]
-        inputs[key][:] = np.sqrt(low * high) if low > 0 else high / 2
-        inputs[key][1 + 2 * place : 3 + 2 * place] = low, high
-    return inputs
+        middle[key] = np.sqrt(low * high) if low > 0 else high / 2
+    rows = [middle, *(middle | {key: end} for key in swept for end in ends[key])]
+    for corner in product(*(ends[key] for key in swept)):
+        rows.append(middle | dict(zip(swept, corner, strict=True)))
+    return {key: np.array([row[key] for row in rows]) for key in ends}
 
 
 def predict(observation):
@@ -335,10 +338,9 @@ def predict_case(observation):
         "observed_low": observed[0, MIDDLE],
         "observed_high": observed[1, MIDDLE],
         "predicted": value[MIDDLE],
-        "predicted_low": low[MIDDLE],
-        "predicted_high": high[MIDDLE],
         "predicted_lowest": low.min(),
         "predicted_highest": high.max(),
+        "model": max(high[MIDDLE] - value[MIDDLE], value[MIDDLE] - low[MIDDLE]),
         "pull_off_curve": ("roughness", curve[1, MIDDLE]),
         "pull_off_curve_lowest": ("roughness", curve[0].min(axis=0)),
         "pull_off_curve_highest": ("roughness", curve[2].max(axis=0)),
@@ -368,21 +370,17 @@ def predict_all(experiments):
         ],
         "case",
     )
-    value = dataset.predicted
-    model, reach = (
-        np.maximum(dataset[f"predicted_{high}"] - value, value - dataset[f"predicted_{low}"])
-        for low, high in (("low", "high"), ("lowest", "highest"))
-    )
+    value, model = dataset.predicted, dataset.model
+    reach = np.maximum(dataset.predicted_highest - value, value - dataset.predicted_lowest)
     inputs = np.sqrt(np.maximum(reach**2 - model**2, 0.0))
-    dataset = dataset.drop_vars(["predicted_low", "predicted_high"])
-    dataset = datasets.annotate(dataset, **VARIABLES)
+    dataset = datasets.annotate(dataset.drop_vars("model"), **VARIABLES)
     dataset.outcome.attrs |= datasets.flags(OUTCOMES)
     dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
     for name in ("known", "observed_known"):
         dataset[name].attrs |= datasets.flags(GRADES)
     parts = dict.fromkeys(("discretisation", "solver"), not_applicable("closed form"))
     parts["bandwidth"] = not_applicable("the spectrum is swept with the inputs")
-    parts["sampling"] = ErrorComponent(inputs, "of what is plausible of each input")
+    parts["sampling"] = ErrorComponent(inputs, "of all that is plausible of the inputs")
     parts["model"] = ErrorComponent(model, "larger side of its limits")
     return with_budget(dataset, "predicted", **parts)
 

@@ -13,12 +13,12 @@ from common import conventions
 from common.config.entries import measurements
 from common.formatting import amount, percent
 from common.job import start
-from common.real_spectra import configured_spectrum
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
 from stickiness.measured import plausibility, stitching
 from stickiness.spectrum.direction import find_ratio
+from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import COVERS
 from stickiness.units import si
 
@@ -28,7 +28,6 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-DRAWN = ("h_rms", "elastic_energy")  # of which verdicts take every draw
 LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
 PICTURE_POINTS = 400  # along a side of the picture of the heights
@@ -48,8 +47,6 @@ VARIABLE_TEXTS = {
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
     "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
-    "h_rms_draws": ("m", "rms height of every draw"),
-    "elastic_energy_draws": ("m", "elastic energy of full contact per area over E*, every draw"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
     "C0_relative_error": ("1", "relative standard error of C0"),
@@ -64,13 +61,12 @@ VARIABLE_TEXTS = {
     "missing_fraction": ("1", "share of points that were missing or dropped, and interpolated"),
     "dropped_points": ("1", "points measured beside missing ones, not used"),
     "cropped_fraction": ("1", "share of points cut off to leave no missing ones"),
-    "x": ("m", "position along x"),
-    "y": ("m", "position along y"),
     "heights": ("m", "levelled heights of the first measurement, thinned"),
     "profile": ("m", "levelled heights of the first measurement"),
     "measurement": ("1", "measurement of the surface, as listed"),
     "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
+    "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
     "scatter": ("1", "standard deviation between measurements in ln C", "no two overlap"),
 }
 
@@ -100,12 +96,41 @@ def self_affine(entry):
         "C0": ("end", [s.C0 for s in spectra]),
         "C0_reference_upper": ("end", line),
         "hurst": entry["hurst"],
-        "q0": smooth.q0 if smooth.q_rolloff is None else smooth.q_rolloff,
+        "q0": smooth.q_rolloff or smooth.q0,
         "q1": smooth.q1,
     }
     if "anisotropy" in entry:
         data["axis_ratio"] = entry["anisotropy"]
     return annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
+
+
+def configured_spectrum(asked, end):
+    """Self-affine spectrum of one end of the configured range of h_rms or C0."""
+
+    def bound(key, unit):
+        value = asked[key]
+        return si(value[end] if isinstance(value, list) else value, unit)
+
+    hurst = asked["hurst"]
+    size = {"h_rms": bound("h_rms", "m")} if "h_rms" in asked else {}
+    if "C0" in asked:
+        size["C0"] = bound("C0", f"m^{2 - 2 * hurst:g}")
+    return SelfAffine(
+        hurst=hurst,
+        q0=wave_number(asked, "q0", "longest_wavelength"),
+        q1=wave_number(asked, "q1", "shortest_wavelength"),
+        q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
+        anisotropy=asked.get("anisotropy", 1.0),
+        angle=np.radians(asked.get("angle", 0.0)),
+        **size,
+    )
+
+
+def wave_number(asked, key, wavelength):
+    """Wave number [1/m] that is given as such or as a wavelength; None if it is not given."""
+    if key in asked:
+        return si(asked[key], "1/m")
+    return 2 * np.pi / si(asked[wavelength], "m") if wavelength in asked else None
 
 
 def analyse(entry):
@@ -119,10 +144,10 @@ def analyse(entry):
     drawn = stitching.draw(spectrum, DRAWS, SEED, extend_to=extend_to)
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = [*remark_on_spectrum(spectrum, extend_to)]
+    remarks, doubts = [*remark_on_spectrum(spectrum, extend_to)], []
     for one, before in zip(heights, as_read, strict=True):
         remarks += remark_on_file(one, before)
-    doubts = [doubt for one in heights for doubt in one.doubts]
+        doubts += one.doubts
     doubts += plausibility.doubt_fit(fit)
     if entry.get("plausibility", "check") == "ignore":
         remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
@@ -157,8 +182,7 @@ def analyse(entry):
     # Both ends of every moment, and the draws themselves for what depends on several.
     for name, values in drawn.moments.items():
         dataset[name] = "end", drawn.quantiles(name, END_QUANTILES)
-        if name in DRAWN:
-            dataset[f"{name}_draws"] = "draw", values
+        dataset[f"{name}_draws"] = "draw", values
     if np.isfinite(spectrum.anisotropy):
         dataset["anisotropy"] = spectrum.anisotropy
         dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
@@ -168,6 +192,7 @@ def analyse(entry):
         places = {"measurement": np.arange(len(heights)), "wave_number_measured": spectrum.rings.q}
         dataset = dataset.assign_coords(places)
         dataset["psd_measurement"] = tuple(places), spectrum.levels
+        dataset["offset"] = "measurement", spectrum.offsets
         dataset["scatter"] = spectrum.scatter
     return annotate(dataset, **errors).assign_attrs(
         remarks="; ".join(remarks),
@@ -281,6 +306,9 @@ def annotate(dataset, **errors):
         "C0_reference": (reference, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
         "C0_reference_upper": (reference, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
+    for name in stitching.ORDERS:
+        unit, text = VARIABLE_TEXTS[name]
+        texts[f"{name}_draws"] = unit, f"{text}, of every draw"
     dataset = conventions.annotate(dataset, **texts)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
     if not errors:

@@ -32,6 +32,7 @@ START_TOLERANCE = 1e-4  # of the contact without adhesion, over h_rms
 VARIABLE_TEXTS = {
     "periodisation": "way in which the heights were made periodic",
     "resolution": "grid points per shortest wavelength, at least",
+    "theory_attractive_area": "attractive area by theory on the spectrum of these heights",
     "theory_area_fraction": "contact area by theory on the spectrum of these heights",
     "a_v": "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))",
     "theory_a_v": "a_V by theory on the spectrum of these heights",
@@ -119,15 +120,15 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     areas = [theory.gap_cumulative(ranges, p) for p in pressures]
     scale = 1.5 * block.pressure * block["range"] ** (2 / 3)
     block["a_v"] = block.attractive_area / scale
-    block["theory_a_v"] = xr.DataArray(areas, dims=("pressure", "range")) / scale
+    block["theory_attractive_area"] = ("pressure", "range"), areas
+    block["theory_a_v"] = block.theory_attractive_area / scale
     block["theory_area_fraction"] = "pressure", [theory.area_fraction(p) for p in pressures]
     if material is not None:
         length = material.work_of_adhesion / material.modulus
         # In the units of the scaled heights, pressures over E* q0 h_rms.
         law = Exponential(length / (q0 * h_rms**2), material.range / h_rms)
-        curves = [
-            press_with_adhesion(scaled[::step, ::step], lengths, pressures, law) for step in (2, 1)
-        ]
+        grids = scaled[::2, ::2], scaled
+        curves = [press_with_adhesion(grid, lengths, pressures, law) for grid in grids]
         block = block.merge(xr.concat(curves, "resolution"))
         block["applied_pressure"] = "pressure", pressures * material.modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 from scipy.special import erfinv
 
+from common import conventions
 from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.contact_picture import draw_still
@@ -43,44 +44,44 @@ PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
 PULL_OFF_TOLERANCE = 1e-3
+OPEN, ATTRACTED, TOUCHING = range(3)
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
-CONTACT_TEXTS = {
+TEXTS = {
     "x": ("m", "position along x"),
     "y": ("m", "position along y"),
-    "pressure": ("1", "mean pressure over E* q0 h_rms"),
-    "contact": ("1", "share of a block of two by two points in contact"),
+    "heights": ("m", "heights pressed: periodic, without waves that the grid does not hold"),
+    "contact": "share of a block of two by two points in contact",
     "gap": ("m", "mean gap of a block"),
-    "mean_pressure": ("1", "mean pressure over E*"),
-    "area_fraction": ("1", "contact area over nominal area, edges of contact between pixels"),
-    "area_fraction_discretisation_error": ("1", f"area times {RELATIVE_CHANGE}"),
+    "contact_pressure": "mean pressure of a block over E*",
+    "mean_pressure": "mean pressure over E*",
+    "area_fraction": "contact area over nominal area, edges of contact between pixels",
+    "area_fraction_discretisation_error": f"area times {RELATIVE_CHANGE}",
     "mean_gap": ("m", "mean gap"),
     "mean_gap_discretisation_error": ("m", f"mean gap times {RELATIVE_CHANGE}"),
-    "residual": ("1", "complementarity residual over the rms height"),
-    "h_rms": ("m", "rms height of the heights pressed"),
-    "shortest_wavelength": ("m", "shortest wave of the heights pressed"),
+    "q0": ("1/m", "lowest wave number of the self-affine range of the surface"),
+    "h_rms": ("m", "rms height of the heights simulated"),
+    "rms_slope": "rms gradient of the heights simulated",
+    "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
     "cutoff_wavelength": ("m", "shortest wave that the instrument resolves"),
-    "change": ("1", "rms change that made the heights periodic, over the rms height"),
+    "change": "rms change that made the heights periodic, over the rms height",
+    "mean_traction": ("Pa", "mean tension, negative where the surfaces press"),
+    "separating": "1 on the way back",
+    "contact_area": "area at a gap of zero over nominal area, by pixels",
+    "attracted_area": "area with gaps up to the range over nominal area, by pixels",
+    "zone": "state of a pixel",
+    "jumps": "jumps on the way there and back",
+    "range": ("m", "range of the attraction simulated"),
+    "material_range": ("m", "range of the attraction of the material"),
+    "zone_width": "width of the cohesive zone, range^2/(adhesion length), times q0",
+    "energy_ratio": "work of adhesion over elastic energy of full contact",
+    "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
+    "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
 }
 QUOTED = {
     "approach": "work of approach over the work of adhesion",
     "separation": "work of separation over the work of adhesion",
     "pull_off": "largest mean tension on separation",
-}
-PULL_OFF_TEXTS = {
-    "x": ("m", "position along x"),
-    "y": ("m", "position along y"),
-    "mean_gap": ("m", "mean gap"),
-    "mean_traction": ("Pa", "mean tension, negative where the surfaces press"),
-    "separating": ("1", "1 on the way back"),
-    "contact_area": ("1", "area at a gap of zero over nominal area, by pixels"),
-    "attracted_area": ("1", "area with gaps up to the range over nominal area, by pixels"),
-    "range": ("m", "range of the attraction simulated"),
-    "material_range": ("m", "range of the attraction of the material"),
-    "energy_ratio": ("1", "work of adhesion over elastic energy of full contact"),
-    "shortest_wavelength": ("m", "shortest wave of the heights simulated"),
-    "judged_wavelength": ("m", "shortest wave of the spectrum judged"),
-    "squeeze_pressure": ("Pa", "mean pressure before separation, at least"),
 }
 
 
@@ -103,10 +104,10 @@ def main(job):
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
-    name, title = job.wildcards.real_surface, f"where the heights touch: {asked['label']}"
-    made = {"surface": name, **asked}
-    datasets.write(contact, job.output.contact, title=title, parameters=made)
-    made = {"surface": name, "material": params.material, **entry, "source": asked["source"]}
+    made = {"surface": job.wildcards.real_surface}
+    title = f"where the heights touch: {asked['label']}"
+    datasets.write(contact, job.output.contact, title=title, parameters=made | asked)
+    made |= {"material": params.material, **entry, "source": asked["source"]}
     title = f"pull-off of {entry['label']} from {asked['label']}"
     datasets.write(pull_off, job.output.pull_off, title=title, parameters=made)
     draw_still(contact, pull_off, job.output.figure)
@@ -158,27 +159,30 @@ def press(rough, q0, q_cutoff):
     loads = slope * erfinv(AREAS) / np.sqrt(2)
     rows = []
     for state in solver.load_path(rough.heights, rough.sides, loads, tol=CONTACT_TOLERANCE):
-        fields = {"contact": state.gap == 0, "gap": state.gap}
+        fields = {"contact": state.gap == 0, "gap": state.gap, "contact_pressure": state.pressure}
         blocks = {name: (("x", "y"), np.float32(halve(f))) for name, f in fields.items()}
         rows.append(measure(state, ()).assign(blocks))
         logging.info("load %d: area %.4f", len(rows), state.area_fraction)
     fine = xr.concat(rows, "pressure")
     coarse = load_curve(rough.heights[::2, ::2], rough.sides, loads, (), CONTACT_TOLERANCE)
-    data = fine[["contact", "gap", "area_fraction", "mean_gap", "residual"]]
+    data = fine[[*fields, "area_fraction", "mean_gap", "residual"]]
     for name in ("area_fraction", "mean_gap"):
         error = find_error(fine[name].values, coarse[name].values)
         data[f"{name}_discretisation_error"] = "pressure", error
     data = data.assign(
+        heights=(("x", "y"), np.float32(halve(rough.heights))),
         mean_pressure=("pressure", loads),
+        q0=q0,
         h_rms=h_rms,
+        rms_slope=slope,
         shortest_wavelength=rough.shortest_wavelength,
         cutoff_wavelength=2 * np.pi / q_cutoff,
         change=rough.change,
     )
     data = data.assign_coords(pressure=loads / (q0 * h_rms), **rough.centres(2))
-    for name in ("contact", "gap"):
+    for name in (*fields, "heights"):
         data[name].encoding = {"zlib": True}
-    return datasets.annotate(data.assign_attrs(left_out="", measurement=""), **CONTACT_TEXTS)
+    return conventions.annotate(data.assign_attrs(left_out="", measurement=""), **TEXTS)
 
 
 def halve(field):
@@ -224,17 +228,21 @@ def separate(rough, band, material, law, squeeze):
     except ConvergenceError as error:
         raise LeftOutError(f"the simulation did not converge ({error})") from None
     gaps = np.array([point.state.gap for point in found.points])
-    attracted = (gaps > 0) & (gaps <= law.range)
+    zones = np.select([gaps <= 0, gaps <= law.range], [TOUCHING, ATTRACTED], OPEN).astype("u1")
     dataset = xr.Dataset(
         {
             "mean_gap": ("state", found.gap),
             "mean_traction": ("state", -material.modulus * found.pressure),
             "separating": ("state", found.separating.astype("i1")),
-            "contact_area": ("state", (gaps <= 0).mean(axis=(1, 2))),
-            "attracted_area": ("state", attracted.mean(axis=(1, 2))),
+            "zone": (("state", "x", "y"), zones),
+            "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
+            "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
+            "jumps": found.jumps,
             "range": range_,
             "material_range": material.range,
+            "zone_width": q0 * range_**2 / length,
             "energy_ratio": predicted.energy_ratio,
+            "h_rms": h_rms,
             "shortest_wavelength": rough.shortest_wavelength,
             "judged_wavelength": 2 * np.pi / q1,
             "squeeze_pressure": squeeze * material.modulus,
@@ -242,7 +250,8 @@ def separate(rough, band, material, law, squeeze):
         coords=rough.centres(),
         attrs={"left_out": ""},
     )
-    dataset = datasets.annotate(dataset, **PULL_OFF_TEXTS)
+    dataset.zone.encoding = {"zlib": True}
+    dataset = conventions.annotate(dataset, **TEXTS)
     for name, text in QUOTED.items():
         scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
         for prefix, by, of in (("", "", found), ("predicted_", ", by the model", predicted)):

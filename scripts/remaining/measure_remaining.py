@@ -1,6 +1,7 @@
 """Works of approach and separation of one rough surface, for a list of works of adhesion."""
 
 import logging
+import time
 import warnings
 from itertools import product
 
@@ -23,8 +24,10 @@ QUOTED = {
 }
 OTHERS = {
     "area_at_zero_load": "area at a gap of zero over nominal area, at zero load on approach",
+    "gap_at_zero_load": "mean gap over h_rms at zero load on approach",
     "jumps": "jumps on the way there and back",
     "pixels_in_zone": "width of the cohesive zone in pixels",
+    "fft_pairs": "convolutions",
 }
 COARSE, HALF = "the grid does not resolve the cohesive zone", "half grid too coarse"
 GRID_ERRORS = {
@@ -33,13 +36,14 @@ GRID_ERRORS = {
 VARIABLES = {
     **{name: ("1", text, COARSE) for name, text in (QUOTED | OTHERS).items()},
     **{name: ("1", text, HALF) for name, text in GRID_ERRORS.items()},
-    "area_at_zero_load": ("1", OTHERS["area_at_zero_load"], f"never attracted, or {COARSE}"),
+    **{n: ("1", OTHERS[n], f"never attracted, or {COARSE}") for n in OTHERS if "zero_load" in n},
     "zone": "q0 range^2 over adhesion length",
-    "range_over_h_rms": "range over h_rms",
     "energy": "work of adhesion over elastic energy of full contact of this surface",
-    "range": "range over h_rms",
     "adhesion_length": "adhesion length over q0 h_rms^2",
     "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2",
+    "shell_q": "wave number over q0",
+    "shell_variance": "variance of the heights on a shell over h_rms^2",
+    "seconds": ("s", "processor time"),
 }
 RESOLVED = 2.0  # pixels in the cohesive zone
 FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path is endless
@@ -49,24 +53,33 @@ def main(job):
     made, seed = job.params.surface, int(job.wildcards.seed)
     length = cell_size(made)
     heights = surface.synthesise(model_spectrum(made), made["points"], length, seed)
-    energy = surface.realised_spectrum(heights, length).elastic_energy()
+    spectrum = surface.realised_spectrum(heights, length)
+    energy = spectrum.elastic_energy()
     along, values = "zone", made.get("zones")
     if values is None:
         along, values = "range_over_h_rms", made["ranges"]
     rows = []
     for ratio, value in product(made["energies"], values):
-        adhesion_length = ratio * energy
+        began, adhesion_length = time.process_time(), ratio * energy
         range_ = np.sqrt(value * adhesion_length) if along == "zone" else value
         law = LAWS[job.params.law](adhesion_length, range_)
-        rows.append(measure(heights, length, law, job.params.squeeze))
+        row = measure(heights, length, law, job.params.squeeze)
+        rows.append(row | {"seconds": time.process_time() - began})
         logging.info("w/U %g, %s %g: %s", ratio, along, value, rows[-1])
     dims, shape = ("energy", along), (len(made["energies"]), len(values))
     dataset = xr.Dataset(
-        {key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
+        {
+            **{key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
+            "full_contact_energy": energy,
+            "rms_slope": spectrum.rms_slope,
+            "rms_curvature": spectrum.rms_curvature,
+            "shell_q": ("shell", spectrum.q),
+            "shell_variance": ("shell", spectrum.variance),
+        },
         coords={"energy": made["energies"], along: values},
     )
     datasets.write(
-        annotate(dataset.assign(full_contact_energy=energy), **VARIABLES),
+        annotate(dataset, **VARIABLES),
         job.output[0],
         title="adhesion that remains on one rough surface",
         parameters={**made, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},

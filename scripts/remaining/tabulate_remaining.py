@@ -4,28 +4,37 @@ from pathlib import Path
 
 import pandas as pd
 
+from common.formatting import number, table
 from common.job import start
 from stickiness import datasets
 from stickiness.remaining.prediction import Roughness
 
 QUOTED = ("approach", "separation", "bound", "pull_off")
 SIMULATED = (
-    *(*QUOTED, "area_at_zero_load", "jumps", "pixels_in_zone"),
+    *(*QUOTED, "area_at_zero_load", "gap_at_zero_load", "jumps", "pixels_in_zone"),
     *(f"{name}_grid_error" for name in QUOTED),
 )
 MADE = ("hurst", "magnification", "window", "points", "seed")
+BINS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # of w/U_full, of the table of means
+SUMMARISED = ("approach", "separation", "bound", "predicted", "full_contact")
 COMMENT = """\
 # Adhesion that remains, simulated (target remaining_measured), with predictions beside it. To
 # take a new measurement over, copy it here. approach, separation and bound are over the work of
 # adhesion, lengths over h_rms, wave numbers over q0, stresses over E* q0 h_rms.
 """
+HEAD = """\
+Shares of the work of adhesion, means over simulations by w/U_full: at widths of the cohesive zone
+q0 range^2/l_a up to 0.1, of surfaces of two by two waves and more.
+
+"""
 
 
 def main(job):
     frame = pd.DataFrame([row for path in job.input for row in list_rows(path)])
-    with datasets.whole_file(job.output[0]) as path:
-        text = frame.to_csv(index=False, float_format="%.5g")
-        path.write_text(COMMENT + text, encoding="utf-8")
+    text = COMMENT + frame.to_csv(index=False, float_format="%.5g")
+    for output, content in zip(job.output, (text, HEAD + summarise(frame)), strict=True):
+        with datasets.whole_file(output) as path:
+            path.write_text(content, encoding="utf-8")
 
 
 def list_rows(path):
@@ -55,6 +64,16 @@ def list_rows(path):
             "predicted_pull_off": float(rough.tension(length, range_)),
             "full_contact": max(1 - 1 / ratio, 0.0),
         }
+
+
+def summarise(frame):
+    """Means of simulation and theories by w/U_full, as a table in Markdown."""
+    tough = frame[(frame.zone < 0.11) & (frame.window > 1)]
+    rows = [
+        (number(g.energy_ratio.mean(), 2), len(g), *(f"{g[n].mean():.3f}" for n in SUMMARISED))
+        for _, g in tough.groupby(pd.cut(tough.energy_ratio, BINS), observed=True)
+    ]
+    return table(("w/U_full", "points", *(n.replace("_", " ") for n in SUMMARISED)), rows)
 
 
 if __name__ == "__main__":

@@ -209,6 +209,6 @@ def draw_tension(pull_off):
     plot.add_layout(Span(location=0, dimension="width", line_color="#737373"))
     for name, colour, curve in curves:
         look = {"color": colour, "line_width": 2, "legend_label": name}
-        plot.line("gap", "tension", source=ColumnDataSource(curve.to_dict("list")), **look)
+        plot.line("gap", "tension", source=ColumnDataSource(curve), **look)
     plot.legend.location = "bottom_right"
     return plot

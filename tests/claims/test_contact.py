@@ -11,6 +11,14 @@ from common import conventions
 from common.conventions import LOAD
 
 
+def test_the_longest_range_with_the_exponent_of_edges_is_found():
+    gap = np.arange(1.0, 9.0)
+    values = -1 / 3 + np.array([0.04, 0.2, 0.04, -0.04, 0.0, 0.3, 0.01, 0.3])
+    exponent = xr.DataArray(values, dims="gap", coords={"gap": gap})
+    assert contact.find_third(exponent) == (3.0, 5.0)
+    assert contact.find_third(exponent + 1) == (1.0, 1.0)
+
+
 def test_kappa_is_that_of_the_load_and_not_of_the_fit(files):
     files["kappa_128"] = kappa(128, fall=0.05, level=2.08)
     claim = contact.area_slope(files)

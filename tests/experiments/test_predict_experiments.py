@@ -45,13 +45,14 @@ def dataset(made):
     return datasets.read(made / "x.nc")
 
 
-def test_combinations_are_the_middle_then_each_end():
+def test_combinations_are_the_middle_then_each_end_then_all_corners():
     ends = {"a": np.array([1.0, 4.0]), "b": np.array([7.0]), "c": np.array([0.0, 1000.0])}
     found = experiments.combine_inputs(ends, ("a", "c"))
     # Middles are geometric, but half the high end above zero.
     rows = [(2, 500), (1, 500), (4, 500), (2, 0), (2, 1000)]
-    np.testing.assert_allclose(np.transpose([found["a"], found["c"]]), rows)
-    np.testing.assert_array_equal(found["b"], np.full(5, 7.0))
+    corners = [(1, 0), (1, 1000), (4, 0), (4, 1000)]
+    np.testing.assert_allclose(np.transpose([found["a"], found["c"]]), rows + corners)
+    np.testing.assert_array_equal(found["b"], np.full(9, 7.0))
 
 
 def test_observations_are_read_in_si_units():

@@ -9,6 +9,7 @@ import pandas as pd
 import xarray as xr
 from helpers.experiments import EXPERIMENTS, make_dataset
 
+from adhesion.follow_loop import add_quoted
 from common import conventions
 from common.conventions import LOAD
 from stickiness import criteria, surface
@@ -164,7 +165,7 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
         {name: (dims, np.broadcast_to(value, (2, 2, 2, 122))) for name, value in values.items()},
         coords=dict(zip(dims, coords, strict=True)),
     )
-    return made_by(data, range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
+    return made_by(add_quoted(data), range_over_h_rms=0.1, q0_h_rms=0.1, **case(32))
 
 
 def stickiness_map():

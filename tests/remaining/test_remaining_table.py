@@ -46,7 +46,7 @@ def test_shares_and_work_of_adhesion_of_a_file(measured):
 @pytest.mark.slow
 def test_table_has_every_point_with_its_theories(measured, tmp_path):
     path = tmp_path / "remaining.csv"
-    run(tabulate_remaining, input=[str(measured)], output=[path])
+    run(tabulate_remaining, input=[str(measured)], output=[path, tmp_path / "remaining.md"])
     table = remaining_table.read(path)
     assert len(table) == 2
     assert set(table["set"]) == {measured.parent.name}

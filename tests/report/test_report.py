@@ -290,7 +290,7 @@ def test_the_report_shows_what_is_in_the_files(page):
         # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",
-        "longest wavelength (factor 1.4)",
+        "longest wave (factor 1.4)",
         "the ball was wet",
         "Not found: the color of the ball",
     )

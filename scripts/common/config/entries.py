@@ -1,32 +1,31 @@
 """How scripts read entries of the configuration; without the models, which jobs do not need."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 MOST_POINTS = 2048  #: along a side of the grid that measured heights are pressed on, by default
 
-#: Conditions of an experiment and of its cases, and their units.
+#: Conditions of an experiment and of its cases: unit, and name for readers.
 CONDITIONS = {
-    "radius": "m",
-    "plane_strain_modulus": "Pa",
-    "youngs_modulus": "Pa",
-    "poisson_ratio": None,
-    "work_of_adhesion": "J/m^2",
-    "range": "m",
-    "hurst": None,
-    "longest_wavelength": "m",
-    "rolloff_wavelength": "m",
-    "shortest_wavelength": "m",
-    "h_rms": "m",
+    "radius": ("m", "radius of the sphere"),
+    "plane_strain_modulus": ("Pa", "modulus"),
+    "youngs_modulus": ("Pa", "modulus"),
+    "poisson_ratio": (None, "Poisson's ratio"),
+    "work_of_adhesion": ("J/m^2", "work of adhesion"),
+    "range": ("m", "range of the attraction"),
+    "hurst": (None, "Hurst exponent"),
+    "longest_wavelength": ("m", "longest wave"),
+    "rolloff_wavelength": ("m", "roll-off"),
+    "shortest_wavelength": ("m", "shortest wave"),
+    "h_rms": ("m", "rms height"),
 }
-#: Units of what may be observed; whether a pair sticks has none and is no number.
-OBSERVED_UNITS = {
-    "relative_pull_off": None,
-    "limiting_roughness": "m",
-    "work_of_approach": "J/m^2",
-    "work_of_separation": "J/m^2",
+#: What may be observed: unit, and name for readers. Whether a pair sticks is no number.
+OBSERVED = {
+    "relative_pull_off": (None, "relative pull-off"),
+    "limiting_roughness": ("m", "limiting rms height"),
+    "work_of_approach": ("J/m^2", "work of approach"),
+    "work_of_separation": ("J/m^2", "work of separation"),
+    "sticks": (None, "sticks"),
 }
 
 

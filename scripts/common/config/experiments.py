@@ -1,14 +1,12 @@
 """Models of config/experiments.yaml."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 from typing import Annotated, Any, Generic, Literal
 
 from pydantic import WithJsonSchema, model_validator
 
 from common.config import fields as f
-from common.config.entries import OBSERVED_UNITS, conditions_of
+from common.config.entries import OBSERVED, conditions_of
 from common.config.fields import Section, needed, optional
 from stickiness.criteria.registry import CRITERIA
 
@@ -95,7 +93,7 @@ class Observed(KnownValue[Any]):
 
     # In the unit of the quantity, by which the order is checked.
     between: f.Pair[Any] = optional("what is plausible, [low, high]")
-    quantity: Literal[(*OBSERVED_UNITS, "sticks")] = needed("what was observed")
+    quantity: Literal[tuple(OBSERVED)] = needed("what was observed")
     relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
     level: f.number(gt=0, lt=1) = optional("share left at the limiting roughness; default 0.1")
     silent: f.Several[Literal[tuple(CRITERIA)]] = optional("criteria in whose terms it is stated")
@@ -114,7 +112,7 @@ class Observed(KnownValue[Any]):
         elif self.quantity == "sticks":
             if not isinstance(low, bool) or field == "between":
                 yield f"{field} = {getattr(self, field)!r} must be true or false for 'sticks'"
-        elif (unit := OBSERVED_UNITS[self.quantity]) is not None:
+        elif (unit := OBSERVED[self.quantity][0]) is not None:
             try:
                 low, high = f.Quantity(low, unit), f.Quantity(high, unit)
             except ValueError as error:

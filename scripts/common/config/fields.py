@@ -1,7 +1,5 @@
 """What the models of the configuration are made of: sections, numbers and values with units."""
 
-from __future__ import annotations
-
 import difflib
 import inspect
 import re
@@ -25,6 +23,16 @@ from stickiness.traction_laws import LAWS
 from stickiness.units import si
 
 T = TypeVar("T")
+
+# Keys that are gone, by section, and what to do without them.
+GONE = {
+    "Configuration.tradeoff": "config/campaigns/tradeoff.yaml holds that campaign",
+    "Configuration.remaining": "config/campaigns/remaining.yaml holds that campaign",
+    "Configuration.dmt_error": "the file is always config/dmt_error.csv",
+    "Case.carry_to": "simulate the broad spectrum, or give model: theory",
+    "ReferenceCase.measured": "a_V now comes from the run itself",
+    "Criteria.ranges": "theory on real surfaces is evaluated at fixed ranges",
+}
 
 
 def _complete_schema(schema, section):
@@ -55,12 +63,14 @@ class Section(BaseModel):
         if not isinstance(given, dict):
             return given
         fields = cls.model_fields
-        for key in given if cls.model_config["extra"] == "forbid" else ():
-            if key not in fields:
-                raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
+        for key in [key for key in given if key not in fields]:
+            if remedy := GONE.get(f"{cls.__name__}.{key}"):
+                raise ValueError(f": the key {key!r} is gone: {remedy}")
+            raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():
             if field.is_required() and key not in given:
-                raise ValueError(f": the key {key!r} is missing ({field.description})")
+                meaning = f" ({field.description})" if field.description else ""
+                raise ValueError(f": the key {key!r} is missing{meaning}")
         for group in cls.one_of:
             if sum(given.keys() >= {*choice.split(" and ")} for choice in group) != 1:
                 raise ValueError(f": give exactly one of: {'; '.join(group)}")
@@ -80,7 +90,7 @@ class Section(BaseModel):
 class Quantity(float):
     """A value in SI units, written as it was given: ``'50 um'``."""
 
-    def __new__(cls, text: str, unit: str) -> Quantity:
+    def __new__(cls, text: str, unit: str) -> "Quantity":
         """Read a text; a ValueError says what is wrong with it."""
         value = super().__new__(cls, si(text, unit))
         value.text = text
@@ -155,7 +165,7 @@ def both(first: Any, second: Any) -> Any:
 def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
     """Return the type of a text with a unit, positive and within limits if these are given."""
 
-    def read(given: Any) -> Quantity:
+    def read(given: Any) -> "Quantity":
         value = Quantity(given, unit)
         if not value > 0:
             raise ValueError(f"{given!r} must be positive")

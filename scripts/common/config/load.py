@@ -4,8 +4,6 @@ An error is one line that names file, key and value and says what would be right
 imported where they are used, since jobs read a configuration that was checked before.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -83,7 +81,7 @@ def defaults(project: str | Path, locate: Callable[[str], str] = str) -> dict[st
     """
     config = load(Path(project, PAPER))
     update_config(config, load(Path(project, USER)))
-    return config | {table: str(locate(config[table])) for table in TABLES}
+    return config | {table: str(locate(config[table])) for table in TABLES if table in config}
 
 
 def check_all(
@@ -118,8 +116,6 @@ def check(model: type, content: Mapping[str, Any], file: str, **context: Any) ->
     """Check the content of a file against its model; a ConfigError says what is wrong first."""
     from pydantic import ValidationError
 
-    for key in CAMPAIGNS.keys() & content.keys():
-        raise ConfigError(f"{file}: the key {key!r} is gone: {CAMPAIGNS[key]} holds that campaign")
     try:
         model.model_validate(content, context=context)
     except ValidationError as error:

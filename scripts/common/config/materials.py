@@ -1,7 +1,5 @@
 """Models of config/materials.yaml."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from common.config import fields as f

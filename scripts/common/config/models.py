@@ -1,15 +1,12 @@
 """Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one.
 
-Of the other campaigns, which users do not edit, they check surfaces and what must agree with the
-user's files.
+The models of the other campaigns, which hold what this project measures once, follow them.
 """
 
-from __future__ import annotations
-
 from operator import attrgetter
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from common.config import fields as f
 from common.config.experiments import Experiments
@@ -40,6 +37,7 @@ WITHIN_TABLE = (
 
 AtMost = f.whole(ge=2, le=128)
 Estimator = Literal["multilevel", "plain"]
+EvenNumbers = Annotated[f.Several[f.whole(ge=2, multiple_of=2)], Field(min_length=2)]
 Axis = Annotated[
     f.Values,
     Field(min_length=4),
@@ -362,43 +360,113 @@ class Configuration(Section):
             yield f"criteria.{key}", attrgetter(key)(self.criteria), *limits
 
 
-class Campaign(Section):
-    """Keys of which only some are checked."""
+class PresetErrors(Section):
+    """Errors that the presets may have in full adhesion."""
 
-    model_config = ConfigDict(extra="allow")
+    quantities: f.Several[Literal["inverse_kappa_ad", "threshold", "pull_off"]]
+    accuracy: f.Names[f.Share]
 
 
-class MeasuredSurfaces(Campaign):
-    """Surfaces on which settings are measured."""
+class Presets(Section):
+    """Rule of the presets: the cheapest settings for an error in every quantity."""
 
+    surface: str
+    pressures: f.Loads
+    accuracy: f.Names[f.Share]
+    adhesive: PresetErrors
+
+
+class Settings(Section):
+    """Settings of the solver."""
+
+    tolerances: f.Values
+    at_tolerance: f.Positive
+    at_pixels: f.Pixels
+
+
+class PullOff(Section):
+    """Pull-off during separation under a press."""
+
+    tolerances: f.Values
+    at_tolerance: f.Positive
+    pixels: EvenNumbers
+    points: f.Several[f.Pair[f.Positive]]
+    seeds: f.Count
+    pressure: f.Positive
+    at_balance: f.Positive
+
+
+class FullAdhesion(Settings):
+    """Full adhesion with various settings."""
+
+    surfaces: f.Names[ModelSurface]
+    q0_h_rms: f.Positive
+    law: f.Law
+    pressures: f.Loads
+    points: f.Several[f.Pair[f.Positive]]
+    pixels: EvenNumbers
+    most_points: f.whole(ge=16)
+    seeds: f.Count
+    more_seeds: f.Count
+    pull_off: PullOff
+
+
+class Counts(Section):
+    """Numbers of realisations."""
+
+    fine: f.Count
+    finest: f.Count
+    coarse: f.Count
+    described: f.Count
+
+
+class MeasuredSurfaces(Section):
+    """Surfaces that error models are fitted to."""
+
+    first_seed: f.whole(ge=1)
+    counts: Counts
+    pixels: EvenNumbers
+    pressures: f.Values = optional("loads, if not those of the campaign")
     surfaces: f.Names[ModelSurface]
 
 
-class Tradeoff(Campaign):
+class Validation(MeasuredSurfaces):
+    """Surfaces that the choice of settings is checked on."""
+
+    accuracies: f.Several[f.Share]
+
+
+class Tradeoff(Section):
     """What accuracy costs, as `snakemake tradeoff` measures it, and the rule of the presets."""
 
-    presets: dict[str, Any]
-    adhesion: MeasuredSurfaces
+    presets: Presets
+    settings: Settings
+    pressures: f.Loads
+    adhesion: FullAdhesion
     cases: MeasuredSurfaces
     finer: MeasuredSurfaces
-    validation: MeasuredSurfaces
+    validation: Validation
 
     def _problems(self, context):
         rule, user = self.presets, context["config"]
-        if rule["surface"] not in user["model_surfaces"]:
-            yield f.unknown("presets.surface", rule["surface"], user["model_surfaces"])
-        for name in rule["accuracy"]:
-            for table in (user["fidelities"], rule["adhesive"]["accuracy"]):
+        if rule.surface not in user["model_surfaces"]:
+            yield f.unknown("presets.surface", rule.surface, user["model_surfaces"])
+        for name in rule.accuracy:
+            for table in (user["fidelities"], rule.adhesive.accuracy):
                 if name not in table:
                     yield f.unknown("presets.accuracy", name, table)
 
 
-class RemainingSet(ModelSurface, Campaign):
+class RemainingSet(ModelSurface):
     """A surface on which adhesion is simulated."""
 
     one_of = (("zones", "ranges"),)
 
     points: f.whole(ge=32, multiple_of=2)
+    seeds: f.Several[f.Index]
+    energies: f.Values
+    zones: f.Values = optional("q0 range^2/adhesion_length")
+    ranges: f.Values = optional("ranges over h_rms")
 
     def _problems(self, context):
         yield from super()._problems(context)
@@ -407,9 +475,11 @@ class RemainingSet(ModelSurface, Campaign):
             yield f"points = {self.points} must be at least {least:g}, two per shortest wavelength"
 
 
-class Remaining(Campaign):
+class Remaining(Section):
     """How much adhesion remains, as `snakemake remaining_measured` simulates it."""
 
+    law: f.Law
+    squeeze: f.Positive
     sets: f.Names[RemainingSet]
 
 

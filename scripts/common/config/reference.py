@@ -7,8 +7,6 @@ The second prints a JSON schema of config, materials, surfaces or experiments, b
 check and complete a file.
 """
 
-from __future__ import annotations
-
 import json
 import sys
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Models of config/surfaces.yaml."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Annotated, Literal

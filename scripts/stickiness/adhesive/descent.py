@@ -150,29 +150,20 @@ class _Conjugate:
         return force
 
     def _balance(self, field, points):
-        """Subtract, in place, the mean of a field, without a wall most of it where points give way.
-
-        Spread evenly, the rounding of single precision alone would press stiff points hard.
-        """
+        """Subtract, in place, the mean of a field; without a wall mostly where points give way."""
         if self.problem.wall:
             return balanced(field, points)
+        # Spread evenly, the rounding of single precision alone would press stiff points hard.
         field -= field.sum(dtype=float) / self._give.sum() * self._give
         return field
 
 
 def _step(problem, state, direction, image):
     """State of less energy along a direction, if any, and whether curvature was negative."""
-    # Means over the grid: slope of the energy, curvature by elasticity and by the law where it
-    # softens and hardens, work of the traction.
-    n, curvature = direction.size, direction.astype(float)
-    slope = sum_blocks(np.vdot, direction, state.force) * problem.unit / n
-    stiffness = sum_blocks(np.vdot, direction, image) / n
-    work = sum_blocks(np.vdot, curvature, state.traction) / n
-    curvature *= curvature
-    curvature *= state.slope
-    rising = np.maximum(curvature, 0)
-    hardening = sum_blocks(np.sum, rising) / n
-    softening = sum_blocks(lambda both, up: both.sum() - up.sum(), curvature, rising) / n
+    law, n = problem.law, direction.size
+    slope, *means = _sum_along(direction, image, state)
+    slope = slope * problem.unit / n
+    stiffness, work, softening, hardening = (total / n for total in means)
     if not slope < 0:
         return None, False
     curvature = stiffness + softening + hardening
@@ -181,18 +172,16 @@ def _step(problem, state, direction, image):
         # The potential of the attraction is concave, so that its tangent lies above it.
         curvature = stiffness + hardening
     # Never further than to the first touch and a little beyond, where curvature is no guide.
-    law = problem.law
     reach = max(float(state.gap.min()), 0.0) + (law.range if soft else max(law.range, 1.0))
     longest = reach / largest(direction)
     length = min(-slope / curvature, longest) if curvature > -slope / longest else longest
     slack = 8 * np.finfo(float).eps * abs(state.potential)
-    lowest = problem.lowest(state.gap)
     for _ in range(_MAX_SHORTENINGS):
-        gap = direction.astype(float) * length + state.gap
-        if np.any(gap < lowest):
-            gap, elastic, change = _cut_short(problem, state, gap, lowest)
+        gap = _moved(state.gap, direction, length)
+        if any(np.any(gap[s] < problem.lowest(state.gap[s])) for s in spans(gap.shape)):
+            gap, elastic, change = _cut_short(problem, state, gap)
         else:
-            elastic = image.astype(float) * length + state.elastic
+            elastic = _moved(state.elastic, image, length)
             change = length * slope + length**2 * stiffness / 2 - length * work
         lower = problem.state(gap, elastic)
         change = change + lower.potential - state.potential
@@ -203,8 +192,33 @@ def _step(problem, state, direction, image):
     return None, soft
 
 
-def _cut_short(problem, state, gap, lowest):
+def _sum_along(direction, image, state):
+    """Slope along a direction, stiffness, work of the law, its curvature down and up, summed."""
+    sums = np.zeros(5)
+    for span in spans(direction.shape):
+        part = direction[span]
+        slope, stiffness = np.vdot(part, state.force[span]), np.vdot(part, image[span])
+        curvature = part.astype(float)
+        work = np.vdot(curvature, state.traction[span])
+        curvature *= curvature
+        curvature *= state.slope[span]
+        total, hardening = curvature.sum(), np.maximum(curvature, 0, out=curvature).sum()
+        sums += slope, stiffness, work, total - hardening, hardening
+    return sums.tolist()
+
+
+def _moved(field, direction, length):
+    """Field after a step, in blocks of rows that stay in cache."""
+    out = np.empty_like(field)
+    for span in spans(field.shape):
+        np.multiply(direction[span], length, out=out[span], dtype=float)
+        out[span] += field[span]
+    return out
+
+
+def _cut_short(problem, state, gap):
     """Gap cut short at its bounds, its elastic pressure, change of energy without the law's."""
+    lowest = problem.lowest(state.gap)
     gap = np.maximum(gap, lowest)
     if problem.mean_gap is not None:
         gap = lowered(gap, problem.mean_gap, lowest)

@@ -17,6 +17,7 @@ from stickiness.adhesive.problem import FrozenTraction, balanced, lowered
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.repulsive import solver
 from stickiness.repulsive.active_set import PREDICTION
+from stickiness.repulsive.convolution import COUNT
 from stickiness.repulsive.half_space import coarsen, interpolate, sample
 
 _FEW_ITERATIONS = 8  # iterations below which convergence says little about stability
@@ -29,15 +30,13 @@ _MIN_POINTS_TO_COARSEN = 128  # along the shorter side of a grid
 
 
 def relax(problem, gap, tol, max_iterations, closing=True):
-    """Relax a gap to a stable equilibrium; returns the last `State`, converged or not.
+    """Relax a gap, or load from afar if it is None; returns the last `State`, converged or not.
 
-    A `gap` of None stands for loading from afar; a given one has the mean gap if that is
-    prescribed. `max_iterations` bounds all descents together. An unstable state is left towards
-    contact if `closing`, else away from it.
+    `max_iterations` bounds all descents. An unstable state is left towards contact if `closing`.
     """
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     observe = _observer(problem)
-    spent, state = 0, None
+    spent, state, convolved = 0, None, COUNT.points
     if gap is None:
         fine = min(problem.heights.shape) >= _MIN_POINTS_TO_COARSEN
         if fine and problem.wall and problem.law.smooth and problem.pressure is not None:
@@ -57,6 +56,7 @@ def relax(problem, gap, tol, max_iterations, closing=True):
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
+    state.fft_pairs = (COUNT.points - convolved) / state.gap.size
     return state
 
 
@@ -132,10 +132,9 @@ def _unstable_mode(problem, state):
     softening = np.where(open_points, np.maximum(-state.slope, 0), 0)
     if not softening.any():
         return None
-    x0 = np.cos(2 * np.pi * np.arange(softening.shape[0]) / softening.shape[0])
-    x1 = np.cos(2 * np.pi * np.arange(softening.shape[1]) / softening.shape[1])
+    waves = [np.cos(2 * np.pi * np.arange(n) / n) for n in softening.shape]
     # A prescribed mean gap leaves a uniform load no work to do.
-    load = softening / softening.max() * (1 + 0.1 * (x0[:, None] + x1[None, :]))
+    load = softening / softening.max() * (1 + 0.1 * np.add.outer(*waves))
 
     def constrained(field):
         """Part of a field on open points, without a mean if the mean gap is prescribed."""
@@ -173,11 +172,10 @@ def _left(problem, state, mode, closing):
 
 
 def _from_coarser_grids(problem, tol, max_iterations, observe=None):
-    """State of a smooth law with a wall at a prescribed pressure, by way of coarser grids.
+    """State at a prescribed pressure, from that on a grid half as fine.
 
-    The adhesive state on a grid half as fine is a better start than the contact without adhesion,
-    unless it lies beyond a jump that the fine grid does not make. So the result is None if any
-    descent meets negative curvature, without which there is no jump.
+    None if any descent meets negative curvature: the coarser grid may have jumped where this one
+    does not. Without negative curvature there is no jump.
     """
     shape = problem.heights.shape
     if min(shape) < _MIN_POINTS_TO_COARSEN:
@@ -202,10 +200,7 @@ def _predicted(problem, gap):
 
 
 def _without_adhesion(problem, max_iterations):
-    """Gap without adhesion at the control of a problem: wider than the gap of any adhesive state.
-
-    A descent from it ends on the branch of approach.
-    """
+    """Gap without adhesion, wider than any with it: a descent from it ends on the approach."""
     mean_gap = problem.mean_gap
     if problem.pressure is not None:
         at = problem.heights, problem.sides, problem.pressure, _START_TOLERANCE

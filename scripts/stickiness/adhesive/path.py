@@ -42,9 +42,7 @@ class PathPoint:
     #: "jump-in" or "jump-out" if a jump led here, "pull-off" if the path ends here because any
     #: greater tension tears the surfaces apart.
     event: str | None = None
-    bracket: tuple | None = (
-        None  #: values of the control beside the event, the last before it first
-    )
+    bracket: tuple | None = None  #: values of the control before and after the event
     work: float = 0.0  #: of the control in this step
     #: Work less the gain in energy, which is lost at a jump and the error of integration elsewhere;
     #: infinite at a pull-off, where a dead load falls forever.

@@ -18,13 +18,12 @@ _SHORT = 1.6
 class Smoother:
     """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision.
 
-    The shift is the stiffness of the longest wave, or of the softest wave of a layer: it stands for
-    the grip of what touches on the mean gap, which no elasticity holds. On an even grid this is
-    ``constant + B apply B^T``, where B is the incidence of points and the coarse ones around each.
+    On an even grid ``constant + B apply B^T``, where B gathers from the coarse points around each.
     """
 
     def __init__(self, shape, sides, solid):
         stiffness = half_space.effective_wavenumbers(shape, sides, solid).T / 2
+        # It stands for the grip of what touches on the mean gap, which no elasticity holds.
         self.shift = LONGEST
         if solid != HALF_SPACE and stiffness.any():
             self.shift = float(stiffness[stiffness > 0].min())
@@ -45,10 +44,8 @@ class Smoother:
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
 
     def share_of(self, free):
-        """Shares of free points around the coarse ones; None on an odd grid.
-
-        Beside the wall long waves give way less: coarse points take part by this share.
-        """
+        """Shares of free points around the coarse ones; None on an odd grid."""
+        # Beside the wall long waves give way less: coarse points take part by this share.
         return _gather(free) / np.float32(16) if self.halved else None
 
     def apply(self, field, share=None):

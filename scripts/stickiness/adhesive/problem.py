@@ -47,10 +47,6 @@ class Problem:
         """Approximate inverse of the stiffness."""
         return _kept_smoother(self.heights.shape, self.sides, self.solid)
 
-    def elastic(self, gap):
-        """Pressure of zero mean that deforms the solid to a gap."""
-        return self.exact.stiffness(gap + self.heights)
-
     @property
     def wall(self):
         """Whether gaps end at a hard wall; if not, every point is free."""
@@ -65,24 +61,29 @@ class Problem:
 
         The mean pressure, if not prescribed, is the one that balances the open points in the mean.
         """
-        elastic = self.elastic(gap) if elastic is None else elastic
-        traction, slope, potential = self.law.evaluate(gap)
+        if elastic is None:
+            elastic = self.exact.stiffness(gap + self.heights)
+        traction, slope, potential = self._evaluate(gap)
+        fields = gap.ravel(), elastic.ravel(), traction.ravel()
         pressure = self.pressure
         if pressure is None:
-            total, count, least = _unloaded(
-                gap.ravel(), elastic.ravel(), traction.ravel(), self.wall
-            )
+            total, count, least = _unloaded(*fields, self.wall)
             # In full contact the least pressure that keeps it.
             pressure = -total / count if count else -least
-        reaction = elastic + pressure + traction
-        # A reaction that is not a number makes a point free, and so comes to light.
-        free = (gap > 0) | ~(reaction >= 0) | (not self.wall)
-        return State(
-            *(gap, elastic, traction, slope, free),
-            force=np.where(free, reaction / self.unit, 0.0).astype(np.float32),
-            potential=sum_blocks(np.sum, potential) / gap.size,
-            pressure=pressure,
-        )
+        free, force = np.empty(gap.shape, bool), np.empty(gap.shape, np.float32)
+        _react(*fields, pressure, self.unit, self.wall, free.ravel(), force.ravel())
+        return State(gap, elastic, traction, slope, free, force, potential / gap.size, pressure)
+
+    def _evaluate(self, gap):
+        """Traction and slope of the law on a grid, and the sum of its potential."""
+        if isinstance(self.law, FrozenTraction):
+            work = sum_blocks(lambda stress, open_by: (stress * open_by).sum(), self.law.field, gap)
+            return self.law.field, np.broadcast_to(0.0, gap.shape), work
+        traction, slope, total = np.empty(gap.shape), np.empty(gap.shape), 0.0
+        for span in spans(gap.shape):
+            traction[span], slope[span], potential = self.law.evaluate(gap[span])
+            total += float(potential.sum())
+        return traction, slope, total
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,10 +93,6 @@ class FrozenTraction:
     field: np.ndarray
     range: float  #: of the law it is frozen from
     hard_wall = True
-
-    def evaluate(self, gap):
-        """Traction, its derivative and its potential."""
-        return self.field, np.zeros_like(gap), self.field * gap
 
 
 _kept_smoother = half_space.keep_per_thread(24)(Smoother)
@@ -116,6 +113,7 @@ class State:
     potential: float  #: mean of the law's
     pressure: float  #: mean, prescribed or in balance with the prescribed mean gap
     iterations: int = 0
+    fft_pairs: float = 0.0  #: convolutions, by their share of the points
     last_run: int = 0  #: iterations since a direction of negative curvature was met
     separated: bool = False  #: whether no attraction left can balance the tension
 
@@ -130,11 +128,18 @@ def spans(shape):
 
 
 def sum_blocks(function, *fields):
-    """Sum what a function of fields, say `np.vdot`, gives over blocks of rows.
-
-    Within a block, sums in single precision are good enough.
-    """
+    """Sum, in double precision, what a function of fields, say `np.vdot`, gives over blocks."""
     return sum(float(function(*(f[span] for f in fields))) for span in spans(fields[0].shape))
+
+
+@compiled
+def _react(gap, elastic, traction, pressure, unit, wall, free, force):
+    """Find the points that are free, and the forces on them."""
+    for i in range(gap.size):
+        reaction = elastic[i] + traction[i] + pressure
+        # A reaction that is not a number makes a point free, and so comes to light.
+        free[i] = gap[i] > 0 or not reaction >= 0 or not wall
+        force[i] = reaction / unit if free[i] else 0.0
 
 
 @compiled

@@ -143,10 +143,7 @@ class _Steps:
                 break
 
     def _turn(self):
-        """Turn the direction; returns the weight of the last one, slope and curvature by the law.
-
-        These are slope and curvature of the energy along the new direction.
-        """
+        """Turn the direction; weight of the last one, slope of the energy, curvature by the law."""
         step = self.problem.smoother.apply(self.force.reshape(self.shape), self.share).ravel()
         total, product, last_product, *forces = _sum_over_free(
             step, self.free, self.force, self.last_force
@@ -177,10 +174,8 @@ class _Steps:
         return False
 
     def _within(self, length):
-        """Step, its image, and a factor for both; a step cut short at the wall has a new image.
-
-        Not if the force on what lies behind the wall is small: that is put off.
-        """
+        """Step, its image, and a factor for both; a step cut short at the wall has a new image."""
+        # A small force on what lies behind the wall is put off.
         allowed = max(_CUT_FORCE * self.residual if self.linear else 0.0, self.behind)
         bound = np.float32(-allowed / self.pixel)
         if not _count_deeper(bound, self.direction, length, self.change, self.lowest):
@@ -287,16 +282,13 @@ def _sum_over_free(step, free, force, last_force):
 
 @compiled
 def _turn_direction(direction, weight, step, mean, free, above):
-    """Turn a direction against a step about its mean; its sum, and the count of points above.
-
-    A free point at the wall, or behind it, can only open.
-    """
+    """Turn a direction against a step about its mean; its sum, and the count of points above."""
     total, count = 0.0, 0
     for i in range(direction.size):
         part = weight * direction[i] - (step[i] - mean) if free[i] else _NONE
         if above[i]:
             count += 1
-        elif part < 0:
+        elif part < 0:  # a free point at the wall, or behind it, can only open
             part = _NONE
         direction[i] = part
         total += part
@@ -326,10 +318,7 @@ def _count_deeper(bound, direction, length, change, lowest):
 
 @compiled
 def _cut_at_wall(step, direction, length, change, lowest, above):
-    """Step along a direction that ends at the wall, or where a point behind it lies.
-
-    Fills in the step and the points that end above; returns their count and the sum of the step.
-    """
+    """Step that ends at the wall, or where a point behind it lies; its sum, and points above."""
     total, count = 0.0, 0
     for i in range(step.size):
         least = lowest[i] - change[i]
@@ -388,10 +377,7 @@ def _apply_step_linearly(step, factor, image, change, reaction, free, slope):
 
 @compiled
 def _release_points(reaction, mean, change, lowest, above, free, force, height):
-    """Free points above the wall, or that it would have to pull: forces on them, heights of all.
-
-    Returns the counts of free points and of those that changed.
-    """
+    """Free points above the wall, or that it would have to pull; their number, and of changes."""
     count = changed = 0
     for i in range(reaction.size):
         left = reaction[i] - mean

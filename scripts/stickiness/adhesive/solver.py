@@ -51,10 +51,12 @@ class Adhesion:
     #: the rms pressure that flattens the surface (half its rms gradient times E*) and the strength.
     residual: float
     iterations: int  #: of conjugate gradients
+    fft_pairs: float  #: convolutions, by their share of the points; those of the start included
     branch: str  #: "approach" if reached from wider gaps, "separation" if from closer ones
     control: str  #: "pressure" or "mean_gap"
     law: TractionLaw
     length: tuple  #: sides of the periodic cell
+    rms_height: float  #: about the mean
 
     @property
     def energy(self):
@@ -146,26 +148,27 @@ def solve(
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
         _warn_of_edges(lengths[0] / heights.shape[0], law)
-    gap, branch, spent = None, APPROACH, 0
+    gap, branch, unloaded = None, APPROACH, None
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
     elif start is not None and not isinstance(start, str):
         gap, branch = scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH)
     elif pressure is not None and pressure < 0:
         unloaded = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
-        gap, spent = unloaded.gap, unloaded.iterations
-    return relax_from(scaled, gap, branch, control, (tol, max_iterations), spent)
+        gap = unloaded.gap
+    return relax_from(scaled, gap, branch, control, (tol, max_iterations), unloaded)
 
 
-def relax_from(scaled, gap, branch, control, effort, spent=0):
-    """Find the state that a descent from a gap in scaled units ends in; errors as of `solve`.
+def relax_from(scaled, gap, branch, control, effort, unloaded=None):
+    """State that a descent from a gap in scaled units, or None, ends in; errors as of `solve`.
 
-    None stands for loading from afar. `control` has the pressure or the mean gap by its name.
-    `effort`: tolerance and most iterations; `spent`: iterations that went into the start.
+    `effort`: tolerance and most iterations; `unloaded`: state whose iterations count, too.
     """
     problem, closing = scaled.problem(**control), branch == APPROACH
     state = relax(problem, gap, *effort, closing)
-    state.iterations += spent
+    if unloaded is not None:
+        state.iterations += unloaded.iterations
+        state.fft_pairs += unloaded.fft_pairs
     result = scaled.adhesion(state, branch, control)
     if state.separated:
         raise PullOffError(
@@ -184,7 +187,6 @@ def relax_from(scaled, gap, branch, control, effort, spent=0):
 
 
 def _warn_of_edges(pixel, law):
-    """Warn if the pixels are far too large for the law to act at the edges of contact."""
     ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
     if ratio > _UNRESOLVED_PIXEL:
         warnings.warn(
@@ -199,7 +201,6 @@ def _warn_of_edges(pixel, law):
 
 
 def _check_control(pressure, mean_gap, law):
-    """The prescribed quantity by its name."""
     if (pressure is None) == (mean_gap is None):
         raise ValueError(
             f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
@@ -272,10 +273,7 @@ class Scaled:
         )
 
     def first_gap(self, start, mean_gap=None):
-        """Scaled gap of a state, adjusted to a prescribed mean.
-
-        It is changed in proportion, so that contact stays contact, or rigidly where there is none.
-        """
+        """Scaled gap of a state, adjusted to a prescribed mean."""
         law = self.scaled.law
         lowest = _lowest_gap(law)
         gap = np.asarray(getattr(start, "gap", start), dtype=float) / self.height
@@ -283,7 +281,7 @@ class Scaled:
         if mean_gap is None:
             return gap
         mean, old = mean_gap / self.height, float(gap.mean())
-        if law.hard_wall and old > 0 and gap.min() == 0:
+        if law.hard_wall and old > 0 and gap.min() == 0:  # contact stays contact
             return gap * (mean / old)
         return lowered(gap + max(mean - old, 0.0), mean, lowest)
 
@@ -310,19 +308,18 @@ class Scaled:
             interaction_energy=state.potential * energy,
             residual=state.residual,
             iterations=state.iterations,
+            fft_pairs=state.fft_pairs,
             branch=branch,
             control=next(iter(control)),
             law=self.law,
             length=self.lengths,
+            rms_height=self.rms_height,
         )
 
 
 @compiled
 def _sum_up(gap, elastic, traction, heights, net, pressure, wall, reach):
-    """Fill in the net pressure at every point, and sum up what `Adhesion` has means of.
-
-    Repulsion, attraction, twice the elastic energy; points in contact, compressed, and near.
-    """
+    """Fill in net pressures; sums of both parts, twice the elastic energy, and three areas."""
     repulsion = attraction = energy = 0.0
     touching = compressed = near = 0
     for i in range(gap.size):

@@ -113,20 +113,20 @@ def analyse(
     is_map = isinstance(heights, Topography)
     transform = psd.power_spectrum if is_map else psd.profile_spectrum
     modes = transform(values, *heights.steps, taper=taper)
-    fine, nyquist = radial_average(modes, FINE), modes.q_nyquist
-    spacings = (modes.dqx, modes.dqy) if is_map else (float(modes.q[0]),)
-    narrow = fine if is_map else replace(fine, psd=fine.psd / fine.q)  # proportional to C
+    narrow = fine = radial_average(modes, FINE)
+    nyquist, lowest = modes.q_nyquist, min(modes.steps)
     if not is_map:
+        narrow = replace(fine, psd=fine.psd / fine.q)  # proportional to C
         # Unevenly spaced points resolve no wave shorter than twice their largest gap.
         nyquist = min(nyquist, np.pi / max(heights.largest_gap, heights.dx))
-    lowest, q_min = min(spacings), (LOWEST_MODES if modes.blur else 1) * max(spacings)
+    q_min = (LOWEST_MODES if modes.blur else 1) * max(modes.steps)
     if limits.fit_from is not None:
         q_min = 2 * np.pi / limits.fit_from
     cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
     if is_map:
         fit = fit_rings(narrow, q_min, cutoff.q)
         rings = radial_average(modes, RINGS)
-        area = rings.modes(modes) * modes.dqx * modes.dqy
+        area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
         anisotropy = modes.anisotropy(fit.q_min, fit.q_max)[0]
     else:
         narrow, fit = isotropic(fine, q_min, cutoff.q)

@@ -125,7 +125,8 @@ def shells(heights: ArrayLike, sides: tuple[float, float]) -> Shells:
     heights = np.asarray(heights, dtype=float)
     steps = (side / n for side, n in zip(sides, heights.shape, strict=True))
     plane = power_spectrum(heights, *steps)
-    variance = (plane.psd * plane.multiplicity * plane.dqx * plane.dqy).ravel()[1:]
+    dqx, dqy = plane.steps
+    variance = (plane.psd * plane.multiplicity * dqx * dqy).ravel()[1:]
     q = plane.q.ravel()[1:]
     index = np.rint(np.log10(q / q.min()) * SHELLS).astype(int)
     total = np.bincount(index, weights=variance)

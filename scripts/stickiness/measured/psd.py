@@ -21,49 +21,26 @@ from stickiness.arguments import grid, number
 Taper = Literal["none", "hann", "hann_radial"]
 
 
-@dataclass(frozen=True)
-class _Modes:
+@dataclass(frozen=True, kw_only=True)
+class Modes:
+    """Power spectral density of a line profile, q > 0."""
+
+    q: NDArray  #: ``|q|`` of every mode [1/length]
     psd: NDArray  #: C of every mode [length^4], or C1 [length^3]
     multiplicity: NDArray | float  #: modes, of all signs of q, for which each stands
+    steps: tuple[float, ...]  #: of the lattice, 2 pi over the sides [1/length]
+    q_nyquist: float  #: smallest of all axes [1/length]; circles up to it are complete
     variance: float  #: mean square of the tapered heights over that of the taper [length^2]
     independence: float  #: independent modes per mode: a taper w correlates neighbours
     blur: float  #: half width of the taper's main lobe, in lattice steps; 0 without a taper
 
 
-@dataclass(frozen=True)
-class ProfileSpectrum(_Modes):
-    """One-dimensional power spectral density of a line profile, q > 0."""
-
-    q: NDArray  #: (m,), multiples of 2 pi over the length [1/length]
-    q_nyquist: float  #: pi over the step [1/length]
-
-
-@dataclass(frozen=True)
-class PowerSpectrum(_Modes):
-    """Two-dimensional power spectral density (nx, ny//2 + 1), on the half plane q_y >= 0."""
+@dataclass(frozen=True, kw_only=True)
+class PowerSpectrum(Modes):
+    """Power spectral density of a map (nx, ny//2 + 1), on the half plane q_y >= 0."""
 
     qx: NDArray  #: (nx,), along the first axis [1/length], in the order of the FFT
     qy: NDArray  #: (ny//2 + 1,), along the second axis, not negative
-
-    @property
-    def dqx(self) -> float:
-        """Lattice step along the first axis, 2 pi over the side [1/length]."""
-        return float(self.qx[1])
-
-    @property
-    def dqy(self) -> float:
-        """Lattice step along the second axis [1/length]."""
-        return float(self.qy[1])
-
-    @property
-    def q(self) -> NDArray:
-        """``|q|`` of every mode, shape of `psd` [1/length]."""
-        return np.hypot(self.qx[:, None], self.qy[None, :])
-
-    @property
-    def q_nyquist(self) -> float:
-        """Smaller of the two Nyquist wave numbers [1/length]; circles up to it are complete."""
-        return float(min(np.abs(self.qx).max(), self.qy.max()))
 
     def anisotropy(self, q_min: float, q_max: float) -> tuple[float, float]:
         """Return A (0 to 2) and phi0 [rad] in C ~ 1 + A cos 2(phi - phi0) between two q."""
@@ -84,8 +61,8 @@ class PowerSpectrum(_Modes):
         return float(np.abs(harmonic)), float(np.angle(harmonic) / 2)
 
     def total(self) -> float:
-        """Sum of C over the full plane times dqx dqy: equals `variance` (Parseval) [length^2]."""
-        return float(np.sum(self.psd @ self.multiplicity)) * self.dqx * self.dqy
+        """Sum of C over the full plane times the cell: equals `variance` (Parseval) [length^2]."""
+        return float(np.sum(self.psd @ self.multiplicity)) * self.steps[0] * self.steps[1]
 
 
 @dataclass(frozen=True)
@@ -142,16 +119,19 @@ def power_spectrum(
     multiplicity[0] = 1.0  # columns that hold both members of each conjugate pair
     if ny % 2 == 0:
         multiplicity[-1] = 1.0
-    cell = (2 * np.pi) ** 2 / (nx * dx * ny * dy)
+    qx, qy = 2 * np.pi * fft.fftfreq(nx, dx), 2 * np.pi * fft.rfftfreq(ny, dy)
     return PowerSpectrum(
-        **_transform(heights, w, cell),
+        **_transform(heights, w, cell=(2 * np.pi) ** 2 / (nx * dx * ny * dy)),
         multiplicity=multiplicity,
-        qx=2 * np.pi * fft.fftfreq(nx, dx),
-        qy=2 * np.pi * fft.rfftfreq(ny, dy),
+        q=np.hypot(qx[:, None], qy),
+        q_nyquist=float(min(np.abs(qx).max(), qy.max())),
+        steps=(float(qx[1]), float(qy[1])),
+        qx=qx,
+        qy=qy,
     )
 
 
-def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> ProfileSpectrum:
+def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Modes:
     """One-dimensional power spectral density of levelled heights (n,) along a line."""
     heights = np.asarray(heights, dtype=float)
     if heights.ndim != 1 or len(heights) < 16 or not np.all(np.isfinite(heights)):
@@ -166,7 +146,8 @@ def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Pr
     found = _transform(heights, w, dq)
     found["psd"] = found["psd"][1:]
     q = dq * np.arange(1, len(found["psd"]) + 1)
-    return ProfileSpectrum(**found, multiplicity=2.0, q=q, q_nyquist=float(q[0]) * n / 2)
+    step = float(q[0])
+    return Modes(**found, multiplicity=2.0, q=q, steps=(step,), q_nyquist=step * n / 2)
 
 
 def _transform(heights: NDArray, w: NDArray, cell: float) -> dict:
@@ -186,9 +167,7 @@ def _transform(heights: NDArray, w: NDArray, cell: float) -> dict:
     }
 
 
-def radial_average(
-    spectrum: PowerSpectrum | ProfileSpectrum, bins_per_decade: float = 10
-) -> RadialPSD:
+def radial_average(spectrum: Modes, bins_per_decade: float = 10) -> RadialPSD:
     """Average a spectrum over logarithmic rings of ``|q|``; of a profile, C1 over intervals."""
     bins_per_decade = number("bins_per_decade", bins_per_decade)
     q = spectrum.q

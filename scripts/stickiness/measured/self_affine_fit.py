@@ -10,9 +10,7 @@ scatter of the rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -95,13 +93,13 @@ def fit_rings(
     # ln q about the middle of the data, where exponent and level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
-    parameters, misfit = weighted_fit(fit_power_law, x, rings)
+    parameters, misfit = weighted_fit(x, rings)
     # A plateau may end above four modes, a tenth of a decade below the top.
     room = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
     if rolloff and len(room) < 2:
         raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
     if rolloff is not False and len(room) > 1:
-        bent, bent_misfit = weighted_fit(partial(fit_rolloff, (room[0], room[-1])), x, rings)
+        bent, bent_misfit = weighted_fit(x, rings, (room[0], room[-1]))
         limited = limit_weight(rings, bent_misfit)
         gain = 2 * (deviance(x, limited, *parameters) - deviance(x, limited, *bent)) - 2
         if rolloff or gain > ROLLOFF_AIC:
@@ -140,7 +138,7 @@ def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
     return moments(s)[0] + s * centre, s
 
 
-def fit_rolloff(room, x, rings) -> tuple[float, float, float]:
+def fit_rolloff(x, rings, room) -> tuple[float, float, float]:
     """Maximise the likelihood of ln C = a - s max(x, c), c within `room`: (a, s, c)."""
 
     def cost(c):
@@ -154,16 +152,18 @@ def fit_rolloff(room, x, rings) -> tuple[float, float, float]:
     return *fit_power_law(np.maximum(x, c), rings), c
 
 
-def weighted_fit(fit: Callable, x: NDArray, rings: RadialPSD) -> tuple[tuple[float, ...], float]:
-    """Alternate between fitting with limited weights and the misfit that limits them."""
-    misfit = 0.0
-    parameters = fit(x, rings)
+def weighted_fit(x, rings, room=None) -> tuple[tuple[float, ...], float]:
+    """Alternate between a fit with limited weights, bent within a `room`, and their misfit."""
+
+    def fit(limited):
+        return fit_power_law(x, limited) if room is None else fit_rolloff(x, limited, room)
+
+    parameters, misfit = fit(rings), 0.0
     for _ in range(_ALTERNATIONS):
-        new = rms_misfit(rings, power_law(x, *parameters), len(parameters))
-        if abs(new - misfit) <= 0.01 * new:  # far below the error of the misfit
-            return parameters, new
-        misfit = new
-        parameters = fit(x, limit_weight(rings, misfit))
+        before, misfit = misfit, rms_misfit(rings, power_law(x, *parameters), len(parameters))
+        if abs(misfit - before) <= 0.01 * misfit:  # far below the error of the misfit
+            break
+        parameters = fit(limit_weight(rings, misfit))
     return parameters, misfit
 
 

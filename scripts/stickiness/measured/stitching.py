@@ -32,6 +32,8 @@ class Stitched(MeasuredSpectrum):
     """Several measurements of one surface as one spectrum; `fit` has the scatter in its errors."""
 
     levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
+    #: (k,), mean of ln C less the stitched one where measurements overlap, else NaN
+    offsets: NDArray
     shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
     scatter: float  #: tau, standard deviation of their ln C; NaN if no two overlap
 
@@ -56,6 +58,9 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
         change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
         covariance += np.outer(change, change)
     lowest = min(m.lowest for m in measurements)
+    excess, present = logs - np.nansum(shares * logs, axis=0), np.isfinite(logs)
+    overlaps = present & (present.sum(axis=0) > 1)
+    offsets = [e[o].mean() if o.any() else np.nan for e, o in zip(excess, overlaps, strict=True)]
     return Stitched(
         rings=rings,
         area=ring_areas(rings.q, lowest),
@@ -65,6 +70,7 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
         lowest=lowest,
         anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
         levels=np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof)),
+        offsets=np.array(offsets),
         shares=shares,
         scatter=tau,
     )
@@ -192,17 +198,15 @@ def draw(
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
     law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
     law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
-    moments = {}
+    moments, extrapolated = {}, []
+    if extend_to is not None:
+        ends, laws = [spectrum.cutoff.q, extend_to], zip(np.exp(law[:, 0]), law[:, 1], strict=True)
+        extrapolated = [PowerLawSegments(ends, [c], [-2 * (hurst + 1)]) for c, hurst in laws]
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
         moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
-        if extend_to is not None:
-            ends = [spectrum.cutoff.q, extend_to]
-            laws = (
-                PowerLawSegments(ends, [np.exp(level)], [-2 * (hurst + 1)])
-                for level, hurst in law[:, :2]
-            )
-            moment = moment + [beyond.variance_below(extend_to, order) for beyond in laws]
+        if extrapolated:
+            moment = moment + [beyond.variance_below(extend_to, order) for beyond in extrapolated]
         moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
     return Draws(moments, np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest))

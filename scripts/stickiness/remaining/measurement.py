@@ -51,12 +51,14 @@ class Remaining:
     bound: float  #: largest gain of energy on the path: attraction less elastic energy
     pull_off: float  #: largest mean tension on separation at given mean gaps [E*]
     area_at_zero_load: float  #: share of points in contact on approach; NaN without attraction
+    gap_at_zero_load: float  #: mean gap [length] on approach; NaN without attraction
     #: Width of the cohesive zone, range^2/adhesion_length; below two, points snap one by one.
     pixels_in_zone: float
     jumps: int  #: on the path
     gap: NDArray  #: mean gaps of the curve [length]
     pressure: NDArray  #: mean pressures of the curve [E*]
     separating: NDArray  #: whether a point of the curve is on the way back
+    fft_pairs: float  #: convolutions that it took
     points: tuple[PathPoint, ...]  #: states of the curve with their fields
     approach_limits: tuple[float, float] = (np.nan, np.nan)
     separation_limits: tuple[float, float] = (np.nan, np.nan)
@@ -112,7 +114,7 @@ def measure(
             f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
     settings = {"tol": tol, "solid": check_solid(solid)}
-    found = _follow(heights, length, law, squeeze, settings)
+    found = _follow(heights, length, law, squeeze, settings, 1 / resolution)
     if not half_grid:
         return found
     with warnings.catch_warnings():
@@ -127,7 +129,7 @@ def measure(
     return replace(found, **limits)
 
 
-def _follow(heights, length, law, squeeze, options):
+def _follow(heights, length, law, squeeze, options, pixels_in_zone=np.nan):
     """Approach, squeeze and part once; limits are NaN."""
     first = float(heights.max() - heights.mean()) + REACH * law.range
     sizes = {"balance": BALANCE, "smallest_jump": BALANCE, "steps": STEPS}
@@ -157,18 +159,20 @@ def _follow(heights, length, law, squeeze, options):
         for way, far in zip(ways, (approach[0], separation[-1]), strict=True)
     ]
     energy = min(point.state.energy for point in points)
-    pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
+    area_at_zero_load, gap_at_zero_load = _at_zero_load([point.state for point in approach])
     return Remaining(
         approach=works[0],
         separation=works[1],
         bound=max(-energy, 0.0) / law.adhesion_length,
         pull_off=max(-float(pressure[ways[1]].min()), 0.0),
-        area_at_zero_load=_area_at_zero_load([point.state for point in approach]),
-        pixels_in_zone=1 / edge_zone.resolution(pixel, law.range, law.adhesion_length),
+        area_at_zero_load=area_at_zero_load,
+        gap_at_zero_load=gap_at_zero_load,
+        pixels_in_zone=pixels_in_zone,
         jumps=int(jumped.sum()),
         gap=gap,
         pressure=pressure,
         separating=np.arange(len(points)) >= len(approach),
+        fft_pairs=sum(point.state.fft_pairs for point in points),
         points=points,
     )
 
@@ -185,15 +189,15 @@ def _work(gap, pressure, jumped):
     return float(total)
 
 
-def _area_at_zero_load(states):
-    """Area where tension turns into pressure."""
-    for one, other in reversed(list(pairwise(states))):
-        if one.mean_pressure < 0 <= other.mean_pressure:
-            share = -one.mean_pressure / (other.mean_pressure - one.mean_pressure)
-            area = one.repulsive_area_fraction
-            return float(area + share * (other.repulsive_area_fraction - area))
+def _at_zero_load(states):
+    """Area and mean gap where tension turns into pressure."""
+    ends = np.array([(state.repulsive_area_fraction, state.mean_gap) for state in states])
+    for i in reversed(range(len(states) - 1)):
+        one, other = states[i].mean_pressure, states[i + 1].mean_pressure
+        if one < 0 <= other:
+            return tuple((ends[i] - one / (other - one) * (ends[i + 1] - ends[i])).tolist())
     # Full contact holds tension at a gap of zero, and is the state at zero load too.
-    return states[-1].repulsive_area_fraction if states[-1].mean_pressure < 0 else np.nan
+    return tuple(ends[-1].tolist()) if states[-1].mean_pressure < 0 else (np.nan, np.nan)
 
 
 def _tension_over_gap(gap, pressure):

@@ -61,6 +61,9 @@ class Prediction:
     separation_limits: tuple[float, float]
     pull_off_limits: tuple[float, float]
     energy_ratio: float  #: work of adhesion over the elastic energy of full contact
+    #: Tabor's parameter of the longest waves, (l_a^2/(q0^2 h_rms range^3))^(1/3): the range drops
+    #: out where it is large. On a layer the longest waves see the modulus E*/S instead of E*.
+    tabor: float
     #: Factor on the errors that limits stand for, see `find_anisotropy_error_factor`.
     anisotropy_error_factor: float = 1.0
 
@@ -228,7 +231,7 @@ def predict(
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
-    ratio = length / rough.elastic_energy
+    ratio, softened = length / rough.elastic_energy, length * rough.relative_compliance
     least, pull_off, most = (float(rough.tension(length, range, sign)) for sign in (-1, 0, 1))
     return Prediction(
         approach=share,
@@ -239,5 +242,6 @@ def predict(
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=(least, most),
         energy_ratio=ratio,
+        tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * range**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,
     )

@@ -14,6 +14,8 @@ from scipy.special import erfcx, lambertw, ndtr
 
 from stickiness.arguments import plain, positive
 
+# Fitted to simulations of H = 0.5 to 0.9 and magnifications 4 (predicted over simulated about 0.9)
+# to 64 (1.15), and of zones from 0.05 on. Other forms fit as well, with onsets of 0.36 to 0.51.
 ONSET, ADVANCE = 0.43, 1.3
 SHARPNESS = 8.0  #: of the corner between tough and weak
 # Exponents of the elastic energy of contact without adhesion against the mean gap over h_rms. Over
@@ -30,11 +32,8 @@ _HEIGHTS = np.exp(-((_LEVELS[:, None] - _CLEARANCES) ** 2) / 2) * (_STEP / np.sq
 def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
     """Share that remains where contact is tough (JKR at the long waves).
 
-    The energy gained per area, w times the share S, grows with w by the area of contact of the
-    deepest state at zero load, d(x S)/dx = A. Contact begins at an onset x0, and S must tend to
-    1 - 1/x, what full contact leaves. `tough_area` is the simplest area that does both. The onset
-    was fitted to simulations of H = 0.5 to 0.9 and magnifications 4 (predicted over simulated about
-    0.9) to 64 (1.15).
+    The energy gained per area, w S, grows with w by the area of contact: d(x S)/dx = `tough_area`,
+    the simplest area that begins at the onset and lets S tend to 1 - 1/x, what full contact leaves.
     """
     (x,) = positive(energy_ratio=energy_ratio)
     rest = 1 - np.asarray(onset)
@@ -43,20 +42,13 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 
 
 def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
-    """Area of contact over the nominal one at zero load, where contact is tough.
-
-    An upper estimate: 1.0 to 1.7 times what simulations have at an energy ratio of 1, 1.2 to 2.4
-    times at 0.5, where attraction over gaps stands in for contact.
-    """
+    """Area of contact at zero load, where it is tough: 1.0 to 2.4 times that of simulations."""
     (x,) = positive(energy_ratio=energy_ratio)
     return plain(-np.expm1(-np.maximum(x - onset, 0) / (1 - np.asarray(onset))))
 
 
 def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
-    """Onset of contact for a width of the cohesive zone, which lets attraction reach over gaps.
-
-    Simulations reach z = 0.05; beyond, other forms fit as well, with onsets of 0.36 to 0.51 at 0.
-    """
+    """Onset of contact for a width of the cohesive zone, which lets attraction reach over gaps."""
     (zone,) = positive(zone=zone)
     return plain(onset / (1 + ADVANCE * np.sqrt(zone)))
 
@@ -65,9 +57,8 @@ def weak_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArr
     """Share that remains where attraction acts over the gaps of Gaussian heights.
 
     The largest of ``<exp(-gap/range)> - U(gap)/w`` over the mean gap, as in the bearing area model
-    of Ciavarella (doi:10.1007/s11012-017-0701-6). U, the elastic energy of contact without
-    adhesion, is a law through simulations. Overlap of undeformed heights counts as contact, so that
-    a short range leaves a share as well: 0.4 % at x = 0.3 and 2 % at 0.5, which is too much.
+    of Ciavarella (doi:10.1007/s11012-017-0701-6), where overlap of undeformed heights is contact.
+    U is the elastic energy of contact without adhesion.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     energy = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
@@ -89,12 +80,11 @@ def _mean_attraction(range_ratio: NDArray) -> NDArray:
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
-    """Share that remains on a bed of springs, where each point of the surface is independent.
+    """Share that remains on a bed of springs, as thin compressible layers are to long waves.
 
-    A point whose undeformed surfaces are c apart (all energies over the energy of full contact) is
-    closed, ``c^2 - x``, or open at the gap g that balances the exponential law,
-    ``(c - g)^2 - x exp(-g/e)`` with ``y = (c - g)/e``, ``y exp(-y) = x/(2 e^2) exp(-c/e)``. Thin
-    layers that are compressible or slip are such beds to waves much longer than they are thick.
+    A point whose undeformed surfaces are c apart is closed, ``c^2 - x``, or open at the gap g that
+    balances the exponential law, ``(c - g)^2 - x exp(-g/e)``: y = (c - g)/e solves
+    ``y exp(-y) = x/(2 e^2) exp(-c/e)``.
     """
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     blocks = -(-x.size // _BLOCK)  # arrays that fit the cache
@@ -128,8 +118,7 @@ def remaining_share(
     """Share that remains, from weak to tough: the larger of both, its corner rounded.
 
     `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
-    independent: what springs keep beyond the rest counts by (1 - S)^2, which follows simulations of
-    S = 0.1 to 0.5.
+    independent: springs count by (1 - S)^2, which follows simulations of S = 0.1 to 0.5.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio))

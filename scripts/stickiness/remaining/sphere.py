@@ -18,7 +18,8 @@ from stickiness.arguments import plain, positive
 from stickiness.remaining.prediction import HYSTERESIS, Roughness
 from stickiness.remaining.share import find_onset, tough_area
 
-# Chosen so that the loss measured is within at the energy ratios of 4 to 6 where it was.
+# Elastic energies that a pinned edge costs at most: the loss measured is within at the energy
+# ratios of 4 to 6 where it was.
 PINNING = 6.0
 _LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
 _NOTHING = 1e-200
@@ -44,11 +45,7 @@ def pull_off(
     range: ArrayLike,
     sign: int = 0,
 ) -> SpherePullOff:
-    """Pull-off of a sphere from a rough surface, after a contact that was formed by load.
-
-    Lengths are in one unit, `adhesion_length` is the work of adhesion over E*. `sign` is -1 or +1
-    for the low or high limit. The high one allows for a pinned edge.
-    """
+    """Pull-off after a contact formed by load; `sign` is -1 or +1 for the low or high limit."""
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     work = work_of_separation(rough, length, range, sign)
     held = np.maximum(work, _NOTHING) * length
@@ -64,11 +61,10 @@ def pull_off(
 def work_of_separation(
     rough: Roughness, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0
 ) -> NDArray:
-    """Work of separation of a sphere's edge over the work of adhesion; `sign` as in `pull_off`.
+    """Work of separation of a sphere's edge over the work of adhesion; the high limit is pinned.
 
-    Roughness pins the edge. Dalvi et al. (doi:10.1073/pnas.1913126116) measured what a cycle of
-    contact and removal loses: the work of adhesion times the true area of contact. The high limit
-    is what remains plus that loss, but at most `PINNING` elastic energies more than 1.
+    Dalvi et al. (doi:10.1073/pnas.1913126116) measured what a cycle of contact and removal loses:
+    the work of adhesion times the true area of contact.
     """
     share = np.asarray(rough.share(adhesion_length, range, sign))
     if sign <= 0:
@@ -109,13 +105,11 @@ def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: Array
 def maugis_curve(
     angle: ArrayLike, parameter: float
 ) -> tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike]:
-    """Contact radius, cohesive radius, force and indentation of Maugis' sphere in equilibrium.
+    """Contact radius a, cohesive radius c, force and indentation of Maugis' sphere.
 
-    The angle t = arccos(a/c) between contact radius a and cohesive radius c runs from 0 (large
-    contact) to pi/2 (point contact). The condition that the gap be the range at c is quadratic in c
-    at fixed t, so that nothing needs to be iterated. Radii are in units of r = (3 pi l_a R^2/4)^
-    (1/3), the force of pi l_a R, the indentation of r^2/R. Maugis, J. Colloid Interface Sci. 150,
-    243 (1992), doi:10.1016/0021-9797(92)90285-T.
+    At an angle arccos(a/c), the condition that the gap be the range at c is quadratic in c. Radii
+    are in units of r = (3 pi l_a R^2/4)^(1/3), the force of pi l_a R, the indentation of r^2/R.
+    Maugis, J. Colloid Interface Sci. 150, 243 (1992), doi:10.1016/0021-9797(92)90285-T.
     """
     t = np.asarray(angle, dtype=float)
     first = parameter / 2 * opening(t)

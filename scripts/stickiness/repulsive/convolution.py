@@ -9,6 +9,8 @@ All plans are made with ``FFTW_ESTIMATE``: FFTW then never chooses an algorithm 
 the last bits of a result do not depend on how busy the machine was.
 """
 
+import threading
+
 import numpy as np
 import pyfftw
 
@@ -19,6 +21,15 @@ _ROWS = 64  # rows transformed at a time along axis 1
 _STRIP = 2**12  # numbers transformed at a time along axis 0 on either side of a mirror: 32 kB
 _CACHED = 2**14  # complex numbers transformed at a time along axis 0: 256 kB
 _ALIGNED = 64  # bytes
+
+
+class _Count(threading.local):
+    """Points of all convolutions of this thread so far."""
+
+    points = 0
+
+
+COUNT = _Count()
 
 
 class _Rows:
@@ -65,6 +76,7 @@ class Real(_Rows):
         wanted. Both arrays may be the corner of the grid that holds these rows: `field` is zero
         beyond, and `out` gets no more.
         """
+        COUNT.points += self.shape[0] * self.shape[1]
         modes = self._half.shape[1]
         if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
@@ -127,6 +139,7 @@ class Packed(_Rows):
 
     def apply(self, symbol, field, out, rows_in, rows_out):
         """Convolve, as `Real.apply` does; `field` and `out` must be two arrays."""
+        COUNT.points += self.shape[0] * self.shape[1]
         if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
         plan = self._rows_forward

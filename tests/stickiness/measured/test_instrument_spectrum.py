@@ -25,7 +25,7 @@ def patch(hurst=0.8, seed=1, n=512, q1=250.0):
 def bend(h, dx):
     plane = psd.power_spectrum(h - h.mean(), dx, taper="hann")
     rings = psd.radial_average(plane, bins_per_decade=200)
-    return find_bend(rings, 4 * plane.dqx, plane.q_nyquist)
+    return find_bend(rings, 4 * plane.steps[0], plane.q_nyquist)
 
 
 @pytest.mark.parametrize("hurst", [0.5, 0.8, 0.95])

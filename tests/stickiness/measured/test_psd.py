@@ -23,7 +23,7 @@ def periodic(seed, n=128, hurst=0.8, rolloff=None, amplitudes="gaussian"):
 
 def fit_self_affine(spectrum, q_min=None, q_max=None, rolloff=None):
     """Fit in the interval that `instrument_spectrum.analyse` takes without limits."""
-    lowest = (LOWEST_MODES if spectrum.blur else 1) * max(spectrum.dqx, spectrum.dqy)
+    lowest = (LOWEST_MODES if spectrum.blur else 1) * max(spectrum.steps)
     q_max = NYQUIST_SHARE * spectrum.q_nyquist if q_max is None else q_max
     rings = radial_average(spectrum, FINE)
     return fit_rings(rings, lowest if q_min is None else q_min, q_max, rolloff)
@@ -44,7 +44,7 @@ def test_parseval_and_the_symmetry_of_rings(window, shape):
     heights = np.random.default_rng(1).normal(size=shape)
     spectrum = power_spectrum(heights + 7, 0.3, 0.7, window)
     assert spectrum.total() == pytest.approx(spectrum.variance, rel=1e-12)
-    rings, cell = radial_average(spectrum), spectrum.dqx * spectrum.dqy
+    rings, cell = radial_average(spectrum), np.prod(spectrum.steps)
     modes = rings.modes(spectrum)
     # Every mode but q = 0 lies in one ring; q = 0 holds nothing but rounding.
     assert np.sum(rings.psd * modes) * cell == pytest.approx(spectrum.variance, rel=1e-12)

@@ -33,7 +33,7 @@ def compare(ours, theirs, window="hann_radial"):
     They multiply with their window, unless they take the heights for periodic.
     """
     plane = psd.power_spectrum(ours.heights, ours.dx, ours.dy, window)
-    lowest = min(plane.dqx, plane.dqy)
+    lowest = min(plane.steps)
     count = int(np.log10(plane.q_nyquist / lowest) * PER_DECADE + 0.5)
     edges = lowest * 10 ** ((np.arange(count + 1) - 0.5) / PER_DECADE)
     rings = psd.radial_average(plane, bins_per_decade=PER_DECADE).between(0, edges[-1])

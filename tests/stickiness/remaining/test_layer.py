@@ -66,5 +66,5 @@ def test_thick_layers_are_half_spaces():
     half = predict(ROUGH, 0.5, 0.1)
     assert predict(ROUGH, 0.5, 0.1, solid=HalfSpace()) == half
     thick = predict(ROUGH, 0.5, 0.1, solid=Layer(1e3, 0.5))
-    for name in ("separation", "pull_off", "separation_limits", "energy_ratio"):
+    for name in ("separation", "pull_off", "separation_limits", "tabor", "energy_ratio"):
         assert getattr(thick, name) == pytest.approx(getattr(half, name), rel=1e-9)

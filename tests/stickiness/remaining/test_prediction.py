@@ -36,7 +36,7 @@ def test_units_do_not_matter(unit):
     found = predict(rough(), **TOUGH)
     scaled = rough(q0=1 / unit, q1=1e4 / unit, h_rms=unit)
     again = predict(scaled, adhesion_length=unit, range=1e-3 * unit)
-    for name in ("separation", "pull_off", "approach_limits", "energy_ratio"):
+    for name in ("separation", "pull_off", "approach_limits", "tabor", "energy_ratio"):
         assert getattr(again, name) == pytest.approx(getattr(found, name), rel=1e-9)
 
 

@@ -2,8 +2,9 @@
 
 import pytest
 
-from common.real_spectra import configured_spectrum, real_spectrum
+from criteria.pair_roughness import real_spectrum
 from real_surfaces import analyse_surface
+from real_surfaces.analyse_surface import configured_spectrum
 
 STEEL = {"kind": "self_affine", "hurst": 0.8, "h_rms": ["0.5 um", "1 um"]}
 STEEL |= {"longest_wavelength": "20 um", "shortest_wavelength": "10 nm"}
