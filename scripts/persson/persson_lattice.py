@@ -21,6 +21,12 @@ from stickiness.surface import lattice_spectrum
 WINDOWS = 64  # random ones, whose highest summits are averaged
 LONG_WAVES = 64.0  # wave number over q0 beyond which waves add nothing to the highest summit
 MARGIN = 0.75  # over h_rms, of theory's mean gap below the highest summit
+VARIABLES = {
+    "rms_slope": "rms gradient of the lattice spectrum over q0 h_rms",
+    "highest_summit": "mean height of a window's highest point over h_rms",
+    "margin": "least distance of theory's mean gap from the highest summit",
+    "window_holds": "1 where theory's mean gap is so far below the highest summit",
+}
 
 
 def main(job):
@@ -31,12 +37,15 @@ def main(job):
     parts = [evaluate(theory, pressures, ranges) for theory in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
-    dataset = annotate(dataset, rms_slope="rms gradient of the lattice spectrum over q0 h_rms")
+    if job.params.simulated:
+        summit = highest_summit(surface)
+        holds = dataset.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
+        window = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
+        dataset = dataset.assign(window)
+    dataset = annotate(dataset, **VARIABLES)
     models = read_models(job.input.laws)
     for name in QUADRATURE:
         dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], surface))
-    if job.params.simulated:
-        dataset = add_window(dataset, surface)
     datasets.write(
         add_kappa(dataset, models, surface),
         job.output.theory,
@@ -44,19 +53,6 @@ def main(job):
         parameters={**surface, "case": job.wildcards.compared, "gamma": job.params.gamma},
     )
     write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
-
-
-def add_window(theory, surface):
-    """Add whether the cell has summits enough for theory to be compared with simulation."""
-    summit = highest_summit(surface)
-    holds = theory.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
-    found = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
-    return datasets.annotate(
-        theory.assign(found),
-        highest_summit=("1", "mean height of a window's highest point over h_rms"),
-        margin=("1", "least distance of theory's mean gap from the highest summit"),
-        window_holds=("1", "1 where theory's mean gap is so far below the highest summit"),
-    )
 
 
 def highest_summit(surface):

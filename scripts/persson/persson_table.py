@@ -55,7 +55,7 @@ def tabulate(axes, ranges, gamma):
     """
     rows, limit, edge, robbins = [], [], [], []
     for hurst, magnification in product(axes["hurst"], (*axes["magnification"], INFINITE)):
-        spectrum = self_affine(hurst, magnification)
+        spectrum = model_spectrum({"hurst": hurst, "magnification": magnification})
         named = theories(spectrum, VARIANTS, gamma, NODES)
         if magnification == INFINITE:
             limit.append(a_v_of(named.values(), axes["pressure"], ranges, contact=True))
@@ -93,7 +93,7 @@ def quadrature_error(axes, ranges, gamma):
     ends = [axes["hurst"][[0, -1]], [*axes["magnification"][[0, -1]], INFINITE]]
     pressures, changes = axes["pressure"][[0, -1]], []
     for hurst, magnification in product(*ends):
-        spectrum = self_affine(hurst, magnification)
+        spectrum = model_spectrum({"hurst": hurst, "magnification": magnification})
         both = [Persson(spectrum, VARIANT, gamma, nodes) for nodes in (NODES, REFERENCE_NODES)]
         few, many = a_v_of(both, pressures, ranges)
         changes.append(np.abs(few / many - 1).max())
@@ -112,11 +112,6 @@ def add_budgets(dataset, models):
     parts |= {"bandwidth": BY_THEORY["bandwidth"]}
     unmeasured = unknown_error("another estimate of what edges give")
     return with_budget(dataset, "edge_a_v", **parts, model=unmeasured)
-
-
-def self_affine(hurst, magnification):
-    """Spectrum of a model surface without roll-off."""
-    return model_spectrum({"hurst": hurst, "magnification": magnification})
 
 
 if __name__ == "__main__":

@@ -9,7 +9,8 @@ share) and interpolated at the nodes of P(u) (`GapProfile`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,16 +25,13 @@ _TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in
 _SERIES_ORDER = 16  # Chebyshev points of a panel
 # Widths in ln(y - y_end) of the first panels of the series, and where halving ends.
 _SERIES_PANEL, _LEAST_PANEL = 1.5, 1e-3
-_ANGLES = np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER
-_POINTS = -np.cos(_ANGLES)
+_POINTS = -np.cos(np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER)
 _TO_SERIES = np.polynomial.chebyshev.chebvander(_POINTS, _SERIES_ORDER - 1).T * (2 / _SERIES_ORDER)
 _TO_SERIES[0] /= 2
-# Gauss quadrature, by the least change that a panel sees.
-_RULES = {
-    least: np.polynomial.legendre.leggauss(order)
-    for least, order in {0.3: 10, 0.08: 5, 0.015: 3, 0.0: 2}.items()
-}
-_MANY_PANELS = 100  # with fewer, next to a strong shell, all have the first of these rules
+# Gauss quadrature of panels that see less than each of these changes, or more than all.
+_CHANGES = 0.015, 0.08, 0.3
+_RULES = [np.polynomial.legendre.leggauss(order) for order in (2, 3, 5, 10)]
+_MANY_PANELS = 100  # with fewer, next to a strong shell, all have the last of these rules
 _PANEL = 1.4  # change over a panel, see `_panel_edges`
 _MOST_MOVES = 2000  # panels laid for Gaussians that move by many of their widths
 _LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
@@ -46,7 +44,7 @@ _BLOCK = 10  # gaps that are looked at together
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Setting:
     """A surface as the theory sees it, at no particular load."""
 
@@ -54,39 +52,23 @@ class Setting:
     kernels: Kernels
     scales: ScaleNodes
     m2: float  #: profile variance of the gradient of the whole surface
-    variant: str  #: see `persson.Persson`
     nodes: float  #: multiplies the number of quadrature nodes
-    curves: dict[float, GapCurve] = field(default_factory=dict)  #: by load, whatever the variant
-
-    def curve(self, p: float) -> GapCurve:
-        """u1 at the load `p`, made once."""
-        if p not in self.curves:
-            if len(self.curves) >= 64:
-                self.curves.clear()
-            self.curves[p] = GapCurve.at(self, p)
-        return self.curves[p]
 
 
 @dataclass(frozen=True)
 class LostContact:
-    """Contact lost at the scales where A = erf(y), y = y_end + step: what P(u) is made of."""
+    """Contact lost at the scales where A = erf(y): what P(u) is made of."""
 
     y: NDArray
-    step: NDArray
     m: NDArray
     rest: NDArray  #: M - m
 
     @classmethod
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
-        """At values of ln(y - y_end), in order."""
+        """At values of ln(y - y_end)."""
         step = np.exp(log_step)
-        rest = p**2 * setting.kernels.area_scale_step(y_end, step)
-        y = y_end + step
-        return cls(y, step, p**2 * setting.kernels.area_scale(y), rest)
-
-    def __getitem__(self, part: slice) -> LostContact:
-        """Return a part of the scales."""
-        return LostContact(self.y[part], self.step[part], self.m[part], self.rest[part])
+        y, rest = y_end + step, p**2 * setting.kernels.area_scale_step(y_end, step)
+        return cls(y, p**2 * setting.kernels.area_scale(y), rest)
 
 
 @dataclass(frozen=True)
@@ -96,31 +78,11 @@ class GapCurve:
     Errs by some 1e-7 with the default number of nodes, like the sum over scales itself.
     """
 
+    setting: Setting
     p: float
     y_end: float  #: A = erf(y_end) at the finest resolution
     edges: NDArray  #: (k + 1,), of the panels
     series: NDArray  #: (k, order)
-
-    @classmethod
-    def at(cls, setting: Setting, p: float) -> GapCurve:
-        """Sum u1 on panels halved until the last terms of each series are small."""
-        y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
-        low, high = _visible_range(setting, y_end)
-        tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
-        count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
-        edges = np.linspace(low, high, 1 + count)
-        panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
-        while len(panels):
-            start, end = panels.T
-            series = _series(setting, p, y_end, start, end)
-            ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
-            ready |= end - start < _LEAST_PANEL
-            done += zip(start[ready], series[ready], strict=True)
-            middle = 0.5 * (start + end)
-            halves = np.stack([start, middle, middle, end], axis=1)
-            panels = halves[~ready].reshape(-1, 2)
-        starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
-        return cls(p, y_end, np.array([*starts, high]), np.array(series))
 
     def log_gap(self, log_step: NDArray, lost: LostContact) -> NDArray:
         """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude.
@@ -136,6 +98,29 @@ class GapCurve:
         return lost.y**2 - (self.p / erf(lost.y)) ** 2 / lost.rest + smooth
 
 
+@lru_cache(maxsize=128)
+def gap_curve(setting: Setting, p: float) -> GapCurve:
+    """Sum u1 on panels halved until the last terms of each series are small."""
+    y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
+    low, high = _visible_range(setting, y_end)
+    tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
+    count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
+    edges = np.linspace(low, high, 1 + count)
+    panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
+    while len(panels):
+        start, end = panels.T
+        log_steps = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
+        parts = (LostContact.at(setting, p, y_end, log_step) for log_step in log_steps)
+        series = np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
+        ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
+        ready |= end - start < _LEAST_PANEL
+        done += zip(start[ready], series[ready], strict=True)
+        middle = 0.5 * (start + end)
+        panels = np.stack([start, middle, middle, end], axis=1)[~ready].reshape(-1, 2)
+    starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
+    return GapCurve(setting, p, y_end, np.array([*starts, high]), np.array(series))
+
+
 def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     """Range of ln(y - y_end) over which gaps are not negligible beside all others."""
     high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
@@ -144,37 +129,23 @@ def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     return min(low, high - 1.0), high  # next to full contact all gaps are that small
 
 
-def _series(setting: Setting, p: float, y_end: float, start: NDArray, end: NDArray) -> NDArray:
-    """Chebyshev series, row by row, of the smooth part of ln u1 on panels."""
-    log_step = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
-    lost = LostContact.at(setting, p, y_end, log_step.ravel())
-    parts = (lost[i : i + _SERIES_ORDER] for i in range(0, log_step.size, _SERIES_ORDER))
-    return np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
-
-
 def scaled_gap(setting: Setting, p: float, lost: LostContact) -> NDArray:
     """u1 over exp(y^2 - p(m)^2/(M - m)), by the sum over scales finer than each m."""
-    nodes = setting.scales.beyond(lost.m.min(), lost.m.max())
-    coarse = lost.m < 0.5 * setting.m2
-    s2 = np.empty((len(coarse), len(nodes.weight)))
-    s2[coarse] = nodes.below - lost.m[coarse, None]
-    s2[~coarse] = lost.rest[~coarse, None] - nodes.above
+    below, above, weight = setting.scales.beyond(lost.m.min(), lost.m.max())
+    coarse = lost.m[:, None] < 0.5 * setting.m2
+    s2 = np.where(coarse, below - lost.m[:, None], lost.rest[:, None] - above)
     pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
     finest = pressure2 / lost.rest[:, None]
     # What is not finer ends where the exponential is zero.
     np.maximum(s2, pressure2 / (finest + 740.0), out=s2)
     x2 = pressure2 / s2
-    a = (
-        np.sqrt(np.pi)
-        * p**2
-        * erf(lost.y)
-        / (lost.y**3 * setting.kernels.correction.diffusion(lost.y))
-    )
+    slope = lost.y**3 * setting.kernels.correction.diffusion(lost.y)
+    a = np.sqrt(np.pi) * p**2 * erf(lost.y) / slope
     terms = np.exp(finest - x2)
     terms *= setting.kernels.gap_kernel(x2)
     terms *= s2 * np.exp(-(lost.y**2))[:, None] + 0.5 * a[:, None]
     terms /= np.sqrt(s2)
-    return 2 / np.sqrt(np.pi) * (terms @ nodes.weight)
+    return 2 / np.sqrt(np.pi) * (terms @ weight)
 
 
 @dataclass(frozen=True)
@@ -187,26 +158,26 @@ class GapProfile:
     closed: float  #: share whose gap and width are below exp(-45) of the others', not in `weight`
 
 
-def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
+@lru_cache(maxsize=128)
+def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapProfile:
     """Quadrature of P(u) over the scales where contact is lost, for gaps up to `reach` h_rms.
 
     The variable is ln(y - y_end): logarithmic in M - m at the fine end, where u1 vanishes as
     exp(-p(m)^2/(M - m)), and in y at the coarse one, where it grows as exp(y^2). Panels are
     laid so that no Gaussian is much narrower than one of them.
     """
-    curve = setting.curve(p)
+    curve = gap_curve(setting, p)
     y_end = curve.y_end
-    edges, change, thinned = _panel_edges(setting, curve, reach)
+    edges, change, thinned = _panel_edges(curve, variant, reach)
     if len(change) < _MANY_PANELS * setting.nodes:
         change = np.full(len(change), np.inf)
     log_step, weight = _panel_nodes(edges, change)
-    lost = LostContact.at(setting, p, y_end, log_step)
-    gap = np.exp(curve.log_gap(log_step, lost))
-    width = _width(setting, lost, gap)
+    y, log_gap, width = _gaussians(curve, variant, log_step)
+    gap = np.exp(log_gap)
     if thinned:  # narrower than they are apart they would make a comb of P(u)
         apart = np.where(gap < reach * setting.spectrum.h_rms, np.abs(np.gradient(gap)), 0.0)
         width = np.maximum(width, apart)
-    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(lost.y**2)) * lost.step
+    area_per_log_step = 2 / np.sqrt(np.pi) * np.exp(-(y**2)) * np.exp(log_step)
     # of the two complementary differences the one with more digits
     ends = np.array([y_end, y_end + np.exp(edges[0])])
     closed = float(np.diff(erf(ends))[0] if y_end < 0.5 else -np.diff(erfc(ends))[0])
@@ -215,10 +186,9 @@ def gap_profile(setting: Setting, p: float, reach: float) -> GapProfile:
 
 def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
-    at, weights, left = [], [], np.ones(len(change), dtype=bool)
-    for least, (x, w) in _RULES.items():
-        chosen = left & (change >= least)
-        left &= ~chosen
+    at, weights, kinds = [], [], np.digitize(change, _CHANGES)
+    for kind, (x, w) in enumerate(_RULES):
+        chosen = kinds == kind
         half = 0.5 * np.diff(edges)[chosen, None]
         at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
         weights.append((half * w).ravel())
@@ -227,9 +197,11 @@ def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     return at[order], weights[order]
 
 
-def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
-    """Standard deviation of the Gaussians."""
-    spectrum, m2 = setting.spectrum, setting.m2
+def _gaussians(curve: GapCurve, variant: str, log_step: NDArray) -> tuple[NDArray, ...]:
+    """y, ln u1 and standard deviation of the Gaussians at values of ln(y - y_end)."""
+    spectrum, m2 = curve.setting.spectrum, curve.setting.m2
+    lost = LostContact.at(curve.setting, curve.p, curve.y_end, log_step)
+    log_gap = curve.log_gap(log_step, lost)
     _, variance = spectrum.at_gradient_variance(2 * lost.m)
     # Next to the finest scale the height variance is the difference of nearly equal numbers;
     # there q hardly varies.
@@ -237,21 +209,19 @@ def _width(setting: Setting, lost: LostContact, gap: NDArray) -> NDArray:
     rest = lost.rest[finest]
     q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * rest))
     variance[finest] = 2 * rest / q**2
-    h = np.sqrt(variance)
-    if setting.variant == "almqvist2011":
-        return h
-    return gap * h / np.hypot(gap, h)
+    h, gap = np.sqrt(variance), np.exp(log_gap)
+    return lost.y, log_gap, h if variant == "almqvist2011" else gap * h / np.hypot(gap, h)
 
 
-def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArray, NDArray, bool]:
+def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, NDArray, bool]:
     """Edges of panels in ln(y - y_end), the change over each, and whether they are too few.
 
     A change of 1, some four widths of the Gaussians, needs ten nodes. Next to full contact of a
     broad spectrum the Gaussians are so narrow that they move by more of their widths.
     """
-    p, y_end = curve.p, curve.y_end
+    setting, y_end = curve.setting, curve.y_end
     low, high = _visible_range(setting, y_end)
-    if setting.variant == "almqvist2011":
+    if variant == "almqvist2011":
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
         low = np.log(y_end) - 42.0
     probe = np.linspace(low, high, 300)
@@ -259,33 +229,33 @@ def _panel_edges(setting: Setting, curve: GapCurve, reach: float) -> tuple[NDArr
     number = (probe - low) / _LOOK + (y_end + np.exp(probe)) ** 2 / _LOOK_FAR
     number -= number[0]
     grid = np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
-    breaks, onsets = (x[(x > low) & (x < high)] for x in _breaks(setting, p, y_end))
-    grid = np.union1d(grid, np.append(breaks, onsets))
-    lost = LostContact.at(setting, p, y_end, grid)
-    log_gap = curve.log_gap(grid, lost)
-    gap = np.exp(log_gap)
-    width = np.maximum(_width(setting, lost, gap), 1e-300)
-    seen = np.minimum(gap, reach * setting.spectrum.h_rms)
+    breaks = _breaks(curve)
+    breaks = breaks[(breaks > low) & (breaks < high)]
+    grid = np.union1d(grid, breaks)
+    y, log_gap, width = _gaussians(curve, variant, grid)
+    width = np.maximum(width, 1e-300)
+    seen = np.minimum(np.exp(log_gap), reach * setting.spectrum.h_rms)
     centre = 0.5 * (width[1:] + width[:-1])
     change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
     moves = 0.3 * np.abs(np.diff(seen)) / centre
     most = _MOST_MOVES * _PANEL
     thinned = bool(moves.sum() > most)
-    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(lost.y**2)
+    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(y**2)
     change += 0.2 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
     total = np.append(0.0, np.cumsum(change))
     count = int(np.ceil(total[-1] * setting.nodes / _PANEL))
     even = np.interp(np.linspace(0, total[-1], count + 1), total, grid)
-    edges = np.union1d(even, np.append(breaks, onsets))
+    edges = np.union1d(even, breaks)
     return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL, thinned
 
 
-def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]:
+def _breaks(curve: GapCurve) -> NDArray:
     """Values of ln(y - y_end) where q(m) is not smooth, the strongest of those that matter.
 
     And, where q jumps, values next to it: on the coarse side of a shell its part in u1 vanishes
     as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
     """
+    setting, p, y_end = curve.setting, curve.p, curve.y_end
     spectrum = setting.spectrum
     if spectrum.is_discrete:
         most, q, jump = _MOST_SHELLS, spectrum.q[:-1], np.diff(np.log(spectrum.q))
@@ -302,8 +272,8 @@ def _breaks(setting: Setting, p: float, y_end: float) -> tuple[NDArray, NDArray]
     finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
     depth = np.concatenate([depth, finer * _SHARES[:, None]])
     before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
-    near = setting.kernels.invert_area_scale(before / p**2)
-    return np.log(y[chosen] - y_end), np.log(near[near > y_end] - y_end)
+    found = np.append(y[chosen], setting.kernels.invert_area_scale(before / p**2))
+    return np.log(found[found > y_end] - y_end)
 
 
 def over_blocks(function: Callable, u: NDArray, profile: GapProfile) -> NDArray:

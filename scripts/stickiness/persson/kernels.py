@@ -86,19 +86,19 @@ class Xu2024(Correction):
     energies. It takes gamma = 0.45 for areas and pressures and 0.42 for energies.
     """
 
-    def _parts(self, y: NDArray) -> tuple[NDArray, NDArray]:
-        """Return g and dg/dy."""
+    def _parts(self, y: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+        """Return g, dg/dy and g + (y/2) dg/dy."""
         lacking = 1 - self.gamma
+        g = self.gamma + lacking * erf(y)
         slope = lacking * 2 / np.sqrt(np.pi) * np.exp(-(y**2))
-        return self.gamma + lacking * erf(y), slope
+        return g, slope, g + 0.5 * y * slope
 
     def diffusion(self, y: NDArray) -> NDArray:
-        g, slope = self._parts(y)
-        return g**2 / (g + 0.5 * y * slope)
+        g, _, below = self._parts(y)
+        return g**2 / below
 
     def energy(self, y: NDArray) -> NDArray:
-        g, slope = self._parts(y)
-        below = g + 0.5 * y * slope
+        g, slope, below = self._parts(y)
         # 2 below - g (3/2 - y^2), without the terms that cancel
         change = (0.5 + y**2) * g + y * slope
         return g**2 / below + erf(y) * (1 - self.gamma) * g * change / below**2
@@ -129,7 +129,8 @@ class EvenTable:
     """
 
     def __init__(self, x: NDArray, value: NDArray, slope: NDArray):
-        self.x, self._last, self._step = x, len(x) - 2, (x[-1] - x[0]) / (len(x) - 1)
+        self._first, self._last = x[0], len(x) - 2
+        self._step = (x[-1] - x[0]) / (len(x) - 1)
         start, rise, per_step = value[:-1], np.diff(value), slope * self._step
         first, last = per_step[:-1], per_step[1:]
         # Factors of the powers 3 to 0 of the distance in steps, a row for each step.
@@ -138,7 +139,7 @@ class EvenTable:
 
     def __call__(self, x: NDArray) -> NDArray:
         """Return the values at `x`."""
-        distance = (x - self.x[0]) / self._step
+        distance = (x - self._first) / self._step
         place = np.minimum(np.maximum(distance, 0.0).astype(np.intp), self._last)
         distance = distance - place
         rows = self._rows.take(place, axis=0)
@@ -160,8 +161,7 @@ class Kernels:
     def area_scale(self, y: ArrayLike) -> NDArray:
         """T(y) = 2 int_y^inf dt / (t^3 diffusion(t)), which is 1/y^2 without a correction."""
         log_y = np.log(np.asarray(y, dtype=float))
-        low, high = np.log(_Y_LOW), np.log(_Y_HIGH)
-        inside = np.minimum(np.maximum(log_y, low), high)
+        inside = np.clip(log_y, np.log(_Y_LOW), np.log(_Y_HIGH))
         return np.exp(self._log_t(inside) - 2 * (log_y - inside))
 
     def area_scale_step(self, y: ArrayLike, step: ArrayLike) -> NDArray:
@@ -201,10 +201,8 @@ class Kernels:
 
     def _evaluate(self, table: EvenTable, x2: ArrayLike) -> NDArray:
         log_x = 0.5 * np.log(np.asarray(x2, dtype=float))
-        inside = np.minimum(np.maximum(log_x, np.log(_X_LOW)), np.log(_X_HIGH))
-        below = np.minimum(log_x - inside, 0.0)
-        below *= self.correction.gamma
-        return table(inside) - below
+        inside = np.clip(log_x, np.log(_X_LOW), np.log(_X_HIGH))
+        return table(inside) - np.minimum(log_x - inside, 0.0) * self.correction.gamma
 
 
 @lru_cache(maxsize=128)
@@ -213,51 +211,42 @@ def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008")
     return Kernels(correction_of(correction, gamma))
 
 
-def _panels(log_x: NDArray) -> tuple[NDArray, NDArray]:
-    """Gauss-Legendre nodes and weights, `(panels, 8)`, between consecutive logarithms."""
+def _panels(low: float, high: float) -> tuple[NDArray, NDArray, NDArray]:
+    """Even logarithms, and Gauss-Legendre nodes and weights, `(panels, 8)`, between them."""
+    log_x = np.linspace(np.log(low), np.log(high), 1 + int(np.log(high / low) / _STEP))
     half = 0.5 * np.diff(log_x)[:, None]
-    return log_x[:-1, None] + half * (1 + _NODES), half * _WEIGHTS
+    return log_x, log_x[:-1, None] + half * (1 + _NODES), half * _WEIGHTS
 
 
-def _from_the_right(integrals: NDArray, start: float) -> NDArray:
+def _from_the_right(terms: NDArray, start: float = 0.0) -> NDArray:
     """Sum of the panels' integrals to the right of every edge, plus `start`."""
-    return start + np.append(np.cumsum(integrals[::-1])[::-1], 0.0)
-
-
-def _grid(low: float, high: float) -> NDArray:
-    return np.linspace(np.log(low), np.log(high), 1 + int(np.log(high / low) / _STEP))
+    return start + np.append(np.cumsum(np.sum(terms, axis=1)[::-1])[::-1], 0.0)
 
 
 def _area_table(correction: Correction) -> EvenTable:
     """Ln T against ln y."""
-    log_y = _grid(_Y_LOW, _Y_HIGH)
-    t, weights = _panels(log_y)
-    t = np.exp(t)
-    integrals = np.sum(weights * 2 / (t**2 * correction.diffusion(t)), axis=1)
-    value = _from_the_right(integrals, _Y_HIGH**-2.0)
-    y = np.exp(log_y)
+    log_y, log_t, weights = _panels(_Y_LOW, _Y_HIGH)
+    y, t = np.exp(log_y), np.exp(log_t)
+    value = _from_the_right(weights * 2 / (t**2 * correction.diffusion(t)), _Y_HIGH**-2.0)
     slope = -2 / (y**2 * correction.diffusion(y) * value)
     return EvenTable(log_y, np.log(value), slope)
 
 
 def _gap_table(correction: Correction) -> EvenTable:
     """exp(x^2) F(x) against ln x."""
-    log_x = _grid(_X_LOW, _X_START)
-    t, weights = _panels(log_x)
-    t = np.exp(t)
+    log_x, log_t, weights = _panels(_X_LOW, _X_START)
+    x, t = np.exp(log_x), np.exp(log_t)
     # The gamma in K alone gives gamma E1(x^2)/2.
     rest = (correction.energy(t) - correction.gamma) * np.exp(-(t**2))
-    x = np.exp(log_x)
-    value = 0.5 * correction.gamma * exp1(x**2)
-    value += _from_the_right(np.sum(weights * rest, axis=1), 0.0)
+    value = 0.5 * correction.gamma * exp1(x**2) + _from_the_right(weights * rest)
     value *= np.exp(x**2)
     return EvenTable(log_x, value, 2 * x**2 * value - correction.energy(x))
 
 
 def _mean_table(gap: EvenTable) -> EvenTable:
     """exp(x^2) kappa(x) against ln x, by integrating F."""
-    t, weights = _panels(gap.x)
-    x = np.exp(gap.x)
-    value = _from_the_right(np.sum(weights * gap(t) * np.exp(-np.exp(2 * t) - t), axis=1), 0.0)
+    log_x, log_t, weights = _panels(_X_LOW, _X_START)
+    x = np.exp(log_x)
+    value = _from_the_right(weights * gap(log_t) * np.exp(-np.exp(2 * log_t) - log_t))
     value *= x * np.exp(x**2)
-    return EvenTable(gap.x, value, value * (1 + 2 * x**2) - gap(gap.x))
+    return EvenTable(log_x, value, value * (1 + 2 * x**2) - gap(log_x))

@@ -13,12 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.persson.kernels import Kernels
-from stickiness.persson.scale_quadrature import scale_edges
+from stickiness.persson.scale_quadrature import scale_edges, split_panels
 from stickiness.solids import Layer
 from stickiness.spectrum.interface import Spectrum
 
 _ORDER = 8  # of Gauss quadrature on panels
-_FINE, _MOST_PARTS = 0.1, 20  # parts of panels, in ln m
 
 
 class LayeredScales:
@@ -52,34 +51,24 @@ class LayeredScales:
     def _slope_weight(self, q: NDArray) -> NDArray:
         return (q / self.solid.factor(q)) ** 2
 
+    def _growth_per_log_q(self, log_q: NDArray) -> NDArray:
+        q = np.exp(log_q)
+        return np.pi * q**2 * self.spectrum.psd(q) * self._slope_weight(q)
+
     def _gauss_nodes(self, nodes: float) -> tuple[NDArray, NDArray, NDArray]:
         """Wave numbers, m there, and what m grows by with the weight of each."""
-        edges = self.spectrum.q0 * np.exp(scale_edges(self.spectrum))
-        edges[-1] = self.spectrum.q1
-        # so close that ln m grows by little between them
-        m = np.array([self.variance_below(q) for q in edges])
-        growth = np.log(m[1:]) - np.log(np.maximum(m[:-1], 1e-300))
-        parts = np.clip(np.ceil(growth / (_FINE / nodes)), 1, _MOST_PARTS).astype(int)
-        start = np.concatenate([[0], np.cumsum(parts)])
-        edges = np.exp(np.interp(np.arange(start[-1] + 1), start, np.log(edges)))
+        edges = np.log(self.spectrum.q0) + scale_edges(self.spectrum)
+        m = np.array([self.variance_below(q) for q in np.exp(edges)])
+        edges, _ = split_panels(edges, m)
         x, w = np.polynomial.legendre.leggauss(max(2, round(_ORDER * nodes)))
-        start, half = np.log(edges[:-1, None]), 0.5 * np.diff(np.log(edges))[:, None]
-        q = np.exp(start + half * (1 + x))
-        growth = half * w * np.pi * q**2 * self.spectrum.psd(q) * self._slope_weight(q)
-        before = np.concatenate([[0.0], np.cumsum(growth.sum(axis=1))[:-1]])
-        # up to a node: the integral of the interpolating polynomial
-        within = growth / w @ _partial_weights(x).T
+        share, w = 0.5 * (1 + x), 0.5 * w
+        start, width = edges[:-1, None], np.diff(edges)[:, None]
+        to_node = width * share
+        growth = width * w * self._growth_per_log_q(start + to_node)
+        before = np.append(0.0, np.cumsum(growth.sum(axis=1))[:-1])[:, None]
+        parts = start[..., None] + to_node[..., None] * share
+        m = before + to_node * (self._growth_per_log_q(parts) @ w)
         # The first panel, of relative width 1e-8 at most: F(p/s) changes there at small loads.
         shell = self.spectrum.q0, growth[0].sum(), 0.0
-        rest = q[1:], before[1:, None] + within[1:], growth[1:]
-        return tuple(np.append(one, all_else) for one, all_else in zip(shell, rest, strict=True))
-
-
-def _partial_weights(x: NDArray) -> NDArray:
-    """Weights, row by row, of the integral of a polynomial from -1 to each of the nodes."""
-    legendre = np.polynomial.legendre
-    values = legendre.legvander(x, len(x) - 1)
-    integrals = np.stack(
-        [legendre.legval(x, legendre.legint(unit, lbnd=-1)) for unit in np.eye(len(x))], axis=1
-    )
-    return integrals @ np.linalg.inv(values)
+        rest = np.exp(start + to_node)[1:], m[1:], growth[1:]
+        return tuple(np.append(one, others) for one, others in zip(shell, rest, strict=True))

@@ -14,7 +14,6 @@ All terms are positive, and C(q), which shells do not have, drops out. T, F, kap
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import replace
 from typing import Literal, get_args
 
 import numpy as np
@@ -65,14 +64,8 @@ class Persson:
         `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
     solid : solids.HalfSpace or solids.Layer, optional
         Elastic solid, a half-space by default. On a layer the area, the mean gap and the pressure
-        at a mean gap are known, the distribution of gaps is not: see `layered_scales`.
-
-    Raises
-    ------
-    ValueError
-        If an argument is out of range.
-    NotImplementedError
-        From what needs the distribution of gaps, on a layer.
+        at a mean gap are known, the distribution of gaps is not (NotImplementedError): see
+        `layered_scales`.
 
     Notes
     -----
@@ -110,9 +103,7 @@ class Persson:
             m2 = self._layered.variance_below(spectrum.q1)
         else:
             m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
-        scales = scale_nodes(spectrum, nodes)
-        self._setting = gaps.Setting(spectrum, universal, scales, m2, variant, nodes)
-        self._profiles: dict[tuple[float, float], gaps.GapProfile] = {}
+        self._setting = gaps.Setting(spectrum, universal, scale_nodes(spectrum, nodes), m2, nodes)
 
     def with_variant(self, variant: Variant) -> Persson:
         """Return the same theory with another width of the Gaussians.
@@ -121,8 +112,7 @@ class Persson:
         """
         _check_variant(variant)
         other = copy(self)
-        other.variant, other._profiles = variant, {}
-        other._setting = replace(self._setting, variant=variant)
+        other.variant = variant
         return other
 
     def area_fraction(self, p: ArrayLike) -> NDArray:
@@ -143,11 +133,11 @@ class Persson:
         (p,) = positive(p=p)
         if self._layered is not None:
             return self._layered.mean_gap(p, self._setting.kernels)
-        nodes = self._setting.scales.fine
-        s = np.sqrt(nodes.below)
+        below, _, weight = self._setting.scales.fine
+        s = np.sqrt(below)
         x2 = (p[..., None] / s) ** 2
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
-        return 2 / np.sqrt(np.pi) * np.sum(nodes.weight * kernel, axis=-1)
+        return 2 / np.sqrt(np.pi) * np.sum(weight * kernel, axis=-1)
 
     def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
         """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].
@@ -207,18 +197,14 @@ class Persson:
             )
         (p,) = positive(p=p)
         (u,) = nonnegative(u=u)
-        finite = u[np.isfinite(u)]
-        largest = float(np.max(finite, initial=0.0)) / self.spectrum.h_rms
+        largest = float(np.max(u[np.isfinite(u)], initial=0.0)) / self.spectrum.h_rms
         # In powers of two, so that profiles are shared between calls.
         doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
         reach = min(_REACH * 2**doublings, _FARTHEST)
         rows = []
         for load in map(float, p.ravel()):
-            if (load, reach) not in self._profiles:
-                if len(self._profiles) >= 64:
-                    self._profiles.clear()
-                self._profiles[load, reach] = gaps.gap_profile(self._setting, load, reach)
-            rows.append(gaps.over_blocks(function, u.ravel(), self._profiles[load, reach]))
+            profile = gaps.gap_profile(self._setting, self.variant, load, reach)
+            rows.append(gaps.over_blocks(function, u.ravel(), profile))
         return np.reshape(rows, p.shape + u.shape)[()]
 
 

@@ -4,13 +4,6 @@
 - `moduli`: moduli that depend on the rate
 """
 
-from stickiness.solids.layers import (
-    HALF_SPACE,
-    Film,
-    HalfSpace,
-    Layer,
-    Solid,
-    check_solid,
-)
+from stickiness.solids.layers import HALF_SPACE, Film, HalfSpace, Layer, Solid, check_solid
 
 __all__ = ["HALF_SPACE", "Film", "HalfSpace", "Layer", "Solid", "check_solid"]

@@ -98,11 +98,6 @@ class Layer(_Compliant):
     backing : {"bonded", "slip"} or Film
         Bonded to a rigid base, free to slip on it without friction, or bonded to a film that bends.
 
-    Raises
-    ------
-    ValueError
-        If an argument is out of range.
-
     Examples
     --------
     >>> rubber = Layer(thickness=1.0, poisson=0.5)

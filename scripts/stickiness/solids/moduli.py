@@ -7,7 +7,6 @@ takes it into account. Moduli in Pa, frequencies in Hz, times in s.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -85,9 +84,7 @@ class Table:
 Modulus = Constant | Prony | Table
 
 
-def crossings(
-    modulus: Modulus, threshold: float, frequencies: NDArray
-) -> Sequence[tuple[float, bool]]:
+def crossings(modulus: Modulus, threshold: float, frequencies: NDArray) -> list[tuple[float, bool]]:
     """Frequencies at which the storage modulus passes a threshold [Pa], in ascending order.
 
     Crossings are looked for between neighbours of the increasing `frequencies`, those of a table

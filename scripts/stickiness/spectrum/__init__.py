@@ -1,21 +1,6 @@
 """Spectra of random rough surfaces and their moments."""
 
 from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import (
-    PowerLawSegments,
-    SelfAffine,
-    Shells,
-    Sum,
-    Tabulated,
-    combine,
-)
+from stickiness.spectrum.kinds import PowerLawSegments, SelfAffine, Shells, Sum, Tabulated, combine
 
-__all__ = [
-    "PowerLawSegments",
-    "SelfAffine",
-    "Shells",
-    "Spectrum",
-    "Sum",
-    "Tabulated",
-    "combine",
-]
+__all__ = ["PowerLawSegments", "SelfAffine", "Shells", "Spectrum", "Sum", "Tabulated", "combine"]

@@ -1,4 +1,4 @@
-"""Power laws of the wave number, and surfaces with a direction: power laws of an elliptic norm.
+"""Surfaces with a direction: power laws of an elliptic norm of the wave vector.
 
 C(q) = C(Q), where Q^2 = a k^2 + s^2/a, k and s being the components of q along the long correlation
 length and across it, a the ratio of the correlation lengths. On an ellipse of constant Q the
@@ -16,91 +16,21 @@ from scipy.optimize import brentq, elementwise
 
 from stickiness.arguments import finite, nonnegative, number
 
-ROUNDING = 1e-12  #: q within this relative distance of the band's end still belongs to it
 MOST = 1e4  #: ratios up to which averages were checked
 _ALIKE = 1e-4  # ratios nearer to 1 change no average by more than 1e-8
 _NODES = 64  # of averages over whole ellipses
 _PIECE = 32  # nodes of those over the part of an ellipse between two knots
 _CELLS = 56  # power laws for each knot
-_CELL_NODES = 16
+# Nodes and weights on 0 to 1, of a cell, for functions that are like a square root at both ends.
+_TURN, _GAUSS = np.polynomial.legendre.leggauss(16)
+_TURN = 0.5 * np.pi * (1 + _TURN)
+_SHARE, _WEIGHT = 0.5 * (1 - np.cos(_TURN)), 0.25 * np.pi * np.sin(_TURN) * _GAUSS
 _CLOSEST = 1e-10  # ends of cells in ln q
 # Angles of the amplitude of cos 2 phi, and the ratio beyond which it hardly changes.
 _ANGLES, _LARGEST_FOUND = 2000, 20.0
 _STEEPEST = 60.0  # change of ln(q^2 C) over a cell
 
-
-@dataclass(frozen=True, eq=False)
-class PowerLaws:
-    """C = C_i (q/q_i)^a_i between the knots q_i and q_(i+1); zero beyond the first and the last.
-
-    All integrals are summed from the end where the terms are small, so that spectra of ten decades
-    lose no digits to cancellation.
-    """
-
-    knots: NDArray  #: (m + 1,), increasing wave numbers
-    level: NDArray  #: (m,), C at the left end of each segment
-    exponent: NDArray  #: (m,), a of each segment
-
-    @property
-    def ends(self) -> tuple[float, float]:
-        """First and last knot."""
-        return float(self.knots[0]), float(self.knots[-1])
-
-    def psd(self, q: ArrayLike) -> NDArray:
-        """C(q); zero outside the band."""
-        (q,) = nonnegative(q=q)
-        low, high = self.ends
-        inside = (q >= low * (1 - ROUNDING)) & (q <= high * (1 + ROUNDING))
-        i = self._segment(q)
-        ratio = np.where(inside, q, self.knots[i]) / self.knots[i]
-        return np.where(inside, self.level[i] * ratio ** self.exponent[i], 0.0)
-
-    def below(self, q: ArrayLike, power: float) -> NDArray:
-        """2 pi * integral of q'^(1 + power) C from the first knot to `q`."""
-        q = np.clip(*nonnegative(q=q), *self.ends)
-        i = self._segment(q)
-        return self._below_knots(power)[i] + self._integral(i, self.knots[i], q, power)
-
-    def above(self, q: ArrayLike, power: float) -> NDArray:
-        """2 pi * integral of q'^(1 + power) C from `q` to the last knot."""
-        q = np.clip(*nonnegative(q=q), *self.ends)
-        i = self._segment(q)
-        after = np.append(np.cumsum(self._whole_segments(power)[::-1])[::-1], 0.0)
-        return after[i + 1] + self._integral(i, q, self.knots[i + 1], power)
-
-    def invert_gradient(self, variance: ArrayLike) -> NDArray:
-        """Wave number at which ``below(q, 2)`` is `variance`."""
-        (variance,) = nonnegative(variance=variance)
-        before = self._below_knots(2)
-        i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(self.level) - 1)
-        beta = self.exponent[i] + 4
-        level = 2 * np.pi * self.level[i] * self.knots[i] ** 4
-        q = self.knots[i] * np.exp(_log1p_over(beta, (variance - before[i]) / level))
-        return np.clip(q, *self.ends)
-
-    def truncated(self, end: float) -> PowerLaws:
-        """Return the same power laws up to `end`."""
-        keep = self.knots[:-1] < end
-        knots = np.append(self.knots[:-1][keep], end)
-        return PowerLaws(knots, self.level[keep], self.exponent[keep])
-
-    def _segment(self, q: NDArray) -> NDArray:
-        index = np.searchsorted(self.knots, q, side="right") - 1
-        return np.clip(index, 0, len(self.level) - 1)
-
-    def _integral(self, i: NDArray, a: NDArray, b: NDArray, power: float) -> NDArray:
-        """2 pi * integral of q^(1 + power) C from a to b, both in segment i."""
-        beta = self.exponent[i] + 2 + power
-        from_knot = np.log(a / self.knots[i])
-        level = self.level[i] * self.knots[i] ** (2 + power)
-        return 2 * np.pi * level * np.exp(beta * from_knot) * _expm1_over(beta, np.log(b / a))
-
-    def _below_knots(self, power: float) -> NDArray:
-        return np.append(0.0, np.cumsum(self._whole_segments(power)))
-
-    def _whole_segments(self, power: float) -> NDArray:
-        i = np.arange(len(self.level))
-        return self._integral(i, self.knots[:-1], self.knots[1:], power)
+PowerLaws = tuple[NDArray, NDArray, NDArray]  #: knots, levels and exponents, see `kinds`
 
 
 @dataclass(frozen=True)
@@ -129,6 +59,11 @@ class Ellipse:
         return self.ratio == 1
 
     @property
+    def is_nearly_circle(self) -> bool:
+        """Whether averages over directions leave power laws as they are."""
+        return self.ratio - 1 < _ALIKE
+
+    @property
     def reach(self) -> float:
         """Largest ``|q|`` on an ellipse over its norm; the smallest is the inverse of it."""
         return float(np.sqrt(self.ratio))
@@ -151,22 +86,21 @@ class Ellipse:
 
     def mean_psd(self, laws: PowerLaws, q: ArrayLike) -> NDArray:
         """C averaged over directions at wave numbers `q`, exactly."""
-        if self._is_nearly_circle:
-            return laws.psd(q)
+        knots, level, exponent = laws
         (q,) = nonnegative(q=q)
-        low, high = laws.ends
+        low, high = knots[[0, -1]]
         # Beyond the band as just beyond it: nothing is infinite there.
         within = np.clip(q.reshape(-1, 1), 0.5 * low / self.reach, 2 * high * self.reach)
-        log_ratio = np.log(within / laws.knots)
+        log_ratio = np.log(within / knots)
         # Where the ellipses of the knots pass this wave number.
         at_knot = np.arccos(np.clip(-log_ratio / self._log_reach, -1, 1))
         x, weight = np.polynomial.legendre.leggauss(_PIECE)
         half = 0.5 * (at_knot[:, :-1] - at_knot[:, 1:])[..., None]
         w = at_knot[:, 1:, None] + half * (1 + x)
         log_g = -self._log_reach * np.cos(w)
-        log_law = laws.exponent[:, None] * (log_ratio[:, :-1, None] - log_g) - 2 * log_g
+        log_law = exponent[:, None] * (log_ratio[:, :-1, None] - log_g) - 2 * log_g
         terms = self._fill(w) * np.exp(log_law)
-        mean = 2 / np.pi * np.sum((half * terms) @ weight * laws.level, axis=-1)
+        mean = 2 / np.pi * np.sum((half * terms) @ weight * level, axis=-1)
         return mean.reshape(q.shape)
 
     def average(self, laws: PowerLaws) -> PowerLaws:
@@ -175,30 +109,25 @@ class Ellipse:
         Height and gradient variance between any two of their knots are exact. The energy of full
         contact errs by less than 1e-8 up to a ratio of 8, by 1e-7 at 100 and 1e-6 at 1e4.
         """
-        if self._is_nearly_circle:
+        if self.is_nearly_circle:
             return laws
         around = -self._log_reach * np.cos(np.linspace(0, np.pi, _CELLS + 1))
-        edges = np.unique(np.add.outer(np.log(laws.knots), around))
+        edges = np.unique(np.add.outer(np.log(laws[0]), around))
         edges = edges[np.append(True, np.diff(edges) > _CLOSEST)]
         width, start = np.diff(edges), np.exp(edges[:-1])
-        share, weight = _cell_quadrature()
-        at = width[:, None] * share
+        at = width[:, None] * _SHARE
         density = np.exp(2 * at) * self.mean_psd(laws, start[:, None] * np.exp(at))
-        empty = density @ weight == 0  # between the bands of a spectrum that has a gap
+        empty = density @ _WEIGHT == 0  # between the bands of a spectrum that has a gap
         density[empty] = 1.0
         high = np.expm1(2 * at) / np.expm1(2 * width)[:, None]
-        centre = (density * high) @ weight / (density @ weight)
+        centre = (density * high) @ _WEIGHT / (density @ _WEIGHT)
         slope = _find_slopes(centre, width) / width
-        level = (density @ weight) / (np.exp(slope[:, None] * at) @ weight)
-        return PowerLaws(np.exp(edges), np.where(empty, 0.0, level), slope - 2)
+        level = (density @ _WEIGHT) / (np.exp(slope[:, None] * at) @ _WEIGHT)
+        return np.exp(edges), np.where(empty, 0.0, level), slope - 2
 
     @property
     def _log_reach(self) -> float:
         return float(np.log(self.ratio)) / 2
-
-    @property
-    def _is_nearly_circle(self) -> bool:
-        return self.ratio - 1 < _ALIKE
 
     def _fill(self, w: NDArray) -> NDArray:
         """dt/dw, its mean over w from 0 to pi being a half."""
@@ -206,7 +135,7 @@ class Ellipse:
         s2, c2 = np.sin(w / 2) ** 2, np.cos(w / 2) ** 2
         low, high = 4 * length * s2, 4 * length * c2
         # Each of the roots vanishes with the sine of one end.
-        ends = _expm1_over(low, 1.0) * _expm1_over(-high, 1.0)
+        ends = expm1_over(low, 1.0) * expm1_over(-high, 1.0)
         return 0.5 * np.exp(-2 * length * np.cos(w)) / np.sqrt(ends)
 
 
@@ -233,32 +162,18 @@ def find_ratio(amplitude: float, hurst: float) -> float:
     return float(np.exp(brentq(excess, 0, np.log(_LARGEST_FOUND))))
 
 
-def _expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
+def expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
     """Integral of exp(beta t) from 0 to x, that is expm1(beta x)/beta, regular at beta = 0."""
     safe = np.where(beta == 0, 1.0, beta)
     return np.where(beta == 0, x, np.expm1(safe * x) / safe)
 
 
-def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
-    """Inverse of `_expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
-    safe = np.where(beta == 0, 1.0, beta)
-    return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)
-
-
-def _cell_quadrature() -> tuple[NDArray, NDArray]:
-    """Nodes and weights on 0 to 1 for functions that are like a square root at both ends."""
-    x, weight = np.polynomial.legendre.leggauss(_CELL_NODES)
-    turn = 0.5 * np.pi * (1 + x)
-    return 0.5 * (1 - np.cos(turn)), 0.25 * np.pi * np.sin(turn) * weight
-
-
 def _find_slopes(centre: NDArray, width: NDArray) -> NDArray:
     """Change over each cell of ln(q^2 C) that puts the gradient's centre where it is."""
-    share, weight = _cell_quadrature()
 
     def excess(slope, centre, width):
-        density = np.exp(slope[..., None] * (share - 0.5)) * weight
-        high = np.expm1(2 * width[..., None] * share) / np.expm1(2 * width[..., None])
+        density = np.exp(slope[..., None] * (_SHARE - 0.5)) * _WEIGHT
+        high = np.expm1(2 * width[..., None] * _SHARE) / np.expm1(2 * width[..., None])
         return np.sum(density * high, axis=-1) / np.sum(density, axis=-1) - centre
 
     ends = np.full_like(centre, -_STEEPEST), np.full_like(centre, _STEEPEST)

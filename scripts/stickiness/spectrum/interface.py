@@ -16,14 +16,16 @@ from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import elementwise
 
-from stickiness.arguments import number
+from stickiness.arguments import nonnegative, number
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.spectrum.direction import CIRCLE, Ellipse
 
 # Gauss quadrature on panels in ln q. What layers make of a wave has its nearest singularity
 # about one unit of ln q off the real axis: such panels err by less than 1e-13.
 _ORDER, _WIDEST = 12, 0.7
+_PRECISION = 4e-16  # of ln q, where a gradient variance is inverted
 _MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
 LATTICE_ROUNDING = 1e-9  #: relative slack on band limits that coincide with lattice wave numbers
 
@@ -76,17 +78,33 @@ class Spectrum(ABC):
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         """Return 2 pi * integral from `q` to q1 of q'^(1 + power) C(q') dq'."""
 
-    @abstractmethod
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
         """Invert `variance_below(q, 2)`: q, and the height variance of all wave numbers beyond.
 
         Within a shell of a discrete spectrum, where q stands still, both variances grow in
         proportion.
         """
+        (variance,) = nonnegative(variance=variance)
+        ends = np.log(self.band)
+        target = np.clip(variance, *self.variance_below(np.exp(ends), 2))
+
+        def excess(log_q: NDArray, target: NDArray) -> NDArray:
+            return self.variance_below(np.exp(log_q), 2) - target
+
+        tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
+        found = elementwise.find_root(excess, tuple(ends), args=(target,), tolerances=tolerances)
+        q = np.clip(np.exp(found.x), *self.band)
+        return q, self.variance_above(q)
+
+    def truncated(self, q1: float) -> Spectrum:
+        """Return the same spectrum cut at the high wave number (or norm) q0 < `q1` <= `self.q1`."""
+        if not self.q0 < number("q1", q1) <= self.q1:
+            band = f"({self.q0!r}, {self.q1!r}]"
+            raise ValueError(f"truncated: q1 must lie in (q0, q1] = {band}, got {q1!r}")
+        return self._cut(q1)
 
     @abstractmethod
-    def truncated(self, q1: float) -> Spectrum:
-        """Return the same spectrum cut at the high wave number `q1`."""
+    def _cut(self, q1: float) -> Spectrum: ...
 
     @property
     def knots(self) -> NDArray:
@@ -182,10 +200,8 @@ class Spectrum(ABC):
                 "of its unit; otherwise lower q1 or length"
             )
         i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
-        half = (i > 0) | (j > 0)
-        i, j = i[half], j[half]
-        band = self.modes_in_band(i, j, dq)
-        i, j = i[band], j[band]
+        kept = ((i > 0) | (j > 0)) & self.modes_in_band(i, j, dq)
+        i, j = i[kept], j[kept]
         rank = i**2 + j**2
         if not self.ellipse.is_circle:  # equal norms have equal ranks
             rank = np.round(np.log(self.ellipse.norm(i, j)), 10)
@@ -213,11 +229,3 @@ def check_spectrum(spectrum: Spectrum) -> Spectrum:
     if not isinstance(spectrum, Spectrum):
         raise ValueError(f"spectrum must be a Spectrum, got {type(spectrum).__name__}")
     return spectrum
-
-
-def check_cut(spectrum: Spectrum, q1: float) -> None:
-    """Raise a ValueError unless `spectrum` can be truncated at `q1`."""
-    if not spectrum.q0 < number("q1", q1) <= spectrum.q1:
-        raise ValueError(
-            f"truncated: q1 must lie in (q0, q1] = ({spectrum.q0!r}, {spectrum.q1!r}], got {q1!r}"
-        )

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import copy
-from functools import cached_property, reduce
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative, number
-from stickiness.spectrum.direction import CIRCLE, ROUNDING, Ellipse, PowerLaws
-from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_cut
+from stickiness.spectrum.direction import CIRCLE, Ellipse, expm1_over
+from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum
 
+_ROUNDING = 1e-12  # q within this relative distance of the band's end still belongs to it
 _ALIKE = 1e-9  # shells or knots that much apart, relatively, are one
-_STEPS = 64  # of the table in ln q that inversion of a sum starts from, besides the knots
-_PRECISION = 4e-16  # of ln q
 
 
 class PowerLawSegments(Spectrum):
@@ -36,51 +34,90 @@ class PowerLawSegments(Spectrum):
         self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
     ):
         laws = (np.asarray(values, dtype=float) for values in (knots, level, exponent))
-        self.ellipse, self._laws = ellipse, PowerLaws(*laws)
-        self.q0, self.q1 = self._laws.ends
-
-    @cached_property
-    def _mean(self) -> PowerLaws:
-        """The power laws averaged over directions."""
-        return self._laws if self.isotropic else self.ellipse.average(self._laws)
+        self._knots, self._level, self._exponent = self._laws = tuple(laws)
+        self.ellipse, self.q0, self.q1 = ellipse, float(self._knots[0]), float(self._knots[-1])
 
     @property
     def knots(self) -> NDArray:
         """Wave numbers, both ends included, between which C is one power law each."""
-        return self._laws.knots.copy()
+        return self._knots.copy()
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C(q) [length^4], averaged over directions; zero outside the band."""
+        if self.ellipse.is_nearly_circle:
+            return self.psd_of_norm(q)
         return self.ellipse.mean_psd(self._laws, q)
 
     def psd_of_norm(self, norm: ArrayLike) -> NDArray:
-        return self._laws.psd(norm)
+        (q,) = nonnegative(q=norm)
+        inside = (q >= self.q0 * (1 - _ROUNDING)) & (q <= self.q1 * (1 + _ROUNDING))
+        i = self._segment(q)
+        ratio = np.where(inside, q, self._knots[i]) / self._knots[i]
+        return np.where(inside, self._level[i] * ratio ** self._exponent[i], 0.0)
 
     def averaged(self) -> PowerLawSegments:
-        if self.isotropic:
-            return self
-        return PowerLawSegments(self._mean.knots, self._mean.level, self._mean.exponent)
+        return self if self.isotropic else self._mean
 
     def total_variance(self, power: float = 0) -> float:
-        return float(self._laws.below(self.q1, power)) * self.ellipse.mean_stretch(power)
+        return float(self._below_knots(power)[-1]) * self.ellipse.mean_stretch(power)
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
-        return self._mean.below(q, power)
+        mean = self.averaged()
+        q = np.clip(*nonnegative(q=q), mean.q0, mean.q1)
+        i = mean._segment(q)
+        return mean._below_knots(power)[i] + mean._integral(i, mean._knots[i], q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
-        return self._mean.above(q, power)
+        mean = self.averaged()
+        q = np.clip(*nonnegative(q=q), mean.q0, mean.q1)
+        i = mean._segment(q)
+        after = np.append(np.cumsum(mean._whole_segments(power)[::-1])[::-1], 0.0)
+        return after[i + 1] + mean._integral(i, q, mean._knots[i + 1], power)
 
     def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        q = self._mean.invert_gradient(variance)
+        (variance,) = nonnegative(variance=variance)
+        mean = self.averaged()
+        before = mean._below_knots(2)
+        i = np.clip(np.searchsorted(before, variance, side="right") - 1, 0, len(mean._level) - 1)
+        beta = mean._exponent[i] + 4
+        level = 2 * np.pi * mean._level[i] * mean._knots[i] ** 4
+        log_ratio = _log1p_over(beta, (variance - before[i]) / level)
+        q = np.clip(mean._knots[i] * np.exp(log_ratio), mean.q0, mean.q1)
         return q, self.variance_above(q)
 
-    def truncated(self, q1: float) -> PowerLawSegments:
-        """Return the same spectrum cut at `q1` (q0 < q1 <= the present end) of the norm."""
-        check_cut(self, q1)
-        cut = copy(self)
+    @cached_property
+    def _mean(self) -> PowerLawSegments:
+        """The spectrum averaged over directions."""
+        return PowerLawSegments(*self.ellipse.average(self._laws))
+
+    def _cut(self, q1: float) -> PowerLawSegments:
+        cut, keep = copy(self), self._knots[:-1] < q1
+        knots = np.append(self._knots[:-1][keep], q1)
+        PowerLawSegments.__init__(cut, knots, self._level[keep], self._exponent[keep], self.ellipse)
         vars(cut).pop("_mean", None)
-        cut._laws, cut.q1, cut.prescribed = self._laws.truncated(q1), float(q1), "C"
+        cut.prescribed = "C"
         return cut
+
+    # Integrals are summed from the end where the terms are small, so that spectra of ten decades
+    # lose no digits to cancellation.
+
+    def _segment(self, q: NDArray) -> NDArray:
+        index = np.searchsorted(self._knots, q, side="right") - 1
+        return np.clip(index, 0, len(self._level) - 1)
+
+    def _integral(self, i: NDArray, a: NDArray, b: NDArray, power: float) -> NDArray:
+        """2 pi * integral of q^(1 + power) C from a to b, both in segment i."""
+        beta = self._exponent[i] + 2 + power
+        from_knot = np.log(a / self._knots[i])
+        level = self._level[i] * self._knots[i] ** (2 + power)
+        return 2 * np.pi * level * np.exp(beta * from_knot) * expm1_over(beta, np.log(b / a))
+
+    def _whole_segments(self, power: float) -> NDArray:
+        i = np.arange(len(self._level))
+        return self._integral(i, self._knots[:-1], self._knots[1:], power)
+
+    def _below_knots(self, power: float) -> NDArray:
+        return np.append(0.0, np.cumsum(self._whole_segments(power)))
 
 
 class SelfAffine(PowerLawSegments):
@@ -93,7 +130,7 @@ class SelfAffine(PowerLawSegments):
     q0, q1 : float
         Lowest and highest wave number [1/length].
     h_rms : float, optional
-        Root mean square height [length] of the continuous spectrum. Give this or `C0`.
+        Root mean square height [length] of the continuous spectrum. Give either this or `C0`.
     C0 : float, optional
         Prefactor [length^(2 - 2H)].
     q_rolloff : float, optional
@@ -102,11 +139,6 @@ class SelfAffine(PowerLawSegments):
         Ratio of the correlation lengths, long over short, from 1 to 1e4.
     angle : float
         Direction of the long correlation length from x [rad].
-
-    Raises
-    ------
-    ValueError
-        If a parameter is out of range or both or none of `h_rms` and `C0` are given.
 
     Notes
     -----
@@ -138,7 +170,13 @@ class SelfAffine(PowerLawSegments):
         anisotropy: float = 1.0,
         angle: float = 0.0,
     ):
-        _check_band(hurst, q0, q1, q_rolloff)
+        number("hurst", hurst, most=1)
+        number("q0", q0)
+        if not number("q1", q1) > q0:
+            raise ValueError(f"q1 must be finite and above q0 = {q0!r}, got {q1!r}")
+        if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
+            band = f"q0 = {q0!r} and q1 = {q1!r}"
+            raise ValueError(f"q_rolloff must lie between {band}, got {q_rolloff!r}")
         self.ellipse = Ellipse(anisotropy, angle)
         if (h_rms is None) == (C0 is None):
             raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
@@ -220,14 +258,11 @@ class Shells(Spectrum):
         if len(self.q) == 1:
             raise ValueError("a single shell is a delta function: it has no density")
         middle = (self.q[1:] + self.q[:-1]) / 2
-        edges = np.concatenate(
-            [[self.q0 - (middle[0] - self.q0)], middle, [2 * self.q1 - middle[-1]]]
-        )
+        first, last = self.q0 - (middle[0] - self.q0), 2 * self.q1 - middle[-1]
+        edges = np.concatenate([[first], middle, [last]])
         density = self.variance / (np.pi * np.diff(edges**2))
         (q,) = nonnegative(q=q)
-        i = np.searchsorted(edges, q, side="right") - 1
-        inside = (i >= 0) & (i < len(density))
-        return np.where(inside, density[np.clip(i, 0, len(density) - 1)], 0.0)
+        return np.pad(density, 1)[np.searchsorted(edges, q, side="right")]
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         """See `Spectrum.variance_below`; a shell at `q` itself counts as below."""
@@ -248,10 +283,8 @@ class Shells(Spectrum):
         rest = np.maximum(gradient[i] - variance, 0.0) / self.q[i] ** 2
         return self.q[i], self.variance_above(self.q[i]) + rest
 
-    def truncated(self, q1: float) -> Shells:
-        """Return the shells up to and including `q1`."""
-        check_cut(self, q1)
-        keep = self.q <= q1 * (1 + ROUNDING)
+    def _cut(self, q1: float) -> Shells:
+        keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
@@ -330,30 +363,7 @@ class Sum(Spectrum):
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         return sum(part.variance_above(q, power) for part in self.parts)
 
-    def at_gradient_variance(self, variance: ArrayLike) -> tuple[NDArray, NDArray]:
-        (variance,) = nonnegative(variance=variance)
-        low, high = np.log(self.band)
-        table = np.union1d(np.log(self.averaged().knots), np.linspace(low, high, _STEPS))
-        known = self.variance_below(np.exp(table), 2)
-        i = np.clip(np.searchsorted(known, variance, side="right") - 1, 0, len(table) - 2)
-        # Rounding aside, each lies between its two of the table.
-        target = np.clip(variance, known[i], known[i + 1])
-
-        def excess(log_q, target):
-            return self.variance_below(np.exp(log_q), 2) - target
-
-        tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
-        found = elementwise.find_root(
-            excess, (table[i], table[i + 1]), args=(target,), tolerances=tolerances
-        )
-        # Bands that do not meet leave a range of q without waves.
-        log_q = np.where(known[i] == known[i + 1], table[i], found.x)
-        q = np.clip(np.exp(log_q), *self.band)
-        return q, self.variance_above(q)
-
-    def truncated(self, q1: float) -> Spectrum:
-        """Return the sum of the same spectra cut at `q1`, each of its norm."""
-        check_cut(self, q1)
+    def _cut(self, q1: float) -> Spectrum:
         kept = [part for part in self.parts if part.q0 < q1]
         cut = [part.truncated(q1) if part.q1 > q1 else part for part in kept]
         return Sum(*cut) if len(cut) > 1 else cut[0]
@@ -396,7 +406,11 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
             )
     shells = [one.is_discrete for one in spectra]
     if all(shells):
-        return reduce(_merge_shells, spectra)
+        q = np.concatenate([one.q for one in spectra])
+        order = np.argsort(q, kind="stable")
+        q, variance = q[order], np.concatenate([one.variance for one in spectra])[order]
+        first = _find_first(q)  # shells at one wave number hold the sum
+        return Shells(q[first], np.add.reduceat(variance, first))
     if any(shells):
         raise ValueError(
             "combine: shells and a density have no common form; take surface.lattice_spectrum of "
@@ -416,26 +430,10 @@ def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tup
     return q, values
 
 
-def _check_band(hurst: float, q0: float, q1: float, q_rolloff: float | None) -> None:
-    number("hurst", hurst)
-    if not hurst <= 1:
-        raise ValueError(f"hurst must be in (0, 1], got {hurst!r}")
-    number("q0", q0)
-    if not number("q1", q1) > q0:
-        raise ValueError(f"q1 must be finite and above q0 = {q0!r}, got {q1!r}")
-    if q_rolloff is not None and not q0 < number("q_rolloff", q_rolloff) < q1:
-        raise ValueError(
-            f"q_rolloff must lie between q0 = {q0!r} and q1 = {q1!r}, got {q_rolloff!r}"
-        )
-
-
-def _merge_shells(one: Shells, other: Shells) -> Shells:
-    """Shells of both; those at one wave number, to rounding, hold the sum."""
-    q = np.concatenate([one.q, other.q])
-    order = np.argsort(q, kind="stable")
-    q, variance = q[order], np.concatenate([one.variance, other.variance])[order]
-    first = _find_first(q)
-    return Shells(q[first], np.add.reduceat(variance, first))
+def _log1p_over(beta: NDArray, y: NDArray) -> NDArray:
+    """Inverse of `expm1_over`: log1p(beta y)/beta, regular at beta = 0."""
+    safe = np.where(beta == 0, 1.0, beta)
+    return np.where(beta == 0, y, np.log1p(np.maximum(safe * y, -1 + 1e-16)) / safe)
 
 
 def _find_first(q: NDArray) -> NDArray:

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import erf
 
 from stickiness.persson import Persson
-from stickiness.persson.gaps import LostContact, scaled_gap
+from stickiness.persson.gaps import LostContact, gap_curve, scaled_gap
 from stickiness.spectrum import SelfAffine, Shells
 from stickiness.surface import lattice_spectrum
 
@@ -30,11 +30,12 @@ SPECTRA = {
 @pytest.mark.parametrize("load", [1e-4, 0.065, 2.0])
 def test_interpolated_gaps_are_those_summed(name, load, correction):
     setting = Persson(SPECTRA[name], correction=correction)._setting
-    curve = setting.curve(load)
+    curve = gap_curve(setting, load)
     steps = np.random.default_rng(0).uniform(*curve.edges[[0, -1]], 300)
     lost = LostContact.at(setting, load, curve.y_end, steps)
     # one by one, so that each has scales of its own to be summed over
-    smooth = np.log([scaled_gap(setting, load, lost[i : i + 1])[0] for i in range(len(steps))])
+    parts = [LostContact.at(setting, load, curve.y_end, step) for step in steps[:, None]]
+    smooth = np.log([scaled_gap(setting, load, part)[0] for part in parts])
     want = lost.y**2 - (load / erf(lost.y)) ** 2 / lost.rest + smooth
     # both err by some 1e-7; gaps below exp(-45) count as zero
     np.testing.assert_allclose(curve.log_gap(steps, lost), want, rtol=0, atol=1e-6)
@@ -49,6 +50,6 @@ def test_variants_share_gaps_and_differ_in_what_they_make_of_them(spectrum):
     first.gap_density(u, p)
     np.testing.assert_array_equal(other.gap_density(u, p), alone.gap_density(u, p))
     assert np.all(other.gap_cumulative(u, p) != first.gap_cumulative(u, p))
-    assert other._setting.curve(0.2) is first._setting.curve(0.2)
+    assert gap_curve(other._setting, 0.2) is gap_curve(first._setting, 0.2)
     with pytest.raises(ValueError, match="variant must"):
         first.with_variant("persson2001")
