@@ -22,13 +22,8 @@ def measured_of(wildcards):
     return list(PLANS[wildcards.case].measured)
 
 
-def fine_paths(wildcards):
-    """Solutions in a file of fine seeds."""
-    return len(plan.seeds_in(wildcards.part)) * len(pressures_of(wildcards.case))
-
-
-def coarse_paths(wildcards):
-    """Solutions in a file of coarse seeds."""
+def solutions(wildcards):
+    """Solutions in a file of fine or coarse seeds."""
     return len(plan.seeds_in(wildcards.part)) * len(pressures_of(wildcards.case))
 
 
@@ -63,7 +58,7 @@ rule solve_repulsive:
         "../envs/environment.yaml"
     resources:
         mem_mb=memory(17 + plan.SEEDS_A_FILE, case_size),
-        runtime=minutes(1.1, case_size, fine_paths),
+        runtime=minutes(1.1, case_size, solutions),
     params:
         seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         pressures=lambda wildcards: pressures_of(wildcards.case),
@@ -87,7 +82,7 @@ rule solve_coarse:
         "../envs/environment.yaml"
     resources:
         mem_mb=memory(4 * 14, coarse_size),
-        runtime=minutes(1.1, coarse_size, coarse_paths),
+        runtime=minutes(1.1, coarse_size, solutions),
     params:
         surface=lambda wildcards: model_surface_of(wildcards.case),
         pressures=lambda wildcards: pressures_of(wildcards.case),

@@ -5,8 +5,7 @@ import logging
 import numpy as np
 import xarray as xr
 
-from common import conventions
-from common.conventions import VARIANT
+from common.conventions import VARIANT, annotate
 from common.error_budgets import Simulation, theory_parts
 from common.job import start
 from common.quantities import derive, quote, statistics
@@ -45,23 +44,24 @@ def main(job):
             if job.input.get(name):
                 files[name] = datasets.read(job.input[name], [f"{name}_standard_error"])
         made = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
-        simulation = Simulation(models, made)
-        found = [simulate(simulation, column, files) for column in columns]
+        found = [simulate(Simulation(models, made), column, files) for column in columns]
     else:
         state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
         state = derive(state.sel(variant=VARIANT), job.params.fit_interval)
-        found = [by_theory(models, column, state, plan["surface"]) for column in columns]
+        # By Persson's theory on the lattice spectrum.
+        values = [quote(column, state) for column in columns]
+        found = [
+            (value, theory_parts(models, column, value, plan["surface"], "gap_density"))
+            for column, value in zip(columns, values, strict=True)
+        ]
 
     outside = np.array([extrapolated(surface, load, **knobs) for load in loads], np.int8)
-    dataset = xr.Dataset(
-        {
-            "value": (DIMS, [value.values for value, _ in found]),
-            "extrapolated": ("pressure", outside),
-        },
-        coords={"column": columns, "pressure": loads},
-    )
-    dataset = conventions.annotate(
-        dataset,
+    variables = {
+        "value": (DIMS, [value.values for value, _ in found]),
+        "extrapolated": ("pressure", outside),
+    }
+    dataset = annotate(
+        xr.Dataset(variables, {"column": columns, "pressure": loads}),
         column="; ".join(f"{column}: {COLUMNS[column].text}" for column in columns),
         value="value of the column at a load",
         extrapolated=OUTSIDE,
@@ -85,23 +85,14 @@ def simulate(simulation, column, files):
     mean, standard_error, left = statistics(column, **files)
     parts = simulation.parts(column, mean, standard_error, left)
     if has_error_model(column):
-        problem, size = simulation.problem, abs(mean)
-        at, pixels = (
-            (problem.models, column, problem.surface),
-            simulation.settings.pixels_per_wavelength,
-        )
+        problem, pixels = simulation.problem, simulation.settings.pixels_per_wavelength
+        size, at = abs(mean), (problem.models, column, problem.surface)
         error = [
             grid_error(*at, load, pixels, found)
             for load, found in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
         ]
         parts["discretisation"] = ErrorComponent(size * error, GRID)
     return mean, parts
-
-
-def by_theory(models, column, state, surface):
-    """Return the same by Persson's theory on the lattice spectrum."""
-    value = quote(column, state)
-    return value, theory_parts(models, column, value, surface, "gap_density")
 
 
 def describe_miss(dataset, problem, settings, plan, case):

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import RMS_SLOPE
-from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum
+from common.model_surfaces import cell_size, grid_points, make_heights, model_spectrum, waves_across
 from stickiness import dmt
 from stickiness import surface as synthesis
 from stickiness.accuracy import multilevel
@@ -46,10 +46,7 @@ def load_curves(heights, length, steps, *path):
 
 
 def load_curve(heights, length, pressures, ranges, tolerance, names=()):
-    """Contact quantities at every pressure.
-
-    `names` are further quantities to measure, which a case wants.
-    """
+    """Contact quantities at every pressure, and further ones by `names`, which a case wants."""
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
         surface = {name: MEASURED[name](heights, contact.gap, length) for name in names}
@@ -77,6 +74,19 @@ def measure(contact, ranges):
     return xr.Dataset(found)
 
 
+def solve_seeds(surface, seeds, pixels_per_wavelength, steps, *path):
+    """Contact of random surfaces on every grid, and the slope of the finest; as `load_curves`."""
+    length, n = cell_size(surface), grid_points(surface, pixels_per_wavelength)
+    curves = []
+    for seed in seeds:
+        logging.info("seed %d", seed)
+        heights = make_heights(surface, n, seed)
+        slope = synthesis.moments(heights, length).rms_slope
+        curves.append(load_curves(heights, length, steps, *path).assign(rms_slope=slope))
+    dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
+    return dataset.assign_coords(resolution=n / waves_across(surface) / np.array(steps))
+
+
 def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance, names=()):
     """Solve surfaces, numbered from 0, on a coarse grid and describe the long waves of more.
 
@@ -87,16 +97,10 @@ def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance,
     seeds = SOLVED_FROM + np.array(which)
     others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
     kept = [*COARSELY_SOLVED, *names, *(["attractive_area"] if len(ranges) else [])]
-    curves = []
-    for seed in seeds:
-        logging.info("seed %d", seed)
-        heights = make_heights(surface, grid_points(surface, 2 * COARSE), seed)
-        curve = load_curve(heights[::2, ::2], length, pressures, ranges, tolerance, names)
-        # Of the finer grid: at two pixels the shortest waves are not all there.
-        curve["rms_slope"] = synthesis.moments(heights, length).rms_slope
-        curves.append(curve[kept])
-    dataset = xr.concat(curves, xr.DataArray(seeds, dims="seed", name="seed"))
-    dataset = dataset.assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
+    # On every second point: on two pixels a wave the slope of the shortest is not all there.
+    path = pressures, ranges, tolerance, names
+    dataset = solve_seeds(surface, seeds, 2 * COARSE, [2], *path).isel(resolution=0, drop=True)
+    dataset = dataset[kept].assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
     for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
         rows = multilevel.descriptors(spectrum, length, dataset[dim].values, amplitudes)
         dataset[name] = (dim, "descriptor"), rows

@@ -53,10 +53,7 @@ def standard_error(values):
 
 
 def discretisation_error(values):
-    """Discretisation error of the mean, from the change between the two finest grids.
-
-    It bounds an error that falls at least in proportion to the pixel size.
-    """
+    """Change of the mean from half the resolution, for errors of first order in the pixel size."""
     # In quadrature with the standard error, changes of either sign do not cancel.
     change = fine(values.diff("resolution"))
     return np.hypot(change.mean("seed"), scatter(change).fillna(0))

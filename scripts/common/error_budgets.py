@@ -122,10 +122,7 @@ def theory_error(models, name, like, surface=None):
 
 
 def theory_parts(models, name, value, surface=None, like=""):
-    """Parts of the budget of a variable by theory; arguments as of `theory_error`.
-
-    `like` is the variable with the same error of the quadrature, by default the same.
-    """
+    """Parts of the budget of a variable by theory; by quadrature it errs as the variable `like`."""
     quadrature = QUADRATURE[like or name] * abs(value)
     return {
         "discretisation": ErrorComponent(quadrature, "of the quadrature, as tested"),

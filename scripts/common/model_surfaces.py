@@ -41,11 +41,8 @@ def make_heights(surface, points, seed):
 
 
 def grid_points(surface, pixels_per_wavelength):
-    """Number of grid points, good for the FFT, with at least this many pixels per wave.
-
-    A multiple of the even number that does so for 2 pixels, so that the coarser grids of the
-    solutions are part of it.
-    """
+    """Number of grid points, good for the FFT, with at least this many pixels per wave."""
+    # A multiple of the number for one pixel: the coarser grids of the solutions are part of it.
     waves = int(np.ceil(waves_across(surface) - 1e-9))
     return pixels_per_wavelength * next_fast_len(waves, real=True)
 

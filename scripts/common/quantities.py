@@ -29,6 +29,7 @@ KAPPA_VARIABLES = describe_errors(
 )
 A_V_VARIABLES = {
     "a_v": "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)",
+    "a_v_fit_error": "standard error of the fit of a_V within its window",
     "window_low": "low end of the fit window of range/h_rms",
     "window_high": "high end of the fit window of range/h_rms",
     "exponent": (
@@ -64,8 +65,8 @@ def derive(contact, fit_interval):
 
     `fit_interval` is for a_V, in ranges over h_rms.
     """
-    a_v, kappa = fit_a_v(contact, fit_interval), slope_of_area(contact)
-    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=kappa)
+    a_v, _ = fit_a_v(contact, fit_interval)
+    return contact.assign(gap_density=gap_density(contact), a_v=a_v, kappa=slope_of_area(contact))
 
 
 def gap_density(solutions):
@@ -89,37 +90,31 @@ def fit_slope(ensemble):
 
 
 def fit_a_v(areas, fit_interval):
-    """a_V along every dimension but the range's."""
+    """a_V and the standard error of its fit, along every dimension but the range's."""
     ranges, window = areas["range"].values, tuple(fit_interval)
 
     def fit(area, pressure):
-        return a_v_fit.fit_a_v(ranges, area, float(pressure), window=window).value
+        found = a_v_fit.fit_a_v(ranges, area, float(pressure), window=window)
+        return found.value, found.standard_error
 
-    dims = [["range"], []]
-    return xr.apply_ufunc(
-        fit, areas.attractive_area, areas.pressure, input_core_dims=dims, vectorize=True
-    )
+    dims = {"input_core_dims": [["range"], []], "output_core_dims": [[], []]}
+    return xr.apply_ufunc(fit, areas.attractive_area, areas.pressure, **dims, vectorize=True)
 
 
 def fit_intervals(areas, windows):
-    """a_V in every fit interval."""
-    a_v = xr.concat([fit_a_v(areas, window) for window in windows], "window")
+    """a_V in every fit interval, and the standard error of its fit."""
+    fits = (fit_a_v(areas, window) for window in windows)
+    found = [xr.concat(one, "window") for one in zip(*fits, strict=True)]
     low, high = np.transpose(np.array(windows, float))
     ends = {"window_low": ("window", low), "window_high": ("window", high)}
-    return xr.Dataset({"a_v": a_v, **ends})
+    return xr.Dataset(dict(zip(("a_v", "a_v_fit_error"), found, strict=True)) | ends)
 
 
 def local_exponent(areas):
     """Exponent d ln A_ad/d ln(range): 2/3 where P(u) falls as u^(-1/3); of means over seeds."""
-    area = areas.get("attractive_area_mean", areas.attractive_area)
-    ranges = area["range"].values
-    return xr.apply_ufunc(
-        lambda a: a_v_fit.local_exponent(ranges, a) if np.all(a > 0) else np.full(len(a), np.nan),
-        area,
-        input_core_dims=[["range"]],
-        output_core_dims=[["range"]],
-        vectorize=True,
-    )
+    area = areas.get("attractive_area_mean", areas.attractive_area).transpose(..., "range")
+    logs = np.log(area.where((area > 0).all("range")))
+    return logs.copy(data=np.gradient(logs, np.log(area["range"]), axis=-1))
 
 
 def fit_kappa(ensemble, models):
@@ -136,7 +131,8 @@ def fit_kappa(ensemble, models):
         limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
         values, more = quantity(ensemble), coarse(ensemble, quantity)
         dataset = add_errors(dataset, name, values, more, plain=True, limit=limit)
-        dataset = annotate(dataset, **KAPPA_VARIABLES)
+        texts = {n: text for n, text in KAPPA_VARIABLES.items() if n.startswith(name)}
+        dataset = annotate(dataset, **texts)
         errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
         value = dataset[name].assign_coords(pressure=load)
         parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
@@ -160,8 +156,7 @@ def write_a_v(areas_file, output, windows, laws):
     dataset = fit_intervals(areas, windows)
     dataset["exponent"] = local_exponent(areas)
     if "edge_gap_mean" in areas:
-        resolved = areas["range"] >= areas.edge_gap_mean
-        dataset["exponent"] = dataset.exponent.where(resolved)
+        dataset["exponent"] = dataset.exponent.where(areas["range"] >= areas.edge_gap_mean)
     add_budgets = add_theory_budgets
     if "seed" in dataset.a_v.dims:
         dataset, add_budgets = average_a_v(dataset, areas, windows), add_simulation_budgets
@@ -189,21 +184,17 @@ def add_simulation_budgets(dataset, ensemble, models):
     mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
     parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
     dataset = with_budget(dataset, "a_v_mean", **parts)
-    solver = simulation.solver("attractive_area", dataset.exponent)
-    factor = simulation.factors("attractive_area", dataset.exponent)
     limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
-    seeds = local_exponent(ensemble[["attractive_area", "pressure"]])
     steps = np.diff(np.log(ensemble["range"].values)).min()
+    solver = 2 * simulation.solver("attractive_area", dataset.exponent) / steps
+    factor = simulation.factors("attractive_area", dataset.exponent)
+    sampling = factor * standard_error(local_exponent(ensemble[["attractive_area", "pressure"]]))
     return with_budget(
         dataset,
         "exponent",
         discretisation=ErrorComponent(limit.error, grid_limits.INHERITED),
-        solver=ErrorComponent(
-            2 * solver / steps, "of neighbouring areas, by the tolerance, as measured"
-        ),
-        sampling=ErrorComponent(
-            factor * standard_error(seeds), "Student's t, of the plain mean of seeds"
-        ),
+        solver=ErrorComponent(solver, "of neighbouring areas, by the tolerance, as measured"),
+        sampling=ErrorComponent(sampling, "Student's t, of the plain mean of seeds"),
         **SIMULATED,
     )
 

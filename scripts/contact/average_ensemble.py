@@ -4,8 +4,6 @@ Coarse solutions of further seeds, if the case has them, are kept beside the val
 whatever is derived from those is averaged in the same way, as the slope of area against load is.
 """
 
-import xarray as xr
-
 from common.conventions import LINEAR_UP_TO
 from common.job import start
 from common.model_surfaces import read_all
@@ -23,17 +21,16 @@ def main(job):
     realisations = read_all(job.input.realisations, (*ensembles.NEEDED, *optional))
     realisations = realisations.sel(seed=seeds, pressure=loads)
     others = [datasets.read(path, kept).sel(pressure=loads) for path in job.input.coarse]
-    more = ensembles.join_coarse(others, kept) if others else xr.Dataset()
-    dataset = ensembles.add_statistics(realisations, more, averaged)
-    largest = float(realisations.residual.max())
-    parameters = datasets.parameters(realisations) | {"seeds": seeds, "largest_residual": largest}
-    parameters |= ensembles.describe_sampling(parameters, dataset) | {"case": job.wildcards.case}
-    ensembles.write_means(dataset, parameters, job.input.laws, job.output.means, averaged)
+    others = ensembles.join_coarse(others, kept)
+    made = datasets.parameters(realisations) | {"seeds": seeds, "case": job.wildcards.case}
+    laws, output = job.input.laws, job.output.means
+    ensembles.write_means(realisations, others, made, laws, output, averaged)
+    means = datasets.read(output)
     datasets.write(
-        fit_kappa(datasets.read(job.output.means), read_models(job.input.laws)),
+        fit_kappa(means, read_models(laws)),
         job.output.kappa,
         title="slope of the area-load relation",
-        parameters={**parameters, "linear_up_to": LINEAR_UP_TO},
+        parameters={**datasets.parameters(means), "linear_up_to": LINEAR_UP_TO},
     )
 
 

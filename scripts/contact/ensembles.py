@@ -23,10 +23,8 @@ COARSE = ("area_fraction", "mean_gap", "rms_slope")
 OPTIONAL = ("attractive_area", *MEASURED)
 LONG_WAVES = ("long_waves", "other_long_waves")
 SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
-AVERAGED = {
-    **{name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")},
-    "gap_density": gap_density,
-}
+AVERAGED = {name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")}
+AVERAGED["gap_density"] = gap_density
 TEXTS = {name: conventions.VARIABLES[name][1] for name in AVERAGED}
 VARIABLES = {
     **MEASURED_TEXTS,
@@ -50,23 +48,12 @@ def choose_means(quantities):
 
 
 def join_coarse(files, kept=(*COARSE, "attractive_area")):
-    """Coarse solutions of all files under names that do not clash with the fine ones.
-
-    The seeds that are not solved are in the first file.
-    """
+    """Coarse solutions of all files, renamed, and the seeds of the first that are not solved."""
+    if not files:
+        return xr.Dataset()
     solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
     solved = solved.merge(files[0][["other_long_waves"]])[[*kept, *LONG_WAVES]]
     return solved.rename({name: f"{PREFIX}{name}" for name in (*kept, "seed")})
-
-
-def describe_sampling(made, dataset):
-    """What the means stand for and how they are taken, for the parameters of the file."""
-    surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
-    meant = {"estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths"}
-    if f"{PREFIX}seed" not in dataset.dims or dataset.sizes["seed"] == 1:
-        return meant | {"estimator": "plain"}
-    counts = {"coarse_seeds": dataset.sizes[f"{PREFIX}seed"]}
-    return meant | counts | {"descriptor_seeds": dataset.sizes["other"], "estimator": "multilevel"}
 
 
 def add_statistics(realisations, others, averaged=AVERAGED):
@@ -86,9 +73,18 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     return dataset
 
 
-def write_means(dataset, made, laws, output, averaged=AVERAGED):
-    """Write the means with their errors by source."""
-    dataset = conventions.annotate(dataset, **VARIABLES)
+def write_means(realisations, others, made, laws, output, averaged=AVERAGED):
+    """Write the means, their errors by source, and what they stand for and how they are taken."""
+    dataset = conventions.annotate(add_statistics(realisations, others, averaged), **VARIABLES)
+    surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
+    made = made | {
+        "estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths",
+        "largest_residual": float(realisations.residual.max()),
+        "estimator": "plain",
+    }
+    if others and realisations.sizes["seed"] > 1:
+        made |= {"coarse_seeds": others.sizes[f"{PREFIX}seed"], "estimator": "multilevel"}
+        made["descriptor_seeds"] = others.sizes["other"]
     simulation = Simulation(read_models(laws), made)
     for name in averaged:
         left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT

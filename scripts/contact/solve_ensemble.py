@@ -1,54 +1,32 @@
 """Make, press and average all realisations of a case that only theory is compared with."""
 
-import logging
-
 import numpy as np
-import xarray as xr
 
-from common.contact_curves import VARIABLES, coarse_solutions, load_curves, steps_of
+from common.contact_curves import VARIABLES, coarse_solutions, solve_seeds, steps_of
 from common.conventions import annotate, logarithmic_grid
 from common.job import start
-from common.model_surfaces import cell_size, grid_points, make_heights, waves_across
-from contact.ensembles import add_statistics, describe_sampling, join_coarse, write_means
-from stickiness import surface as synthesis
+from common.model_surfaces import grid_points
+from contact.ensembles import join_coarse, write_means
 
 
 def main(job):
     surface, params = job.params.surface, job.params
     curves = np.sort(params.pressures), logarithmic_grid(params.gaps), params.tolerance
-    seeds = np.arange(1, params.seeds + 1)
-    fine = xr.concat(
-        [realisation(surface, int(seed), params.pixels_per_wavelength, curves) for seed in seeds],
-        xr.DataArray(seeds, dims="seed", name="seed"),
-    )
-    others = xr.Dataset()
+    seeds, pixels = np.arange(1, params.seeds + 1), params.pixels_per_wavelength
+    fine = annotate(solve_seeds(surface, seeds, pixels, steps_of(pixels), *curves), **VARIABLES)
+    others = []
     if params.coarse_seeds:
         count = range(params.coarse_seeds), params.descriptor_seeds
-        others = coarse_solutions(surface, *count, *curves)
-        others = join_coarse([annotate(others, **VARIABLES)])
-    dataset = add_statistics(annotate(fine, **VARIABLES), others)
-    parameters = {
+        others = [annotate(coarse_solutions(surface, *count, *curves), **VARIABLES)]
+    made = {
         **surface,
         "case": job.wildcards.comparison,
         "seeds": seeds.tolist(),
         "tolerance": params.tolerance,
-        "largest_residual": float(fine.residual.max()),
-        "pixels_per_wavelength": params.pixels_per_wavelength,
-        "grid_points": grid_points(surface, params.pixels_per_wavelength),
+        "pixels_per_wavelength": pixels,
+        "grid_points": grid_points(surface, pixels),
     }
-    parameters |= describe_sampling(parameters, dataset)
-    write_means(dataset, parameters, job.input.laws, job.output[0])
-
-
-def realisation(surface, seed, pixels_per_wavelength, curves):
-    """Contact of one random surface on all its grids."""
-    logging.info("seed %d", seed)
-    length, n = cell_size(surface), grid_points(surface, pixels_per_wavelength)
-    heights = make_heights(surface, n, seed)
-    steps = steps_of(pixels_per_wavelength)
-    dataset = load_curves(heights, length, steps, *curves)
-    dataset["rms_slope"] = synthesis.moments(heights, length).rms_slope
-    return dataset.assign_coords(resolution=n / waves_across(surface) / np.array(steps))
+    write_means(fine, join_coarse(others), made, job.input.laws, job.output[0])
 
 
 if __name__ == "__main__":

@@ -34,22 +34,17 @@ def warn_of_pressure(pressure: float, rms_slope: float) -> None:
     """Warn if a mean pressure [E*] is far above that at which contact is full anyway."""
     # Heights in units larger than those of lengths have pressures above 1.
     if pressure > max(1.0, _MOST_PRESSURE * rms_slope):
-        warnings.warn(
-            f"pressure = {pressure!r} is in units of E* and closes any gap of this surface "
-            f"(rms slope {rms_slope:.3g}) many times over: divide pascals by E*",
-            PlausibilityWarning,
-            stacklevel=3,
-        )
+        text = f"pressure = {pressure!r} is in units of E* and closes any gap of this surface "
+        text += f"(rms slope {rms_slope:.3g}) many times over: divide pascals by E*"
+        warnings.warn(text, PlausibilityWarning, stacklevel=3)
 
 
 def warn_of_heights(rms_height: float, length: float) -> None:
     """Warn if heights and the side of the cell can hardly be in one unit of length."""
     if rms_height > 0 and not _LEAST_HEIGHT <= rms_height / length <= _MOST_HEIGHT:
+        text = f"heights of {rms_height:.3g} rms on a cell of length = {length:.3g}: heights and "
         warnings.warn(
-            f"heights of {rms_height:.3g} rms on a cell of length = {length:.3g}: heights and "
-            "length must be in one unit, are they?",
-            PlausibilityWarning,
-            stacklevel=3,
+            text + "length must be in one unit, are they?", PlausibilityWarning, stacklevel=3
         )
 
 

@@ -50,6 +50,13 @@ class Moments:
         """Root mean square Laplacian."""
         return float(np.sqrt(self.m40 + 2 * self.m22 + self.m04))
 
+    @property
+    def nayak(self) -> float:
+        """Bandwidth m0 m4/m2^2 with m2, m4 averaged over direction for an isotropic surface."""
+        m2 = (self.m20 + self.m02) / 2
+        m4 = 3 / 8 * (self.m40 + 2 * self.m22 + self.m04)
+        return self.m00 * m4 / m2**2
+
 
 def synthesise(
     spectrum: Spectrum, n: int, length: float, seed: int, amplitudes: Amplitudes = "gaussian"

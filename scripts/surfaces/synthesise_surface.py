@@ -1,4 +1,4 @@
-"""Make a few random surfaces and record the moments that their cells really hold."""
+"""Make a few random surfaces and record the spectra and moments that their cells really hold."""
 
 import logging
 
@@ -12,14 +12,22 @@ from stickiness import datasets
 from stickiness import surface as synthesis
 
 SOURCES = ["continuum", "lattice", "heights"]
-MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
+MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")
+SPLIT = ("m40", "m22", "m04")
 VARIABLES = {
     "x": "position times q0",
     "y": "position times q0",
     "height": "height over h_rms",
     "window_length": "side of the window times q0",
+    "wave_number": "wave number of the shell over q0",
+    "lattice_variance": "expected height variance on the shell over h_rms^2",
+    "realised_variance": "height variance of this surface on the shell over h_rms^2",
     "source": "what the moments are taken from",
     "h_rms": "rms height over the prescribed one",
+    "nayak": "Nayak's bandwidth parameter m0 m4/m2^2",
+    "m40": "mean square of d2h/dx2 over q0^4 h_rms^2, from the heights",
+    "m22": "mean square of d2h/dxdy over q0^4 h_rms^2, from the heights",
+    "m04": "mean square of d2h/dy2 over q0^4 h_rms^2, from the heights",
 }
 
 
@@ -29,16 +37,21 @@ def main(job):
     lattice = synthesis.lattice_spectrum(spectrum, length)
     logging.info("n = %d, %d shells", n, len(lattice.q))
     heights = np.array([make_heights(surface, n, seed) for seed in seeds])
-    sources = [(spectrum, lattice, synthesis.moments(h, length)) for h in heights]
+    realised = [variance_on_shells(h, length, lattice) for h in heights]
+    measured = [synthesis.moments(h, length) for h in heights]
+    sources = [(spectrum, lattice, one) for one in measured]
     moments = {name: [[getattr(s, name) for s in row] for row in sources] for name in MOMENTS}
     x = np.arange(n) * (length / n)
     dataset = xr.Dataset(
         {
             "height": (("seed", "x", "y"), heights),
             "window_length": ((), length),
+            "lattice_variance": ("wave_number", lattice.variance),
+            "realised_variance": (("seed", "wave_number"), realised),
             **{name: (("seed", "source"), values) for name, values in moments.items()},
+            **{name: ("seed", [getattr(one, name) for one in measured]) for name in SPLIT},
         },
-        coords={"seed": list(seeds), "x": x, "y": x, "source": SOURCES},
+        {"seed": list(seeds), "x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
     )
     datasets.write(
         annotate(dataset, **VARIABLES),
@@ -52,6 +65,14 @@ def main(job):
             "prescribed": spectrum.prescribed,
         },
     )
+
+
+def variance_on_shells(heights, length, lattice):
+    """Height variance on the shells of a lattice, zero where a surface holds nothing."""
+    found, variance = synthesis.realised_spectrum(heights, length), np.zeros(len(lattice.q))
+    index = np.searchsorted(lattice.q * (1 - 1e-9), found.q) - 1
+    np.add.at(variance, index, found.variance)
+    return variance
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ import xarray as xr
 from stickiness import datasets
 from stickiness.accuracy.error_models import COARSE
 from stickiness.statistics import COVERS
-from tradeoff.measuring import COVERED, SETTINGS
+from tradeoff.measuring import COVERED, SETTINGS, split_loads
 
 MEANS = (4, 8, 16, 32)  # seeds that rows are given for
 
@@ -70,22 +70,20 @@ def tabulate_adhesion(measured, records):
     of_states = records.problem == "adhesion"
     for name, one, modelled in (list_states if of_states else list_pull_offs)(measured):
         # Without loads at which a window closes with some setting.
-        opened = [
-            one.full.sel(along).notnull().any("seed").all(knob) for knob, along in axes.items()
-        ]
-        one = one.sel(pressure=(opened[0] & opened[1]).values)
+        for knob, along in axes.items():
+            one = one.sel(pressure=one.full.sel(along).notnull().any("seed").all(knob).values)
         for knob, along in axes.items() if one.sizes["pressure"] else ():
             errors = one.full.sel(along) / one.full.sel(usual | {knob: finest[knob]}) - 1
             costs = one.seconds.sel(along).mean("seed").mean("pressure") / unit
             label = "points per wavelength" if knob == "pixels" else knob
             for value in measured[knob].drop_sel({knob: finest[knob]}).values:
                 error, cost = errors.sel({knob: value}), costs.sel({knob: value})
-                records.add(label, f"{value:g}", cover_seeds(name, error), cost)
+                records.add(label, f"{value:g}", split_loads(name, error), cost)
                 if modelled and value != COARSE:
                     add_points(name, knob, value, error, records)
         # The DMT limit costs nothing once the contact without adhesion is solved.
         error = one.limit.sel(usual) / one.full.sel(usual) - 1
-        records.add("model", "DMT", cover_seeds(name, error), 0.0)
+        records.add("model", "DMT", split_loads(name, error), 0.0)
         if of_states:
             tabulate_seeds(name, one, modelled, usual, unit, records)
     for pixels in measured.pixels.values[measured.pixels.values != COARSE] if of_states else ():
@@ -107,12 +105,6 @@ def add_points(name, knob, value, error, records):
         if name == "pull_off":  # of one surface; all others are means
             size, noise = np.sqrt(np.mean(off**2)), 0.0
         records.add_point("discretisation", name, size, noise, pressure=load, pixels=value)
-
-
-def cover_seeds(name, error):
-    """Error of single surfaces at every load that covers 90 %."""
-    covering = abs(error).quantile(COVERED, "seed")
-    return {(name, load): covering.sel(pressure=load) for load in error.pressure.values}
 
 
 def tabulate_seeds(name, one, modelled, usual, unit, records):

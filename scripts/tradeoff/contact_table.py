@@ -1,6 +1,6 @@
 """Rows of the table and points of the error models for contact without adhesion."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -18,51 +18,51 @@ from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.persson.theory import Persson
 from stickiness.repulsive import richardson
 from stickiness.surface import lattice_spectrum
-from tradeoff.measuring import COVERED, SETTINGS, time_task
+from tradeoff.measuring import SETTINGS, split_loads, time_task
 
 MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
-FEWEST_FINE = 32  # seeds of a grid that means are drawn from; the finest may have fewer
 DESCRIBED_SEEDS = 2048
+REPETITIONS = 60  # of means that are drawn
 
 
 @dataclass(eq=False)
 class SeedPool:
-    """Solved seeds of one surface, from which means of random seeds are drawn.
-
-    An entry is one load of one column of a quantity.
-    """
+    """Solved seeds of one surface, from which means of random seeds are drawn."""
 
     fine: dict  # (seed, entry), by pixels per shortest wavelength, 2 included
     coarse: np.ndarray  # (seed, entry): more seeds on 2 pixels
     controls: np.ndarray  # (seed, descriptor): long waves of the coarse seeds
     elsewhere: np.ndarray  # (seed, descriptor): long waves of seeds that are not solved
-    pressure: np.ndarray  # of the entries
-    quantity: np.ndarray
-    truth: np.ndarray  # best estimate of the mean over all surfaces, on the finest grid
-    truth_error: np.ndarray  # its standard error
-    fine_mean: np.ndarray  # mean of the fine seeds alone, about which their plain means scatter
-    costs: dict = field(default_factory=dict)  # of all loads of a seed, by pixels or kind
-    repetitions: int = 60  # of means that are drawn
-    described: int = DESCRIBED_SEEDS
+    entries: list  # quantity and load of every entry
+    costs: dict  # of all loads of a seed, by pixels or kind
 
     def __post_init__(self):
+        # The finest grid has few seeds. The best estimate of the mean over all surfaces on it, and
+        # the mean of the fine seeds alone, about which their plain means scatter.
+        *_, self.best, self.finest = sorted(self.fine)
+        many, few = self.fine[self.best], self.fine[self.finest]
+        ratio = few.sum(0) / many[: len(few)].sum(0)
+        waves = self.controls, self.elsewhere
+        estimate = multilevel.multilevel_mean(many, self.fine[COARSE], self.coarse, *waves)
+        self.truth, self.truth_error = estimate.mean * ratio, estimate.standard_error * ratio
+        self.fine_mean = many.mean(0) * ratio
         # With replacement: means of few seeds then scatter about the mean of all as they would
         # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
         rng = np.random.default_rng(1)
-        count = min(len(fine) for fine in self.fine.values() if len(fine) >= FEWEST_FINE)
-        self.chosen = rng.integers(count, size=(SEEDS[-1], self.repetitions))
-        self.many = rng.integers(len(self.coarse), size=(self.repetitions, COARSE_SEEDS[-1]))
-        self.others = rng.integers(len(self.elsewhere), size=(self.repetitions, self.described))
+        self.chosen = rng.integers(len(many), size=(SEEDS[-1], REPETITIONS))
+        self.many = rng.integers(len(self.coarse), size=(REPETITIONS, COARSE_SEEDS[-1]))
+        self.others = rng.integers(len(self.elsewhere), size=(REPETITIONS, DESCRIBED_SEEDS))
         self.average_coarse = cache(self._average_coarse)
+        self.loads, self.places = len({load for _, load in self.entries}), {}
+        for place, key in enumerate(self.entries):
+            self.places.setdefault(key, []).append(place)
 
     def by_quantity(self, errors):
         """Root mean square over the entries of each quantity at each load; leading axes stay."""
-        keys = dict.fromkeys(zip(self.quantity.tolist(), self.pressure.tolist(), strict=True))
-        found = {}
-        for quantity, load in keys:
-            entries = (self.quantity == quantity) & (self.pressure == load)
-            found[quantity, load] = np.sqrt(np.mean(errors[..., entries] ** 2, axis=-1))
-        return found
+        return {
+            key: np.sqrt(np.mean(errors[..., places] ** 2, axis=-1))
+            for key, places in self.places.items()
+        }
 
     def cost(self, settings):
         """Measured cost of a mean at all loads, without what a larger tolerance saves."""
@@ -92,25 +92,18 @@ class SeedPool:
 
 
 def make_pool(measured):
-    """Make the pool of a file of `measure_contact`; the finest grid, of few seeds, is the truth."""
+    """Make the pool of a file of `measure_contact`."""
     usual, unit = datasets.parameters(measured)["tolerance"], float(measured.pair_time)
     is_fine = measured.seed < SOLVED_FROM
     fine_ones, coarse_ones = (measured.isel(solution=k.values) for k in (is_fine, ~is_fine))
-    *_, best, last = pixels = np.unique(measured.pixels).tolist()
-    solved = {p: select(fine_ones, p, usual) for p in pixels}
+    solved = {p: select(fine_ones, p, usual) for p in np.unique(measured.pixels).tolist()}
     more = select(coarse_ones, COARSE, usual)
-    entries = {p: flatten(derive_columns(extrapolate(solved, p))) for p in pixels}
-    fine = {p: values for p, (values, *_) in entries.items()}
-    coarse, quantity, pressure = flatten(derive_columns(more))
-    waves = measured.long_waves.values, measured.other_long_waves.values
-    ratio = fine[last].sum(0) / fine[best][: len(fine[last])].sum(0)
-    estimate = multilevel.multilevel_mean(fine[best], fine[COARSE], coarse, *waves)
+    fine = {p: flatten(extrapolate(solved, p))[0] for p in solved}
+    coarse, entries = flatten(more)
     costs = {p: float(one.seconds.mean()) / unit for p, one in (*solved.items(), ("coarse", more))}
-    return SeedPool(
-        *(fine, coarse, *waves, pressure, quantity),
-        *(estimate.mean * ratio, estimate.standard_error * ratio, fine[best].mean(0) * ratio),
-        costs | {"described": float(measured.describing_seconds) / unit},
-    )
+    costs["described"] = float(measured.describing_seconds) / unit
+    waves = measured.long_waves.values, measured.other_long_waves.values
+    return SeedPool(fine, coarse, *waves, entries, costs)
 
 
 def select(measured, pixels, tolerance):
@@ -143,15 +136,15 @@ def derive_columns(solved):
     return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
 
 
-def flatten(quantities):
-    """Flatten all quantities at all loads to `(seed, entry)`; quantity and load of each entry."""
-    values, names, loads = [], [], []
-    for name, of_seeds in quantities.items():
-        of_seeds = of_seeds.transpose("seed", "pressure", ...)
-        values.append(of_seeds.values.reshape(of_seeds.sizes["seed"], -1))
-        names += [name] * values[-1].shape[1]
-        loads += list(np.repeat(of_seeds.pressure.values, of_seeds[0, 0].size))
-    return np.concatenate(values, axis=1), np.array(names), np.array(loads)
+def flatten(solved):
+    """All columns at all loads as `(seed, entry)`; quantity and load of each entry."""
+    values, entries = [], []
+    for name, column in derive_columns(solved).items():
+        column = column.transpose("seed", "pressure", ...)
+        values.append(column.values.reshape(column.sizes["seed"], -1))
+        loads = np.repeat(column.pressure.values, column[0, 0].size)
+        entries += [(name, load) for load in loads.tolist()]
+    return np.concatenate(values, axis=1), entries
 
 
 def tabulate_contact(measured, records):
@@ -163,27 +156,21 @@ def tabulate_contact(measured, records):
     tabulate_theory(measured, pool, records)
 
 
-def cover(errors):
-    """Errors of single surfaces that cover 90 %, by quantity and load."""
-    return {key: np.quantile(np.abs(error), COVERED) for key, error in errors.items()}
-
-
 def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
-    loads, fine, costs = len(np.unique(pool.pressure)), pool.fine, pool.costs
-    *grids, last = sorted(fine)
-    exact = fine[last]
+    fine, costs, loads = pool.fine, pool.costs, pool.loads
+    exact, grids = fine[pool.finest], [pixels for pixels in fine if pixels < pool.finest]
     for pixels in grids:
-        errors = cover(pool.by_quantity(fine[pixels][: len(exact)] / exact - 1))
+        errors = pool.by_quantity(fine[pixels][: len(exact)] / exact - 1)
         # Areas are extrapolated from two grids.
         cost = costs[pixels] + (costs[pixels // 2] if pixels > COARSE else 0.0)
         records.add("points per wavelength", str(pixels), errors, cost / loads)
     # Up to the `best` grid with many seeds against it, from there on with few against the finest.
-    *coarser, best = grids
-    first, its_noise = compare_means(fine[best][: len(exact)], exact)
-    errors = {best: (first, its_noise)}
-    for pixels in coarser[1:]:
-        off, noise = compare_means(fine[pixels], fine[best])
+    best = fine[pool.best]
+    first, its_noise = compare_means(best[: len(exact)], exact)
+    errors = {pool.best: (first, its_noise)}
+    for pixels in grids[1:-1]:
+        off, noise = compare_means(fine[pixels], best)
         errors[pixels] = (1 + off) * (1 + first) - 1, np.hypot(noise, its_noise)
     for pixels, parts in errors.items():
         records.add_points("discretisation", *map(pool.by_quantity, parts), pixels=pixels)
@@ -215,17 +202,15 @@ def tabulate_tolerances(measured, records):
         for quantity, values in derive_columns(solutions).items():
             square = (values / exact[quantity] - 1) ** 2
             error = np.sqrt(square.mean([d for d in square.dims if d not in ("seed", "pressure")]))
-            for load in error.pressure.values:
-                single[quantity, load] = error.sel(pressure=load).values
+            single |= split_loads(quantity, error)
         together = {key: np.sqrt((one**2).mean()) for key, one in single.items()}
         records.add_points("solver", together, tolerance=tolerance)
-        records.add("tolerance", f"{tolerance:g}", cover(single), seconds / loads / unit)
+        records.add("tolerance", f"{tolerance:g}", single, seconds / loads / unit)
 
 
 def tabulate_seeds(pool, records):
     """Errors of means by the number and kind of seeds, on the finest grid that has many."""
-    best = max(p for p, fine in pool.fine.items() if len(fine) >= FEWEST_FINE)
-    scatter = pool.fine[best].std(0, ddof=1) / np.abs(pool.truth)
+    scatter = pool.fine[pool.best].std(0, ddof=1) / np.abs(pool.truth)
     records.add_points("scatter", pool.by_quantity(scatter))
     for pixels, fine in pool.fine.items():
         if pixels != COARSE:
@@ -237,11 +222,10 @@ def tabulate_seeds(pool, records):
     explained = np.minimum(slopes / pool.coarse.std(0, ddof=1), 1)
     records.add_points("coarse_share", pool.by_quantity(np.sqrt(1 - explained**2)))
 
-    loads = len(np.unique(pool.pressure))
     for seeds, more in MEANS:
-        settings = Settings(best, FULL, seeds, more)
+        settings = Settings(pool.best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
-        records.add("seeds", text, cover(pool.draw(settings)), pool.cost(settings) / loads)
+        records.add("seeds", text, pool.draw(settings), pool.cost(settings) / pool.loads)
 
 
 def tabulate_theory(measured, pool, records):
@@ -251,7 +235,7 @@ def tabulate_theory(measured, pool, records):
     state, seconds = time_task(
         lambda: contact_of(Persson(lattice), loads, measured["range"].values)
     )
-    values, *_ = flatten(derive_columns(state.expand_dims("seed")))
+    values, _ = flatten(state.expand_dims("seed"))
     errors = pool.by_quantity(values[0] / pool.truth - 1)
     records.add_points("theory", errors, pool.by_quantity(pool.truth_error / pool.truth))
     records.add("model", "theory", errors, seconds / len(loads) / float(measured.pair_time))

@@ -4,14 +4,10 @@ import numpy as np
 import pandas as pd
 from scipy import optimize
 
-from common.tradeoff_table import KEYS
 from stickiness.accuracy.error_models import ErrorModel
 from tradeoff.measuring import COVERED
 
-ROWS = [*KEYS, "surface", "pressure", "error", "cost"]
 SIZES = ["magnification", "window", "pressure", "pixels", "tolerance"]
-FEATURES = ["constant", "hurst", *SIZES]
-POINTS = ["part", "quantity", *FEATURES[1:], "value", "noise"]
 FLOOR = 1e-10  # errors below are rounding and do not tell how they depend on anything
 PRIOR = 8.0  # twice the variance of exponents before anything is known of them
 
@@ -24,14 +20,16 @@ class Records:
 
     def start(self, problem, name, surface):
         """Name the problem and the surface of what is added from now on."""
-        self.problem, self.name, self.surface = problem, name, surface
+        self.problem, self.name, self.surface = problem, name, vars(surface)
 
     def add(self, setting, value, errors, cost):
-        """Add a row for every error, by quantity and load."""
-        for (quantity, load), error in errors.items():
+        """Add a row for every quantity and load, with what covers 90 % of its errors."""
+        for (quantity, load), every in errors.items():
+            error = np.nanquantile(np.abs(every), COVERED)
             if np.isfinite(error):
-                where = self.problem, quantity, setting, value, self.name
-                self.rows.append((*where, float(load), float(error), float(cost)))
+                row = {"problem": self.problem, "quantity": quantity, "setting": setting}
+                row |= {"value": value, "surface": self.name, "pressure": float(load)}
+                self.rows.append(row | {"error": float(error), "cost": float(cost)})
 
     def add_points(self, part, values, noise=None, **knob):
         """Add a point for every value, by quantity and load."""
@@ -39,30 +37,29 @@ class Records:
             error = noise[quantity, load] if noise else 0.0
             self.add_point(part, quantity, value, error, pressure=load, **knob)
 
-    def add_point(
-        self, part, quantity, value, noise=0.0, *, pressure=1.0, pixels=1.0, tolerance=1.0
-    ):
+    def add_point(self, part, quantity, value, noise=0.0, **knobs):
         """Add a value of one part of the error models and its standard error, 0 if known well."""
-        surface = self.surface.hurst, self.surface.magnification, self.surface.window
-        at = pressure, pixels, tolerance
-        self.points.append((part, quantity, *surface, *at, float(value), float(noise)))
+        point = {"part": part, "quantity": quantity, "value": float(value), "noise": float(noise)}
+        self.points.append(dict.fromkeys(SIZES, 1.0) | self.surface | knobs | point)
 
 
 def fit_models(points):
-    """Fit a model to the points of every part and quantity, rows of `POINTS`."""
+    """Fit a model to the points of every part and quantity."""
     models = {}
-    for key, group in pd.DataFrame(points, columns=POINTS).groupby(POINTS[:2], sort=False):
+    for key, group in pd.DataFrame(points).groupby(["part", "quantity"], sort=False):
         features = np.column_stack([np.ones(len(group)), group.hurst, np.log(group[SIZES])])
         values, noise = group.value.to_numpy(), group.noise.to_numpy()
         if noise.any():
-            models[key] = fit_noisy(features, values, noise)
+            coefficients, ratio = fit_noisy(features, values, noise)
         else:
-            models[key] = fit_least_squares(features, values)
+            coefficients, ratio = fit_least_squares(features, values)
+        spread = float(np.quantile(ratio, COVERED))
+        models[key] = ErrorModel(*coefficients.tolist(), spread=spread, points=len(ratio))
     return models
 
 
 def fit_least_squares(features, values):
-    """Fit one model to logarithms; features that no two points differ in stay out."""
+    """Fit logarithms: coefficients, 0 of what no two points differ in, and values over the fit."""
     kept = values > FLOOR
     if not kept.any():
         kept[-1] = True
@@ -70,7 +67,7 @@ def fit_least_squares(features, values):
     varied = find_varied(features)
     coefficients = np.zeros(features.shape[1])
     coefficients[varied], *_ = np.linalg.lstsq(features[:, varied], np.log(values))
-    return make_model(coefficients, values / np.exp(features @ coefficients))
+    return coefficients, values / np.exp(features @ coefficients)
 
 
 def fit_noisy(features, values, noise):
@@ -82,7 +79,7 @@ def fit_noisy(features, values, noise):
         others = here if here.all() else ~here
         fitted = maximise_likelihood(features[others], values[others], noise[others])
         ratio[here] = np.abs(values[here]) / np.hypot(np.exp(features[here] @ fitted), noise[here])
-    return make_model(maximise_likelihood(features, values, noise), ratio)
+    return maximise_likelihood(features, values, noise), ratio
 
 
 def maximise_likelihood(features, values, noise):
@@ -110,9 +107,3 @@ def find_varied(features):
     varied = np.ptp(features, axis=0) > 0
     varied[0] = True
     return varied
-
-
-def make_model(coefficients, ratio):
-    """Model with these coefficients; `ratio` holds the measured values over it."""
-    spread = float(np.quantile(ratio, COVERED))
-    return ErrorModel(*coefficients.tolist(), spread=spread, points=len(ratio))

@@ -38,6 +38,7 @@ PULL_OFFS = {
 def main(job):
     surface, asked = job.params.case, job.params.adhesion
     usual = asked["at_pixels"], asked["at_tolerance"]
+    made = {**surface, "q0_h_rms": asked["q0_h_rms"], "at_pixels": usual[0]}
     grids = [p for p in asked["pixels"] if grid_points(surface, p) <= asked["most_points"]]
     seeds, more = range(1, asked["seeds"] + 1), range(1, asked["more_seeds"] + 1)
     wanted = [
@@ -46,9 +47,8 @@ def main(job):
         *product([p for p in grids if p <= usual[0]], usual[1:], more),
     ]
     states = measuring.record(wanted, lambda *setting: solve_states(surface, asked, *setting))
-    made = {**surface, "q0_h_rms": asked["q0_h_rms"], "at_pixels": usual[0], "tolerance": usual[1]}
     title = "full adhesion of the same realisations with various settings"
-    measuring.write(states, job.output.states, title, made, **STATES)
+    measuring.write(states, job.output.states, title, made | {"tolerance": usual[1]}, **STATES)
 
     asked = asked | asked["pull_off"]
     usual, seeds = (usual[0], asked["at_tolerance"]), range(1, asked["seeds"] + 1)
@@ -78,8 +78,8 @@ def solve_states(surface, asked, pixels, tolerance, seed):
             state, values["seconds"][i, k] = measuring.time_task(solve_at_gap, *problem)
             values["external_pressure"][i, k] = state.mean_pressure
             values["repulsive_area"][i, k] = state.repulsive_area_fraction
-    found = {name: (("pressure", "point"), value) for name, value in values.items()}
-    return xr.Dataset(found, {"pressure": loads, **coordinates})
+    dims = "pressure", "point"
+    return xr.Dataset({n: (dims, v) for n, v in values.items()}, {"pressure": loads} | coordinates)
 
 
 def separate(surface, asked, pixels, tolerance, seed):

@@ -57,6 +57,11 @@ def make_heights(surface, pixels, seed):
     return np.ascontiguousarray(finer[::step, ::step]), finer
 
 
+def split_loads(quantity, errors):
+    """Errors of single surfaces by quantity and load."""
+    return {(quantity, load): errors.sel(pressure=load).values for load in errors.pressure.values}
+
+
 def time_task(task, *arguments):
     """Return what a task returns, and the processor time [s] it took."""
     begin = time.process_time()

@@ -9,7 +9,7 @@ from common.plotting import make_key, pick_look, write_ticks
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.settings import Problem, predicted_cost, predicted_error
-from tradeoff.presets import adhesive_cost, adhesive_error, worst_errors
+from tradeoff.presets import adhesive_cost, adhesive_error
 
 CONTACT = {
     "area": "contact area",
@@ -40,20 +40,14 @@ def main(job):
     medians, params = summary.read(job.input.summary), job.params
     tolerances = pd.to_numeric(medians.value, errors="coerce")
     medians["x"] = medians.cost.where(medians.setting != "tolerance", tolerances)
-    is_contact = medians.problem == "contact"
     given = read_models(job.input.laws), Surface.of(params.surface), params.presets["pressures"]
-    presets = {
-        name: plan.preset(params.fidelities[name])
-        for name in PRESET_MARKS
-        if name in params.fidelities
-    }
     with plotting.open_figure(job.output, "AB;CD;EF;GH", 9.5) as panels:
-        for names, title, found, labels, error, cost in (
-            ("ACEG", "contact", medians[is_contact], CONTACT, predicted_error, cost_of_load),
-            ("BDFH", "adhesion", medians[~is_contact], ADHESION, adhesive_error, adhesive_cost),
+        for names, title, labels, error, cost in (
+            ("ACEG", "contact", CONTACT, predicted_error, cost_of_load),
+            ("BDFH", "adhesion", ADHESION, adhesive_error, adhesive_cost),
         ):
             styles = {quantity: pick_look(index) for index, quantity in enumerate(labels)}
-            found = found[found.quantity.isin(labels)]
+            found = medians[medians.quantity.isin(labels)]
             for name, (setting, text) in zip(names, SETTINGS.items(), strict=False):
                 panels[name].set_title(f"{title}: {text}", loc="right")
                 chosen = found[(found.setting == setting) & (found.error > SMALLEST)]
@@ -64,11 +58,12 @@ def main(job):
             last.set_title(f"{title}: model, presets", loc="right")
             keys = draw_models(last, found[found.setting == "model"], styles)
             problem = Problem(*given, list(labels), params.descriptor_seeds)
-            for name, settings in presets.items():
+            for name in [name for name in PRESET_MARKS if name in params.fidelities]:
+                settings = plan.preset(params.fidelities[name])
                 look = {"linestyle": "", "marker": PRESET_MARKS[name]}
                 keys.append(make_key(f"simulation, {name}", **look))
-                worst = worst_errors(problem, settings, error)
-                for style, largest in zip(styles.values(), worst, strict=True):
+                for column, style in styles.items():
+                    largest = max(error(problem, settings, p, column) for p in problem.pressures)
                     last.plot(cost(problem, settings), largest, color=style["color"], **look)
             finish(last, COST)
             last.legend(handles=keys, loc="lower left")

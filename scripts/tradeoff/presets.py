@@ -27,14 +27,13 @@ ADHESIVE_QUANTITIES = {
     "threshold": ("threshold",),
     "pull_off": ("pull_off",),
 }
-ADHESIVE_COLUMNS = tuple(itertools.chain(*ADHESIVE_QUANTITIES.values()))
 ADHESIVE_TOLERANCE = 1e-7  # of the solver of full adhesion, whatever the settings say
 PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
 FEWEST = 8  # seeds from which on a mean of adhesive contact has a control
 
 
 def adhesive_error(problem, settings, pressure, column):
-    """Relative error of one of `ADHESIVE_COLUMNS` that covers 90 %."""
+    """Relative error of a column of full adhesion that covers 90 %."""
     if column == "pull_off":
         # It falls so steeply that the model would promise too much beyond what was measured.
         nearest = min(problem.surface.magnification, PULL_OFF_UP_TO)
@@ -55,16 +54,15 @@ def adhesive_cost(problem, settings):
 
 def cheapest_adhesive(problem, accuracy):
     """Cheapest settings for an accuracy in all columns of full adhesion."""
-
-    def worst(settings):
-        return max((adhesive_error(problem, settings, *at), *at[::-1]) for at in problem.points)
-
-    knobs = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
-    every = list(itertools.starmap(Settings, knobs))
-    found = [(adhesive_cost(problem, one), one) for one in every if worst(one)[0] <= accuracy]
+    found = []
+    for knobs in itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS):
+        one = Settings(*knobs)
+        worst = max((adhesive_error(problem, one, *at), *at[::-1]) for at in problem.points)
+        if worst[0] <= accuracy:
+            found.append((adhesive_cost(problem, one), one))
     if found:
         return min(found)[1]
-    left, column, pressure = worst(every[-1])
+    left, column, pressure = worst  # of the most expensive settings
     raise UnreachableError(
         f"the best that full adhesion reaches is {left:.2g}, for {column} at pressure {pressure:g}"
     )
@@ -73,17 +71,11 @@ def cheapest_adhesive(problem, accuracy):
 def preset_by_rule(models, presets, name, surface, descriptor_seeds):
     """Cheapest multilevel settings for the errors of a preset, those of full adhesion included."""
     where, adhesive = (models, Surface.of(surface), presets["pressures"]), presets["adhesive"]
-    columns = [column for one in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[one]]
-    adhesion = Problem(*where, columns, descriptor_seeds)
-    least = cheapest_adhesive(adhesion, adhesive["accuracy"][name])
-    least = replace(least, coarse_seeds=max(least.coarse_seeds, COARSE_SEEDS[1]))
     contact = Problem(*where, columns_of(MODELLED), descriptor_seeds)
+    columns = [column for one in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[one]]
+    least = cheapest_adhesive(replace(contact, columns=columns), adhesive["accuracy"][name])
+    least = replace(least, coarse_seeds=max(least.coarse_seeds, COARSE_SEEDS[1]))
     return cheapest(contact, presets["accuracy"][name], least=least)
-
-
-def worst_errors(problem, settings, error):
-    """Largest error over the loads of every column, by `predicted_error` or `adhesive_error`."""
-    return [max(error(problem, settings, p, c) for p in problem.pressures) for c in problem.columns]
 
 
 def list_presets(models, presets, surface, descriptor_seeds):

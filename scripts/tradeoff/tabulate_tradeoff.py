@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from common import tradeoff_table as summary
+from common.conventions import annotate
 from common.job import start
 from common.templates import write_page
 from stickiness import datasets
@@ -15,19 +16,19 @@ from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, UnreachableError, cheapest
 from tradeoff.adhesion_table import tabulate_adhesion
 from tradeoff.contact_table import DESCRIBED_SEEDS, make_pool, tabulate_contact
-from tradeoff.fit_models import ROWS, Records, fit_models
+from tradeoff.fit_models import Records, fit_models
 from tradeoff.presets import list_presets
 
 TEXTS = {
-    "row": ("1", "number"),
-    "problem": ("1", "contact without adhesion, full adhesion or pull-off"),
-    "quantity": ("1", "what the error is of"),
-    "setting": ("1", "what is varied"),
-    "value": ("1", "its value"),
-    "surface": ("1", "model surface"),
-    "pressure": ("1", "load over E* q0 h_rms"),
-    "error": ("1", "relative error that covers 90 % of single surfaces, or of means for seeds"),
-    "cost": ("1", "cost over that of a pair of transforms of 1024 x 1024 doubles"),
+    "row": "number",
+    "problem": "contact without adhesion, full adhesion or pull-off",
+    "quantity": "what the error is of",
+    "setting": "what is varied",
+    "value": "its value",
+    "surface": "model surface",
+    "pressure": "load over E* q0 h_rms",
+    "error": "relative error that covers 90 % of single surfaces, or of means for seeds",
+    "cost": "cost over that of a pair of transforms of 1024 x 1024 doubles",
 }
 COMMENT = """\
 Error and cost models, fitted by the target tradeoff; scripts/stickiness/accuracy/ says how they
@@ -47,7 +48,7 @@ def main(job):
             measured = datasets.read(path)
             records.start(problem, Path(path).stem, Surface.of(datasets.parameters(measured)))
             tabulate(measured, records)
-    found, models = pd.DataFrame(records.rows, columns=ROWS), fit_models(records.points)
+    found, models = pd.DataFrame(records.rows), fit_models(records.points)
     models |= {
         # The control of full adhesion is its DMT limit, in proportion to an attractive area.
         ("coarse_share", column): models["coarse_share", "attractive_area_0.1"]
@@ -55,7 +56,7 @@ def main(job):
         if part == "fine_share" and ("coarse_share", column) not in models
     }
     datasets.write(
-        datasets.annotate(found.rename_axis("row").to_xarray(), **TEXTS),
+        annotate(found.rename_axis("row").to_xarray(), **TEXTS),
         job.output.dataset,
         title="error and cost of every setting",
         parameters={"surfaces": [Path(path).stem for path in job.input.contact]},
@@ -85,11 +86,8 @@ def validate(models, paths, accuracies):
     within = []
     for path in paths:
         measured = datasets.read(path)
-        surface, loads = (
-            Surface.of(datasets.parameters(measured)),
-            measured.pressure.values.tolist(),
-        )
-        pool = make_pool(measured)
+        pool, loads = make_pool(measured), measured.pressure.values.tolist()
+        surface = Surface.of(datasets.parameters(measured))
         for quantities, accuracy in itertools.product(VALIDATED, accuracies):
             problem = Problem(models, surface, loads, columns_of(quantities), DESCRIBED_SEEDS)
             try:

@@ -40,6 +40,7 @@ MISUSES = [
     (lambda: press(pressure="0.1"), "pressure must be a number"),
     (lambda: press(pressure=-0.1), "pressure must be non-negative"),
     (lambda: press(tol=10.0), "tol must be positive and at most"),
+    (lambda: press(start=HEIGHTS), "start must be a Contact"),
     (lambda: surface.synthesise(BAND, 16, SIDE, None), "seed must be an integer"),
     (lambda: surface.synthesise("steel", 16, SIDE, 1), "spectrum must be"),
     (lambda: surface.lattice_spectrum(BAND, SIDE / 3), "window does not hold"),

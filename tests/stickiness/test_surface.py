@@ -40,7 +40,7 @@ def test_fixed_amplitudes_have_the_lattice_moments_exactly(size):
     m = surface.moments(surface.synthesise(s, 32, L, seed=5, amplitudes="fixed"), L)
     assert m.m00 == pytest.approx(window.moment(0), rel=1e-12)
     assert (m.m20 + m.m02) / 2 == pytest.approx(window.moment(2), rel=1e-12)
-    for name in ("h_rms", "rms_slope", "rms_curvature"):
+    for name in ("h_rms", "rms_slope", "rms_curvature", "nayak"):
         assert getattr(m, name) == pytest.approx(getattr(window, name), rel=1e-12)
 
 

@@ -152,13 +152,10 @@ def read_models(path: str | Path) -> dict[tuple[str, str], ErrorModel]:
     """Read the table of error models, by part and column of a quantity (costs have no column)."""
     try:
         with Path(path).open(encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-        models = {
-            (row.pop("part"), row.pop("quantity")): ErrorModel(
-                **{name: float(value) for name, value in row.items()}
-            )
-            for row in rows
-        }
+            models = {}
+            for row in csv.DictReader(line for line in file if not line.startswith("#")):
+                key = row.pop("part"), row.pop("quantity")
+                models[key] = ErrorModel(**{name: float(value) for name, value in row.items()})
     except FileNotFoundError:
         raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
     except (KeyError, TypeError, ValueError) as error:

@@ -8,7 +8,6 @@ strength (l_a/range)/(q0 h_rms). Beyond the table nothing is known, and the full
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
@@ -73,16 +72,15 @@ def read_table(path: str | Path) -> ErrorTable:
     if tuple(lines[0].split(",")) != COLUMNS:
         raise ValueError(f"{path}: the columns must be {','.join(COLUMNS)}, got {lines[:1]}")
     groups: dict[tuple[str, float], list[list[float]]] = {}
-    for number, (law, *texts) in enumerate(csv.reader(lines[1:]), 2):
+    for number, line in enumerate(lines[1:], 2):
+        law, *texts = line.split(",")
         try:
             hurst, *values, error = map(float, texts)
             if len(texts) + 1 != len(COLUMNS) or min(values) <= 0 or not error >= 0:
                 raise ValueError
         except ValueError:
-            raise ValueError(
-                f"{path}: line {number}: {lines[number - 1]!r} must hold positive numbers after "
-                "the law"
-            ) from None
+            wanted = f"{line!r} must hold positive numbers after the law"
+            raise ValueError(f"{path}: line {number}: {wanted}") from None
         groups.setdefault((law, hurst), []).append([*np.log(values), error / values[-1]])
     lattices = {}
     for group, rows in groups.items():

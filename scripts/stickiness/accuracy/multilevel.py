@@ -73,15 +73,7 @@ def multilevel_mean(
 
     `coarse` (n, ...) are the same quantities of the same seeds on the coarse grid, `many` (N, ...)
     those of other seeds. `controls` (N, k) and `elsewhere` (M, k) are descriptors of the seeds of
-    `many`, and of seeds that are not solved. From `fewest` fine seeds on, the coefficient of the
-    coarse solution is the slope of fine against coarse, entry by entry; with fewer it is the ratio
-    of their means.
-
-    A slope fitted to a few seeds scatters too much to help: with four it can double the variance of
-    a plain mean. The ratio of means does not, and it suits areas at ranges that the coarse grid
-    does not resolve: those are too large, but all in proportion. Where coarse solutions are not all
-    of one sign a ratio means little, and 1 is taken. Neither helps where the coarse solutions hold
-    noise of their own, such as P(u) at gaps that their grid does not resolve.
+    `many`, and of seeds that are not solved. See `corrected_mean` for `fewest`.
     """
     level = controlled_mean(many, controls, elsewhere)
     one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
@@ -89,10 +81,14 @@ def multilevel_mean(
 
 
 def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estimate:
-    """Mean of a few fine solutions, corrected by a mean of coarse ones: see `multilevel_mean`.
+    """Mean of a few fine solutions, corrected by the mean `level` of coarse ones of other seeds.
 
-    `level` is the mean of the coarse solutions of other seeds; `one_sign` says whether these are
-    all of one sign, so that a ratio to them means something.
+    From `fewest` fine seeds on, the coefficient of the coarse solution is the slope of fine against
+    coarse, entry by entry. With fewer it is the ratio of their means, or 1 where coarse solutions
+    are not all of `one_sign`: fitted to four seeds, a slope can double the variance of a plain
+    mean. The ratio suits areas at ranges that the coarse grid does not resolve: those are too
+    large, but all in proportion. Neither helps where the coarse solutions hold noise of their own,
+    such as P(u) at gaps that their grid does not resolve.
     """
     if len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)

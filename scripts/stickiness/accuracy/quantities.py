@@ -21,8 +21,8 @@ class Column:
     text: str  #: in files of results
     label: str  #: in the report
     variable: str  #: in the file of results, without an ending such as ``_mean``
-    #: Means of the ensemble that it needs, by their names in the file.
-    means: tuple[str, ...]
+    #: Means of the ensemble that it needs, by their names in the file; by default the variable's.
+    means: tuple[str, ...] = ()
     quantity: str = ""  #: that a case names, if it is not the name of the column
     #: where along `range` or `gap`, over h_rms
     at: Mapping[str, float] = field(default_factory=dict)
@@ -52,15 +52,9 @@ def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float
 
 
 def _attractive_area(at: float) -> Column:
-    return Column(
-        f"attractive_area_{at:g}",
-        f"attractive area at range {at:g} h_rms over nominal area",
-        f"attractive area at range {at:g}",
-        "attractive_area",
-        ("attractive_area",),
-        quantity="attractive_area",
-        at={"range": at},
-    )
+    name, label = "attractive_area", f"attractive area at range {at:g}"
+    text = f"{label} h_rms over nominal area"
+    return Column(f"{name}_{at:g}", text, label, name, quantity=name, at={"range": at})
 
 
 _AREA = "repulsive contact area over nominal area"
@@ -68,8 +62,8 @@ _DENSITY = "P(u) times h_rms at gap 0.1 h_rms"
 _SLOPE = "rms gradient of the heights within the contact over q0 h_rms"
 _BOTH = ("attractive_area", "gap_density")
 _TABLE = (
-    Column("area", _AREA, "contact area", "area_fraction", ("area_fraction",)),
-    Column("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap", ("mean_gap",)),
+    Column("area", _AREA, "contact area", "area_fraction"),
+    Column("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap"),
     _attractive_area(0.01),
     _attractive_area(0.1),
     Column("gap_distribution", _DENSITY, "P(u) at gap 0.1", "gap_density", _BOTH, at={"gap": 0.1}),
@@ -77,7 +71,6 @@ _TABLE = (
     Column("kappa", "kappa_rep", "κ", "kappa", ("area_fraction",), file="kappa"),
     Column(
         *("contact_slope", _SLOPE, "rms slope within the contact", "contact_slope"),
-        ("contact_slope",),
         measure=slope_within_contact,
     ),
 )
@@ -96,7 +89,8 @@ def columns_of(names: Iterable[str]) -> tuple[str, ...]:
 
 def means_of(names: Iterable[str]) -> set[str]:
     """Return the names of the ensemble's means that some quantities need."""
-    return {mean for column in columns_of(names) for mean in COLUMNS[column].means}
+    columns = [COLUMNS[name] for name in columns_of(names)]
+    return {mean for column in columns for mean in column.means or (column.variable,)}
 
 
 def has_error_model(column: str) -> bool:

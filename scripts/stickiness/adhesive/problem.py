@@ -45,7 +45,7 @@ class Problem:
     @property
     def smoother(self):
         """Approximate inverse of the stiffness."""
-        return _kept_smoother(self.heights.shape, self.sides, self.solid)
+        return half_space.keep(Smoother, self.heights.shape, self.sides, self.solid)
 
     @property
     def wall(self):
@@ -93,9 +93,6 @@ class FrozenTraction:
     field: np.ndarray
     range: float  #: of the law it is frozen from
     hard_wall = True
-
-
-_kept_smoother = half_space.keep_per_thread(24)(Smoother)
 
 
 @dataclass(eq=False)

@@ -100,9 +100,7 @@ class Persson:
         self.solid, self._layered = check_solid(solid), None
         if solid != HALF_SPACE:
             self._layered = LayeredScales(spectrum, solid, nodes)
-            m2 = self._layered.variance_below(spectrum.q1)
-        else:
-            m2 = 0.5 * float(spectrum.variance_below(spectrum.q1, 2))
+        m2 = self._variance_below(spectrum.q1)
         self._setting = gaps.Setting(spectrum, universal, scale_nodes(spectrum, nodes), m2, nodes)
 
     def with_variant(self, variant: Variant) -> Persson:
@@ -115,13 +113,26 @@ class Persson:
         other.variant = variant
         return other
 
-    def area_fraction(self, p: ArrayLike) -> NDArray:
-        """Relative contact area A/A_nom at mean pressures `p` >= 0 over E*, of their shape."""
+    def area_fraction(self, p: ArrayLike, magnification: float | None = None) -> NDArray:
+        """Relative contact area A/A_nom at mean pressures `p` >= 0 over E*, of their shape.
+
+        `magnification`: resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen, the
+        finest by default. With a direction, q0 is the wave number of the longest of all waves.
+        """
         (p,) = finite(p=p)
         if not np.all(p >= 0):
             raise ValueError(f"p must be finite and not negative, got {p!r}")
         warn_of_pressure(float(np.max(p, initial=0.0)), float(np.sqrt(2 * self._setting.m2)))
-        y = self._setting.kernels.invert_area_scale(self._setting.m2 / np.where(p > 0, p, 1.0) ** 2)
+        m = self._setting.m2
+        if magnification is not None:
+            if np.ndim(magnification) or not magnification >= 1:
+                raise ValueError(
+                    f"magnification must be a number of at least 1, got {magnification!r}"
+                )
+            m = self._variance_below(magnification * self.spectrum.q0)
+        if m == 0:  # no wave is seen
+            return np.where(p > 0, 1.0, 0.0)[()]
+        y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
         return np.where(p > 0, erf(y), 0.0)[()]
 
     def mean_gap(self, p: ArrayLike) -> NDArray:
@@ -170,6 +181,12 @@ class Persson:
         relative attractive area of a traction that acts up to `u`. Arguments as of `gap_density`.
         """
         return self._over_gaps(u, p, gaps.cumulative)
+
+    def _variance_below(self, q: float) -> float:
+        """Twice the variance of the pressure in full contact of the waves up to `q` [E*]."""
+        if self._layered is not None:
+            return self._layered.variance_below(q)
+        return 0.5 * float(self.spectrum.variance_below(q, 2))
 
     def _pressure_at(self, target: float) -> float:
         def excess(log_p: float) -> float:

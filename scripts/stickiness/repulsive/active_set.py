@@ -64,16 +64,10 @@ class State:
 class _Field:
     """A field that is zero but at some points, and its image under an operator."""
 
-    def __init__(self, operator, memory=None):
-        self.operator = operator
-        self.shape = operator.shape
-        size = self.shape[0] * self.shape[1]
-        if memory is None:
-            self.field = convolution.aligned_zeros(size, operator.dtype)
-            self.image = convolution.aligned_zeros(size, operator.dtype)
-        else:  # zeros are zeros in any precision, and an image is read before the next is made
-            self.field = memory.field.view(operator.dtype)[:size]
-            self.image = memory.image.view(operator.dtype)[:size]
+    def __init__(self, operator, memory):
+        self.operator, self.shape = operator, operator.shape
+        # Shared: zeros are zeros in any precision, and an image is read before the next is made.
+        self.field, self.image = (part.view(operator.dtype)[: part.size] for part in memory)
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
@@ -91,10 +85,9 @@ class _Grid:
         self.solid, self.sides = problem.solid, problem.sides
         self.active = np.zeros(self.heights.size, bool)
         dtype = np.float32 if rough else np.float64
-        self.exact = _Field(problem.operator(dtype))
-        self.quick = self.exact
-        if not rough:
-            self.quick = _Field(problem.operator(np.float32), memory=self.exact)
+        memory = [convolution.aligned_zeros(self.heights.size, dtype) for _ in range(2)]
+        self.exact = _Field(problem.operator(dtype), memory)
+        self.quick = self.exact if rough else _Field(problem.operator(np.float32), memory)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         largest = float(np.abs(self.heights).max())
         if not problem.periodic:  # an absolute displacement is about as large as this
@@ -155,18 +148,13 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
             break
         if below.size + points.size == 1:
             break
-        if dilute and stalled < _MAX_STALLED_DILUTE:
-            candidates = dilute_contact.select_candidates(
-                grid, candidates, points, below, field.image, shift
-            )
-            dilute = candidates is not None
-        else:
-            candidates, dilute = None, False
+        usable, at = dilute and stalled < _MAX_STALLED_DILUTE, (points, below, field.image, shift)
+        candidates = dilute_contact.select_candidates(grid, candidates, *at) if usable else None
+        dilute = candidates is not None
         if dilute:
             local = field.image[candidates.points].astype(float) + shift
-            left = max_iterations - iterations
             points, pressure, count = candidates.correct_pressure(
-                points, pressure, local, 0.3 * tol, left
+                points, pressure, local, 0.3 * tol, max_iterations - iterations
             )
             iterations += count
             # such a correction gains a factor of 100
@@ -185,20 +173,16 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
         changed += admitted.size
         if precondition is None:
             precondition = Preconditioner(grid, points)
-        if changed == 0:
-            goal = 0.5 * tol
-        else:
-            few = changed <= _FEW_CHANGES * points.size
-            reduction = min(loose, _REDUCTION_NEARLY_SETTLED) if few else loose
-            goal = max(reduction * float(np.std(gaps)), 0.1 * tol)
-        scale = float(np.std(gaps)) or 1.0
+        spread, few = float(np.std(gaps)), changed <= _FEW_CHANGES * points.size
+        reduction = min(loose, _REDUCTION_NEARLY_SETTLED) if few else loose
+        goal = max(reduction * spread, 0.1 * tol) if changed else 0.5 * tol
+        scale = spread or 1.0
         residuals = np.empty(gaps.size, np.float32)
         np.subtract(float(gaps.mean()), gaps, out=residuals, casting="same_kind")
         residuals /= np.float32(scale)
         gaps = None  # frees memory
-        change, count = close_gap(
-            precondition, residuals, goal / scale, changed == 0, max_iterations - iterations
-        )
+        operators, left = (precondition, precondition.compliance), max_iterations - iterations
+        change, count = close_gap(*operators, residuals, goal / scale, changed == 0, left)
         iterations += count
         change = np.multiply(change, scale, dtype=float)
         change -= change.mean()
@@ -218,8 +202,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
 def _full_contact(grid, load):
     """Full contact of any surface: the pressure that displaces the solid by the heights."""
     operator = grid.exact.operator
-    heights = grid.heights.astype(operator.dtype, copy=False)
-    pressure = operator.stiffness(heights)
+    pressure = operator.stiffness(grid.heights.astype(operator.dtype, copy=False))
     misfit = operator.compliance(pressure)
     misfit -= grid.heights
     residual = float(np.abs(misfit).max())
@@ -247,11 +230,9 @@ def _gap(grid, field, points, pressure):
 
 
 def _highest(problem):
-    """Points that may touch, for want of a guess: the highest, many of them; all at a high load.
-
-    At small loads the area of contact is about twice the load over the rms slope.
-    """
+    """Points that may touch, for want of a guess: the highest, many of them; all at a high load."""
     heights, sure = problem.heights, problem.periodic and problem.solid == HALF_SPACE
+    # at small loads
     area = 2 * problem.load / (half_space.measure_slope(heights, problem.sides) or 1.0)
     count = int(_FIRST_SET_FACTOR * area * heights.size) + 1
     if not sure or count > _LARGEST_FIRST_SET * heights.size:
@@ -318,12 +299,5 @@ def _state(grid, best, field, last, iterations):
     np.maximum(gap, 0, out=gap)
     gap[touching] = 0
     filled[touching] = pressure
-    return State(
-        pressure=filled.reshape(grid.shape),
-        gap=gap.reshape(grid.shape),
-        shift=shift,
-        area_fraction=touching.size / gap.size,
-        residual=residual,
-        iterations=iterations,
-        fft_pairs=grid.pairs,
-    )
+    fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size
+    return State(*fields, shift, area, residual, iterations, grid.pairs)

@@ -32,8 +32,10 @@ class _Count(threading.local):
 COUNT = _Count()
 
 
-class _Rows:
-    """Transforms of blocks of rows of fields of a `dtype` on a grid `shape`."""
+class _Convolution:
+    """Transforms of blocks of rows, into a `_spectrum` that subclasses multiply by the symbol."""
+
+    _packed = False
 
     def __init__(self, shape, dtype, modes):
         self.shape, self._dtype = shape, dtype
@@ -41,16 +43,59 @@ class _Rows:
         self._rows = min(shape[0], _ROWS)
         self._real = pyfftw.zeros_aligned((self._rows, shape[1]), dtype)
         self._half = self._zeros(self._rows, modes)
-        packed = 2 * modes == shape[1]
-        rows = self._real.view(self._numbers) if packed else self._real
-        self._rows_forward = _plan(rows, self._half, "FFTW_FORWARD")
-        self._rows_backward = _plan(self._half, rows, "FFTW_BACKWARD")
+        self._buffer = self._real.view(self._numbers) if self._packed else self._real
+        self._rows_forward = _plan(self._buffer, self._half, "FFTW_FORWARD")
+        self._rows_backward = _plan(self._half, self._buffer, "FFTW_BACKWARD")
 
     def _zeros(self, rows, columns):
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
 
+    def apply(self, symbol, field, out, rows_in=None, rows_out=None):
+        """Convolve `field` into `out`, another array, with what `symbol` returned.
 
-class Real(_Rows):
+        `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
+        wanted, all by default. Both arrays may be the corner of the grid that holds these rows:
+        `field` is zero beyond, and `out` gets no more.
+        """
+        COUNT.points += self.shape[0] * self.shape[1]
+        rows_in = np.arange(len(field)) if rows_in is None else rows_in
+        rows_out = np.arange(len(out)) if rows_out is None else rows_out
+        if rows_in.size < self.shape[0]:
+            self._spectrum[...] = 0
+        for span, count, direct in self._blocks(field, rows_in):
+            if direct:
+                _run(self._rows_forward, field[span].view(self._numbers), self._by_rows[span])
+                continue
+            width = field.shape[1]
+            self._real[:count, :width] = field[span]
+            self._real[:count, width:] = 0
+            _run(self._rows_forward, self._buffer, self._half)
+            self._by_rows[span] = self._half[:count]
+        self._multiply(symbol)
+        for span, count, direct in self._blocks(out, rows_out):
+            if direct:
+                _run(self._rows_backward, self._by_rows[span], out[span].view(self._numbers))
+                continue
+            self._half[:count] = self._by_rows[span]
+            _run(self._rows_backward, self._half, self._buffer)
+            out[span] = self._real[:count, : out.shape[1]]
+
+    def _blocks(self, field, rows):
+        """Index of each block of rows, its size, and whether FFTW may work on it where it is."""
+        step = field.strides[0]
+        usable = self._packed and field.flags.c_contiguous and field.dtype == self._dtype
+        usable = usable and field.shape == self.shape and field.ctypes.data % _ALIGNED == 0
+        usable = usable and step * self._rows % _ALIGNED == 0
+        for start in range(0, rows.size, self._rows):
+            block = rows[start : start + self._rows]
+            first, last = int(block[0]), int(block[-1])
+            together, whole = last - first + 1 == block.size, block.size == self._rows
+            direct = usable and together and whole and first * step % _ALIGNED == 0
+            # A slice copies nothing.
+            yield slice(first, last + 1) if together else block, block.size, direct
+
+
+class Real(_Convolution):
     """Convolution on any grid; the spectrum is stored transposed."""
 
     def __init__(self, shape, dtype):
@@ -58,6 +103,7 @@ class Real(_Rows):
         super().__init__(shape, dtype, modes)
         self._strip = max(1, min(modes, _CACHED // n0))
         self._spectrum = self._zeros(-(-modes // self._strip) * self._strip, n0)
+        self._by_rows = self._spectrum[:modes].T
         self._work = pyfftw.zeros_aligned((self._strip, n0), self._numbers)
         first = self._spectrum[: self._strip]
         self._columns_forward = _plan(first, self._work, "FFTW_FORWARD")
@@ -69,35 +115,15 @@ class Real(_Rows):
         padded[: values.shape[0]] = values
         return padded
 
-    def apply(self, symbol, field, out, rows_in, rows_out):
-        """Convolve `field` into `out` with what `symbol` returned.
-
-        `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
-        wanted. Both arrays may be the corner of the grid that holds these rows: `field` is zero
-        beyond, and `out` gets no more.
-        """
-        COUNT.points += self.shape[0] * self.shape[1]
-        modes = self._half.shape[1]
-        if rows_in.size < self.shape[0]:
-            self._spectrum[...] = 0
-        for block, span in _blocks(rows_in, self._rows):
-            _pad(field[span], self._real)
-            self._rows_forward.execute()
-            self._spectrum[:modes, span] = self._half[: block.size].T
+    def _multiply(self, symbol):
         for start in range(0, self._spectrum.shape[0], self._strip):
             strip = slice(start, start + self._strip)
-            self._columns_forward.update_arrays(self._spectrum[strip], self._work)
-            self._columns_forward.execute()
+            _run(self._columns_forward, self._spectrum[strip], self._work)
             np.multiply(self._work, symbol[strip], out=self._work)
-            self._columns_backward.update_arrays(self._work, self._spectrum[strip])
-            self._columns_backward.execute()
-        for block, span in _blocks(rows_out, self._rows):
-            self._half[: block.size] = self._spectrum[:modes, span].T
-            self._rows_backward.execute()
-            out[span] = self._real[: block.size, : out.shape[1]]
+            _run(self._columns_backward, self._work, self._spectrum[strip])
 
 
-class Packed(_Rows):
+class Packed(_Convolution):
     """Convolution for an even number of columns, by transforms of complex rows of half the width.
 
     Neighbours along a row are the real and the imaginary part (Cooley, Lewis and Welch, J. Sound
@@ -107,12 +133,14 @@ class Packed(_Rows):
     difference of S at k and at k + n1/2, and ``t = 2 pi k1 / n1``.
     """
 
+    _packed = True
+
     def __init__(self, shape, dtype):
         n0, modes = shape[0], shape[1] // 2
         super().__init__(shape, dtype, modes)
         self._groups = list(_mirrored(modes, max(8, _STRIP // n0)))
-        widest = max(sum(s.stop - s.start for s in group) for group in self._groups)
-        self._spectrum = self._zeros(n0, modes)
+        widest = max(group[-1][1].stop for group in self._groups)
+        self._spectrum = self._by_rows = self._zeros(n0, modes)
         self._before, self._after, self._product = (
             pyfftw.zeros_aligned((widest, n0), self._numbers) for _ in range(3)
         )
@@ -127,7 +155,7 @@ class Packed(_Rows):
         crossed = np.empty((modes, n0), self._dtype)
         start = 0
         # Half the sum, half the difference, and twice for a transform of half the points.
-        for strip in (strip for group in self._groups for strip in group):
+        for strip in (strip for group in self._groups for strip, _ in group):
             k = np.arange(strip.start, strip.stop)
             rows = slice(start, start + k.size)
             angle = np.pi * k[:, None] / modes
@@ -137,63 +165,20 @@ class Packed(_Rows):
             start += k.size
         return direct, crossed
 
-    def apply(self, symbol, field, out, rows_in, rows_out):
-        """Convolve, as `Real.apply` does; `field` and `out` must be two arrays."""
-        COUNT.points += self.shape[0] * self.shape[1]
-        if rows_in.size < self.shape[0]:
-            self._spectrum[...] = 0
-        plan = self._rows_forward
-        for block, span, direct in self._blocks(field, rows_in):
-            if direct:
-                plan.update_arrays(field[span].view(self._numbers), self._spectrum[span])
-                plan.execute()
-                continue
-            _pad(field[span], self._real)
-            plan.update_arrays(self._real.view(self._numbers), self._half)
-            plan.execute()
-            self._spectrum[span] = self._half[: block.size]
-        self._multiply(symbol)
-        plan = self._rows_backward
-        for block, span, direct in self._blocks(out, rows_out):
-            if direct:
-                plan.update_arrays(self._spectrum[span], out[span].view(self._numbers))
-                plan.execute()
-                continue
-            self._half[: block.size] = self._spectrum[span]
-            plan.update_arrays(self._half, self._real.view(self._numbers))
-            plan.execute()
-            out[span] = self._real[: block.size, : out.shape[1]]
-
-    def _blocks(self, field, rows):
-        """Blocks of rows, how to index them, and whether FFTW may work on them where they are."""
-        usable = field.flags.c_contiguous and field.dtype == self._real.dtype
-        usable = usable and field.shape == self.shape and field.ctypes.data % _ALIGNED == 0
-        usable = usable and field.strides[0] * self._rows % _ALIGNED == 0
-        for block, span in _blocks(rows, self._rows):
-            direct = usable and block.size == self._rows and isinstance(span, slice)
-            if direct:
-                direct = span.start * field.strides[0] % _ALIGNED == 0
-            yield block, span, direct
-
     def _multiply(self, symbol):
         direct, crossed = symbol
         start = 0
         for group in self._groups:
-            count = 0
-            for strip in group:
-                width = strip.stop - strip.start
-                self._before[count : count + width] = self._spectrum[:, strip].T
-                count += width
+            for strip, place in group:
+                self._before[place] = self._spectrum[:, strip].T
             self._columns_forward.execute()
-            rows = slice(start, start + count)
+            rows = slice(start, start + group[-1][1].stop)
             values, product = (field.view(self._dtype) for field in (self._after, self._product))
             _combine(direct[rows], crossed[rows], values, product, self._mirror)
             self._columns_backward.execute()
-            start, count = start + count, 0
-            for strip in group:
-                width = strip.stop - strip.start
-                self._spectrum[:, strip] = self._before[count : count + width].T
-                count += width
+            start = rows.stop
+            for strip, place in group:
+                self._spectrum[:, strip] = self._before[place].T
 
 
 @compiled
@@ -225,36 +210,27 @@ def choose(shape, dtype):
 
 
 def _mirrored(modes, width):
-    """Groups of wavenumbers, each closed under k -> -k modulo `modes`, as tuples of slices."""
-    yield (slice(0, 1),)
+    """Groups of wavenumbers closed under k -> -k modulo `modes`: slices and places in a buffer."""
+    yield [(slice(0, 1), slice(0, 1))]
     start = 1
     while 2 * (start + width) <= modes:
-        yield slice(start, start + width), slice(modes - start - width + 1, modes - start + 1)
+        mirror = slice(modes - start - width + 1, modes - start + 1)
+        yield [(slice(start, start + width), slice(0, width)), (mirror, slice(width, 2 * width))]
         start += width
     if start <= modes - start:
-        yield (slice(start, modes - start + 1),)
+        yield [(slice(start, modes - start + 1), slice(0, modes - 2 * start + 1))]
 
 
 def _plan(source, target, direction):
     return pyfftw.FFTW(source, target, axes=(1,), direction=direction, flags=_FLAGS, threads=1)
 
 
+def _run(plan, source, target):
+    plan.update_arrays(source, target)
+    plan.execute()
+
+
 def _stride(n):
     """Padded length of a row: aligned for vector instructions, and no multiple of 1 kB."""
     stride = -(-n // 8) * 8
     return stride + 8 if stride % 128 == 0 else stride
-
-
-def _pad(block, rows):
-    """Copy a block into the first of the rows of a buffer, with zeros to their end."""
-    count, width = block.shape
-    rows[:count, :width] = block
-    rows[:count, width:] = 0
-
-
-def _blocks(rows, size):
-    """Blocks of rows, each with its index: a slice (no copy) where they follow one another."""
-    for start in range(0, rows.size, size):
-        block = rows[start : start + size]
-        first, last = int(block[0]), int(block[-1])
-        yield block, slice(first, last + 1) if last - first + 1 == block.size else block

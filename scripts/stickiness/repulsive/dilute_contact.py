@@ -40,10 +40,7 @@ def is_worthwhile(shape, sides, count):
 
 
 def select_candidates(grid, last, points, below, image, shift):
-    """Candidates at an iterate: the `last` ones unless some that penetrate, `below`, are missing.
-
-    `points` touch, and `image` plus `shift` is the gap. None if they are too many.
-    """
+    """Candidates, unless too many: the `last` ones, unless some that penetrate are missing."""
     if last is not None:
         grid.active[last.points] = True
         missing = not grid.active[below].all()
@@ -57,7 +54,7 @@ def select_candidates(grid, last, points, below, image, shift):
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid.shape, grid.sides, likely.size):
         return None
-    split = _kept_split(grid.shape, tuple(grid.sides), grid.solid)
+    split = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid)
     pairs = _pair(likely, grid.shape, split)
     return None if pairs is None else Candidates(grid, likely, split, *pairs)
 
@@ -104,9 +101,8 @@ class Candidates:
             scale = float(np.abs(misfit).max()) or 1.0
             misfit = (misfit / scale).astype(np.float32)
             reduction = max(_REDUCTION_WHILE_CHANGING, 0.5 * goal / scale)
-            change, more = close_gap(
-                _Touching(self, active), misfit, reduction, True, limit - count
-            )
+            operators = (self._among(of, active) for of in (self.stiffness, self.compliance))
+            change, more = close_gap(*operators, misfit, reduction, True, limit - count)
             count += more
             after[active] += (change - change.mean(dtype=float)) * scale
             steady = not (joined & ~touched).any() and after[active].min() > 0
@@ -119,22 +115,15 @@ class Candidates:
             gap -= gap[active].mean()
         return self.points[active], after[active], count
 
+    def _among(self, operator, active):
+        """An operator on all candidates as one on those that touch."""
+        touching, field = np.flatnonzero(active), np.zeros(active.size, np.float32)
 
-class _Touching:
-    """Compliance, and its preconditioner when called, of the candidates that touch."""
+        def apply(values):
+            field[touching] = values
+            return operator(field)[touching]
 
-    def __init__(self, candidates, active):
-        self._candidates = candidates
-        self._active = np.flatnonzero(active)
-        self._field = np.zeros(active.size, np.float32)
-
-    def compliance(self, pressure):
-        self._field[self._active] = pressure
-        return self._candidates.compliance(self._field)[self._active]
-
-    def __call__(self, gap):
-        self._field[self._active] = gap
-        return self._candidates.stiffness(self._field)[self._active]
+        return apply
 
 
 class _Split:
@@ -158,12 +147,8 @@ class _Split:
 
     def convolve(self, field):
         """Long waves of all points of the coarse grid; the next call overwrites the result."""
-        field, every = field.reshape(self.coarse), np.arange(self.coarse[0])
-        self._convolution.apply(self._symbol, field, self._image, every, every)
+        self._convolution.apply(self._symbol, field.reshape(self.coarse), self._image)
         return self._image.ravel()
-
-
-_kept_split = half_space.keep_per_thread(12)(_Split)
 
 
 def _long(shape, lengths, width):
@@ -193,10 +178,7 @@ def _multiply(matrix, values, image):
 
 
 def _pair(points, shape, split):
-    """Matrices, for `_multiply`, of the near compliance and of the stiffness next by.
-
-    None if there are too many pairs.
-    """
+    """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
     size, width, span = points.size, shape[1] + 2 * _REACH, np.int32(2 * _REACH + 1)
     row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.

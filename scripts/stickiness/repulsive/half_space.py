@@ -15,33 +15,22 @@ from stickiness.arguments import positive
 from stickiness.repulsive import convolution
 from stickiness.solids import HALF_SPACE
 
-_CACHES = []  # of all functions that `keep_per_thread` decorates
+_MOST_KEPT = 48  # operators and the like, of all threads
 
 
-def keep_per_thread(most):
-    """Decorate a function of hashable arguments: keep the `most` last results of each thread.
+def keep(kind, *arguments):
+    """Object of a kind, kept for the next call: threads must not share plans and buffers."""
+    return _kept(threading.get_ident(), kind, *arguments)
 
-    Operators contain FFTW plans and buffers, which two threads must not share.
-    """
 
-    def decorate(make):
-        @lru_cache(maxsize=most)
-        def kept(thread, *arguments):
-            return make(*arguments)
-
-        def of_this_thread(*arguments):
-            return kept(threading.get_ident(), *arguments)
-
-        _CACHES.append(kept)
-        return of_this_thread
-
-    return decorate
+@lru_cache(maxsize=_MOST_KEPT)
+def _kept(thread, kind, *arguments):
+    return kind(*arguments)
 
 
 def clear_caches():
-    """Free the plans and buffers that functions decorated with `keep_per_thread` hold."""
-    for kept in _CACHES:
-        kept.cache_clear()
+    """Free the plans and buffers of all objects that are kept."""
+    _kept.cache_clear()
 
 
 def wavenumbers(shape, lengths):
@@ -52,10 +41,7 @@ def wavenumbers(shape, lengths):
 
 
 def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
-    """Wave numbers ``|q|``/S at which a half-space is as stiff as the solid; `wavenumbers`' shape.
-
-    Twice the stiffness [E*]. Zero stays zero: the mean displacement is not the operators' matter.
-    """
+    """Wave numbers ``|q|``/S, zero at q = 0, at which a half-space is as stiff as the solid."""
     q = wavenumbers(shape, lengths)
     if solid != HALF_SPACE:
         half = shape[0] // 2 + 1  # the other wave vectors mirror these
@@ -70,8 +56,7 @@ class HalfSpace:
     """Compliance ``2 S/|q|`` of a periodic solid and its inverse, the stiffness, but for q = 0.
 
     It counts its convolutions in `pairs`. `mean_stiffness` is the diagonal of the stiffness matrix:
-    pressure under a pixel lifted alone, per unit of lift. The object contains buffers: no two
-    threads may use it at once (`half_space` returns a separate one for every thread).
+    pressure under a pixel lifted alone, per unit of lift. No two threads may use it at once.
     """
 
     def __init__(self, shape, lengths, dtype, solid):
@@ -82,10 +67,8 @@ class HalfSpace:
         self._convolution = convolution.choose(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = effective_wavenumbers(self.shape, self.lengths, solid).T
-        weight = np.full(q.shape[0], 2.0)
-        weight[0] = 1.0
-        if n1 % 2 == 0:
-            weight[-1] = 1.0
+        index = np.arange(q.shape[0])  # waves mirror one another but for the first and a last
+        weight = np.where((index == 0) | (2 * index == n1), 1.0, 2.0)
         self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * n0 * n1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
@@ -99,26 +82,17 @@ class HalfSpace:
         return self._convolution.symbol(q)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*].
-
-        `rows_in`: increasing indices of the only rows with pressure; `rows_out`: those wanted of
-        the displacement, the others stay as they are in `out` (default: all).
-        """
-        symbol = self._compliance
-        return self._convolve(self._convolution, pressure, symbol, out, rows_in, rows_out)
+        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*]."""
+        return self._convolve(self._convolution, self._compliance, pressure, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
-        """Pressure [E*], of zero mean, that causes a displacement; arguments as in `compliance`."""
-        symbol = self._stiffness
-        return self._convolve(self._convolution, displacement, symbol, out, rows_in, rows_out)
+        """Pressure [E*], of zero mean, that causes a displacement."""
+        symbols = self._convolution, self._stiffness
+        return self._convolve(*symbols, displacement, out, rows_in, rows_out)
 
-    def _convolve(self, convolution, field, symbol, out, rows_in, rows_out):
-        if out is None:
-            empty = np.empty if rows_out is None else np.zeros
-            out = empty(self.shape, self.dtype)
-        every = np.arange(self.shape[0])
-        rows_in = every if rows_in is None else rows_in
-        rows_out = every if rows_out is None else rows_out
+    def _convolve(self, convolution, symbol, field, out, rows_in, rows_out):
+        """Convolve a field that is zero but in `rows_in`; other rows of `out` stay as they are."""
+        out = np.zeros(self.shape, self.dtype) if out is None else out
         convolution.apply(symbol, field, out, rows_in, rows_out)
         self.pairs += 1
         return out
@@ -148,8 +122,8 @@ class FreeHalfSpace(HalfSpace):
         self._symbol = self._padded.symbol(spectrum)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement, zero far away; arguments as of `HalfSpace.compliance`."""
-        out = self._convolve(self._padded, pressure, self._symbol, out, rows_in, rows_out)
+        """Displacement, zero far away."""
+        out = self._convolve(self._padded, self._symbol, pressure, out, rows_in, rows_out)
         self.pairs += self._share - 1  # which has been counted as one
         return out
 
@@ -168,18 +142,9 @@ def displace_by_pixel(shape, pixel):
 
 
 def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
-    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread.
-
-    Fields are ``shape`` points, in double or single precision; displacements come out in the unit
-    of the sides `lengths` and of the solid's thickness.
-    """
-    return _kept_half_space(tuple(shape), tuple(lengths), np.dtype(dtype), solid, periodic)
-
-
-@keep_per_thread(24)
-def _kept_half_space(shape, lengths, dtype, solid, periodic):
+    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread."""
     kind = HalfSpace if periodic else FreeHalfSpace
-    return kind(shape, lengths, dtype, solid)
+    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid)
 
 
 def check_length(length, shape):

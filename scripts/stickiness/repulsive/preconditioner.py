@@ -20,11 +20,11 @@ _FAR_WEIGHT = 0.3  # of a zero at infinity: far from all contact the extension v
 _SMALLEST_REDUCTION = 1e-4  # of the gap, by a correction in single precision
 
 
-def close_gap(contact, residual, goal, largest, limit):
+def close_gap(precondition, compliance, residual, goal, largest, limit):
     """Change of pressure, of zero sum, that closes the gap on a set of points; and iterations.
 
-    In single precision until the rms residual (or the `largest`) is down to `goal`. `contact` has
-    the `compliance` on these points and is, when called, a preconditioner. Overwrites `residual`.
+    In single precision until the rms residual (or the `largest`) is down to `goal`. Both operators
+    are on these points. Overwrites `residual`.
     """
     change, count = np.zeros(residual.size, np.float32), 1
     if residual.size == 1 or not residual.any():
@@ -32,7 +32,7 @@ def close_gap(contact, residual, goal, largest, limit):
     goal = max(goal, _SMALLEST_REDUCTION)
     direction, product = None, 1.0
     while True:
-        z = contact(residual)
+        z = precondition(residual)
         z -= z.mean()
         previous, product = product, float(residual @ z)
         if not product > 0:  # nothing but rounding is left
@@ -42,7 +42,7 @@ def close_gap(contact, residual, goal, largest, limit):
         else:
             direction *= np.float32(product / previous)
             direction += z
-        image = contact.compliance(direction)
+        image = compliance(direction)
         step = np.float32(product / float(direction @ image))
         change += step * direction
         image *= step
@@ -64,7 +64,7 @@ class Preconditioner:
         self.rows = grid.rows(points)
         self.mean = None
         if points.size < grid.heights.size:
-            self.mean = _kept_mean(tuple(grid.shape), tuple(grid.sides))
+            self.mean = half_space.keep(_Mean, tuple(grid.shape), tuple(grid.sides))
             self.quick.field[points] = 1
             self.mean.gather(self.quick.field.reshape(grid.shape))
             self.quick.field[points] = 0
@@ -115,12 +115,11 @@ class _Mean:
         self._symbol = self._convolution.symbol(symbol.T)
         self._rows = np.empty((coarse[0], shape[1]), np.float32)
         self._field, self._image = np.zeros((2, *coarse), np.float32)
-        self._every = np.arange(coarse[0])
 
     def gather(self, field, weights=None):
         """Take the sums of a field in single precision, or of its product with weights."""
         _add_to_coarse(field, weights, *self._axes, self._rows, self._field)
-        self._convolution.apply(self._symbol, self._field, self._image, self._every, self._every)
+        self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):
         """Sums at all points of a grid, times weights."""
@@ -131,9 +130,6 @@ class _Mean:
         out = np.empty(points.size, np.float32)
         _interpolate_at(points, self._image, *self._axes, out)
         return out
-
-
-_kept_mean = half_space.keep_per_thread(12)(_Mean)
 
 
 def _interpolation(n, m):

@@ -16,10 +16,7 @@ _JOINING = 1e-6  # of the mean pressure, for points that join: what they carry i
 
 
 def relax(problem, pressure, tol, max_iterations):
-    """Find pressure and gap on one grid from a pressure of any positive mean.
-
-    Returns the first iterate within `tol`, or the one of the smallest residual.
-    """
+    """Find pressure and gap, as `active_set.relax` does, from a pressure of any positive mean."""
     operator = problem.operator(np.float64)
     before, best, iterations = operator.pairs, None, 0
     pressure = np.maximum(pressure, 0.0)

@@ -21,6 +21,8 @@ from stickiness.repulsive import active_set, half_space, projected_gradients
 from stickiness.solids import HALF_SPACE, check_solid
 
 _MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
+# Relative change of load up to which the last solution is the better start.
+_MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
 _MAX_UNSURE_ITERATIONS = 150
@@ -82,6 +84,7 @@ def solve(
     length,
     pressure,
     tol=1e-8,
+    start=None,
     max_iterations=1000,
     solid=HALF_SPACE,
     periodic=True,
@@ -98,6 +101,9 @@ def solve(
         Mean pressure in units of E*. At zero the surfaces touch at the summit, without contact.
     tol : float
         Largest accepted `Contact.residual`, relative to h_rms; at most 0.1.
+    start : Contact, optional
+        Solution on the same grid at nearly the same load. It saves a quarter of the work if the
+        load changes by 0.1 %, and costs more than it saves beyond 1 %.
     max_iterations : int
         Largest number of iterations on the given grid.
     solid : solids.HalfSpace or solids.Layer, optional
@@ -137,6 +143,13 @@ def solve(
     pressure = number("pressure", pressure, zero=True)
     tol = number("tol", tol, most=_MAX_TOLERANCE)
     max_iterations = integer("max_iterations", max_iterations, least=1)
+    if not (start is None or isinstance(start, Contact)):
+        raise ValueError(f"start must be a Contact of the same grid, got {type(start).__name__}")
+    if start is not None and start.pressure.shape != heights.shape:
+        raise ValueError(
+            f"start has the shape {start.pressure.shape}, the heights {heights.shape}: "
+            "pass a solution on the same grid"
+        )
     solid = check_solid(solid)
     if not isinstance(periodic, bool | np.bool_):
         raise ValueError(f"periodic must be True or False, got {periodic!r}")
@@ -144,13 +157,12 @@ def solve(
         raise ValueError(
             f"periodic=False is for a half-space only, got solid={solid!r}; leave out one of them"
         )
-    scale = half_space.measure_scale(heights)
-    warn_of_heights(scale[1], lengths[0])
+    warn_of_heights(half_space.measure_scale(heights)[1], lengths[0])
     if pressure > 1:
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, half_space.measure_slope(heights, lengths) * stiffening)
-    return press(heights, lengths, pressure, tol, max_iterations, solid, periodic, scale)
+    return press(heights, lengths, pressure, tol, start, max_iterations, solid, periodic)
 
 
 def press(
@@ -158,25 +170,26 @@ def press(
     lengths,
     pressure,
     tol,
+    start=None,
     max_iterations=1000,
     solid=HALF_SPACE,
     periodic=True,
-    scale=None,
 ):
-    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
-
-    `scale` is `half_space.measure_scale(heights)`, if it is known.
-    """
-    mean, rms = scale or half_space.measure_scale(heights)
-    if pressure == 0 or (rms == 0 and periodic):
-        state = _touch(heights, pressure, rms)
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
+    mean, rms = half_space.measure_scale(heights)
+    if pressure == 0 or (rms == 0 and periodic):  # no contact, or full contact of a flat
+        top = float(heights.max() if rms > 0 else heights.flat[0])
+        gap = top - heights if rms > 0 else np.zeros(heights.shape)
+        area, field = float(pressure > 0), np.full(heights.shape, pressure)
+        state = active_set.State(field, gap, top, area, 0.0, 0, 0.0)
     else:
         unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
         scaled = heights - mean
         scaled /= unit
         load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
         problem = active_set.Problem(scaled, sides, load, solid.in_unit(lengths[0]), bool(periodic))
-        state = _relax(problem, tol, max_iterations)
+        guess = {"pressure": start.pressure} if start is not None and start.area_fraction else None
+        state = _relax(problem, guess, tol, max_iterations)
         # Nothing else refers to these fields: they may be large, and are scaled in place.
         field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
         field *= unit / lengths[0]
@@ -196,25 +209,22 @@ def press(
 def load_path(heights, length, pressures, tol=1e-8, **options):
     """Solve one surface at several mean pressures [E*]; yields one `Contact` for each, in order.
 
-    The other arguments are those of `solve`.
+    A solution at nearly the same pressure is the start of the next; beyond a relative change of
+    0.5 % coarser grids predict the contact better. The other arguments are those of `solve`.
     """
+    last = None
     for pressure in pressures:
-        yield solve(heights, length, pressure, tol=tol, **options)
+        loaded = last.mean_pressure if last else 0.0
+        near = loaded and abs(pressure - loaded) < _MAX_LOAD_CHANGE * loaded
+        last = solve(heights, length, pressure, tol=tol, start=last if near else None, **options)
+        yield last
 
 
-def _touch(heights, pressure, rms):
-    """Contact of a flat, which is in full contact, or of any surface that carries no load."""
-    top = float(heights.max() if rms > 0 else heights.flat[0])
-    gap = top - heights if rms > 0 else np.zeros(heights.shape)
-    area = 1.0 if pressure > 0 else 0.0
-    return active_set.State(np.full(heights.shape, pressure), gap, top, area, 0.0, 0, 0.0)
-
-
-def _relax(problem, tol, limit):
-    """Solve a scaled problem; iterations and convolutions are those of all methods."""
+def _relax(problem, guess, tol, limit):
+    """Solve a scaled problem by all methods, from a guess or, without one, from coarser grids."""
     work = []
     unsure = problem.solid != HALF_SPACE or not problem.periodic
-    guess = _guess_from_coarser_grids(problem, work)
+    guess = guess or _guess_from_coarser_grids(problem, work)
     first_limit = min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit
     state = active_set.relax(problem, tol=tol, max_iterations=first_limit, **guess)
     iterations, pairs = state.iterations, state.fft_pairs
@@ -229,8 +239,7 @@ def _relax(problem, tol, limit):
 def _guess_from_coarser_grids(problem, work):
     """First guess of the gap or, with free edges, of the pressure; empty for a small grid.
 
-    It is found in single precision. `work` gets the convolutions on every coarser grid, times its
-    points.
+    `work` gets the convolutions on every coarser grid, times its points.
     """
     shape = problem.heights.shape
     if min(shape) < 2 * _MIN_COARSE_POINTS:

@@ -43,19 +43,18 @@ def boundary_strip(contact: ArrayLike) -> float:
     without preferred direction. Subtract it from the contact's area fraction, add it to the
     attractive one. ValueError if `contact` is not boolean, empty, or has fewer than two dimensions.
     """
-    contact = _mask(contact)
     sides = _sides(contact)
     if not sides.any():
         return 0.0
     # For sides of both directions in equal number their sum; edges along one axis only, which a
     # wave has, are displaced by twice as much per side.
     effective = 2 * np.sum(sides**2) / np.sum(sides)
-    return float(STRIP_WIDTH * effective / contact.size)
+    return float(STRIP_WIDTH * effective / np.size(contact))
 
 
 def edge_count(contact: ArrayLike) -> int:
     """Count the pixel sides between contact and gap, periodic in the last two axes."""
-    return int(_sides(_mask(contact)).sum())
+    return int(_sides(contact).sum())
 
 
 def edge_gap(gap: ArrayLike, contact: ArrayLike | None = None) -> float:
@@ -102,7 +101,8 @@ def attractive_area(
             np.maximum.at(s, index, lifted)
         for axis, weight in enumerate(weights):
             rows, mask = (s, touching) if axis == 1 else (s.T, touching.T)
-            for part in _blocks(rows.shape):
+            step = max(1, _BLOCK // rows.shape[1])
+            for part in (slice(start, start + step) for start in range(0, rows.shape[0], step)):
                 length += weight * _between_open_points(rows[part], mask[part], levels)
             index, distance, second, _ = found[axis]
             edges.append([distance, s[index], second, np.full(distance.size, weight)])
@@ -136,26 +136,17 @@ def gap_and_contact(
     return gap, contact
 
 
-def _mask(contact: ArrayLike) -> NDArray:
+def _sides(contact: ArrayLike) -> NDArray:
+    """Number of pixel sides between contact and gap that lines along axes -2 and -1 cross."""
     contact = np.asarray(contact)
     if contact.dtype != bool or contact.size == 0 or contact.ndim < 2:
         raise ValueError(
             "contact must be a non-empty boolean array of two dimensions at least, True where the "
             f"surfaces touch, got {contact.dtype} of shape {contact.shape}"
         )
-    return contact
-
-
-def _sides(contact: NDArray) -> NDArray:
-    """Number of pixel sides between contact and gap that lines along axes -2 and -1 cross."""
     return np.array(
         [float(np.count_nonzero(contact ^ np.roll(contact, 1, axis))) for axis in (-2, -1)]
     )
-
-
-def _blocks(shape: tuple[int, int]) -> list[slice]:
-    rows = max(1, _BLOCK // shape[1])
-    return [slice(start, start + rows) for start in range(0, shape[0], rows)]
 
 
 def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArray:

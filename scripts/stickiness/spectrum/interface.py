@@ -145,6 +145,11 @@ class Spectrum(ABC):
         """Root mean square of the Laplacian [1/length], sqrt(8 m4/3)."""
         return float(np.sqrt(self.total_variance(4)))
 
+    @property
+    def nayak(self) -> float:
+        """Nayak's bandwidth parameter alpha = m0 m4/m2^2 (Nayak 1971, doi:10.1115/1.3451608)."""
+        return self.moment(0) * self.moment(4) / self.moment(2) ** 2
+
     def moment(self, order: int) -> float:
         """Profile moment m0, m2 or m4, averaged over directions (Nayak, doi:10.1115/1.3451608).
 

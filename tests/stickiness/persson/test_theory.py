@@ -57,7 +57,17 @@ def test_uncorrected_area_is_the_closed_form():
     p = np.geomspace(1e-6, 30, 30)
     want = special.erf(p * np.sqrt(2) / s.rms_slope)
     np.testing.assert_allclose(Persson(s, gamma=1.0).area_fraction(p), want, rtol=1e-12)
-    assert Persson(s).area_fraction(0.0) == 0.0
+
+
+def test_area_at_a_magnification_is_that_of_the_truncated_surface():
+    s = power_law()
+    theory, cut = Persson(s), Persson(s.truncated(37.0))
+    p = np.array([0.01, 0.3])
+    np.testing.assert_allclose(
+        theory.area_fraction(p, magnification=37.0), cut.area_fraction(p), rtol=1e-12
+    )
+    assert theory.area_fraction(0.1, magnification=1.0) == 1.0
+    assert theory.area_fraction(0.0) == 0.0
 
 
 @pytest.mark.parametrize("gap", [1e-200, 1e-6, 0.1, 1.0, 8.0, 60.0])
@@ -152,6 +162,7 @@ def test_shapes():
         (lambda s: Persson(s, nodes=0), "nodes"),
         (lambda s: Persson(s).mean_gap(0.0), "p must"),
         (lambda s: Persson(s).area_fraction(-1.0), "p must"),
+        (lambda s: Persson(s).area_fraction(0.1, magnification=0.5), "magnification"),
         (lambda s: Persson(s).gap_density(-1.0, 0.1), "u must"),
         (lambda s: Persson(s).pressure_at(1e4), "mean_gap must lie"),
     ],

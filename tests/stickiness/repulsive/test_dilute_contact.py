@@ -105,7 +105,7 @@ def test_compliance_is_right_to_a_hundredth(shape, sides, solid):
     rng = np.random.default_rng(0)
     points = np.flatnonzero(rng.random(shape[0] * shape[1]) < 0.005)
     problem = Problem(np.zeros(shape), sides, 1.0, solid)
-    split = dilute_contact._kept_split(shape, sides, solid)
+    split = dilute_contact._Split(shape, sides, solid)
     candidates = dilute_contact.Candidates(
         _Grid(problem, True), points, split, *dilute_contact._pair(points, shape, split)
     )

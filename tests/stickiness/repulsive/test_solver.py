@@ -175,6 +175,7 @@ def test_failure_carries_the_best_iterate(options, worst):
         ({"length": (1.0, np.nan)}, "length must be"),
         ({"pressure": np.nan}, "pressure must be"),
         ({"max_iterations": 0}, "max_iterations must be"),
+        ({"start": repulsive.solve(np.eye(4), 1.0, 0.1)}, "same grid"),
         ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
         ({"periodic": "free"}, "periodic must be True or False"),
         ({"periodic": False, "solid": Layer(0.1, 0.3)}, "periodic=False is for a half-space only"),
