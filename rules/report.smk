@@ -43,6 +43,7 @@ rule write_report:
         experiments_figure=f"{RESULTS}/figures/experiments.png",
         experiments_caption=project_file("report/experiments.rst"),
         ensembles=several("contact/ensembles/{case}.nc", case=COMPLETE),
+        comparisons=several("fits/theory/{case}.nc", case=COMPLETE),
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         answers=several("cases/{case}.nc", case=CASES),
         trade=TRADE_SUMMARY,

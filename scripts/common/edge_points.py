@@ -1,19 +1,21 @@
 """Points of the attraction at the edges of contact that are certain enough to say something."""
 
-import numpy as np
+import pandas as pd
 
-COLUMNS = (
-    *("attractive_over_contact", "edge_strength"),
-    *("effect", "over_model", "over_model_total_error"),
-)
+from stickiness import datasets
+
+COLUMNS = ["attractive_over_contact", "edge_strength"]
+COLUMNS += ["effect", "over_model", "over_model_total_error"]
 LARGEST_ERROR = 0.25  # of a point that is drawn; covers 90 %
 
 
 def select_certain(files):
-    """Points of all files with a small enough error, by `COLUMNS`: ``(column, point)``."""
-    columns = [
-        [data[name].transpose(*data.effect.dims).values.ravel() for data in files]
-        for name in COLUMNS
-    ]
-    points = np.array([np.concatenate(parts) for parts in columns])
-    return points[:, points[-1] < LARGEST_ERROR]
+    """Points of all files with a small enough error, one a row, with their surface."""
+    tables = []
+    for data in files:
+        made = datasets.parameters(data)
+        surface = {"magnification": made["magnification"], "roughness": f"{made['q0_h_rms']:.2g}"}
+        table = data[COLUMNS].to_dataframe(list(data.effect.dims))[COLUMNS]
+        tables.append(table.assign(**surface))
+    points = pd.concat(tables, ignore_index=True)
+    return points[points.over_model_total_error < LARGEST_ERROR]

@@ -116,12 +116,27 @@ def draw_points(ax, x, data, name, scale=1.0, **look):
     ax.plot(x, y, **{"linestyle": "none", "marker": "o", "zorder": FILLED} | look)
 
 
-def draw_spectrum(ax, q, psd, standard_error, **look):
-    """Rings of a measured spectrum with bars that cover 90 %, on log axes."""
-    error = COVERS * standard_error
+def find_rings(surface):
+    """Which wave numbers of a measured spectrum are measured: beyond the cutoff it may go on."""
+    cutoff = float(surface.q_cutoff) * (1 + 1e-9)
+    return (surface.wave_number.values <= cutoff) | (float(surface.q1) <= cutoff)
+
+
+def draw_spectrum(ax, surface, colour, label=None, power=0):
+    """Spectrum of a real surface times q^power: rings with bars that cover 90 %, or a band."""
+    if "psd_standard_error" not in surface:
+        q = surface.wave_number
+        low, high = surface.psd.values * q.values**power
+        draw_band(ax, q, low, high, colour)
+        ax.plot(q, low, q, high, color=colour, linewidth=0.9)
+        ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=label)
+        return
+    rings = surface.isel(wave_number=find_rings(surface))
+    psd = rings.psd.isel(end=0) * rings.wave_number**power
+    error = COVERS * rings.psd_standard_error * rings.wave_number**power
     below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis
-    look = {"marker": "o", "linestyle": "none", "markersize": 2.5, "elinewidth": 0.7} | look
-    ax.errorbar(q, psd, [below, error], **look)
+    look = {"marker": "o", "linestyle": "none", "markersize": 2.5, "elinewidth": 0.7}
+    ax.errorbar(rings.wave_number, psd, [below, error], color=colour, label=label, **look)
 
 
 def draw_hollow(ax, x, y, **look):

@@ -11,7 +11,7 @@ COLUMNS = (
 
 
 def read(path):
-    """Read the table; ValueError naming the file and what it lacks."""
+    """Read the table with kinds of rows; ValueError naming the file and what it lacks."""
     try:
         table = pd.read_csv(path, comment="#")
     except FileNotFoundError:
@@ -19,19 +19,8 @@ def read(path):
     missing = [name for name in COLUMNS if name not in table]
     if missing:
         raise ValueError(f"{path}: lacks the columns {', '.join(missing)}")
-    return table
-
-
-def is_wide(table):
-    """Whether cells hold two by two of the longest waves or more."""
-    return table.window > 1
-
-
-def is_weak(table):
-    """Whether rows belong to the set from weak to tough adhesion."""
-    return table["set"].str.endswith("_weak")
-
-
-def is_held(table):
-    """Whether nothing was fitted to rows."""
-    return table["set"].str.endswith("_held")
+    return table.assign(
+        wide=table.window > 1,  # cells of two by two of the longest waves or more
+        weak=table["set"].str.endswith("_weak"),  # from weak to tough adhesion
+        held=table["set"].str.endswith("_held"),  # nothing was fitted to these rows
+    )

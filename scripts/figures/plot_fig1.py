@@ -34,21 +34,21 @@ def main(job):
 
 def draw_magnifications(ax, theory):
     """P(u) at a given mean gap for a few magnifications, with the power law -1/3."""
-    hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
+    theory = theory.isel(hurst=0, load=0)
     for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
         density = theory.gap_density.sel(magnification=magnification)
         plotting.draw_band(ax, theory.gap, *between_corrections(density), colour)
         draw_variants(ax, density, state(magnification=magnification), color=colour)
     u = np.array([1e-3, 1e-1])
     plotting.draw_guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
-    finish(ax, (2e-2, 3), state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    finish(ax, (2e-2, 3), state(hurst=theory.hurst, mean_gap=theory.mean_gap.mean()))
     plotting.add_legend(ax, *VARIANT_KEYS, loc="lower left")
 
 
 def draw_variants(ax, density, label, **look):
     for variant, line in LINES.items():
-        (drawn,) = ax.plot(density.gap, density.sel(variant=variant), line, **look)
-        drawn.set_label(label if line == "-" else None)
+        ax.plot(density.gap, density.sel(variant=variant), line, label=label, **look)
+        label = None  # one entry of the legend
 
 
 def finish(ax, limits, title):
@@ -58,7 +58,7 @@ def finish(ax, limits, title):
 
 def draw_convergence(ax, theory):
     """P at fixed gaps against magnification, and where u^(-1/3) would put the limits."""
-    hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
+    theory = theory.isel(hurst=0, load=0)
     zeta, density = theory.magnification, theory.gap_density
     curves, lows, highs = (
         [interpolate(values, "gap", gap).values for gap in GAPS]
@@ -76,7 +76,7 @@ def draw_convergence(ax, theory):
         if gap <= LARGEST_POWER_LAW_GAP:
             level = ends[GAPS.index(REFERENCE_GAP)] * (gap / REFERENCE_GAP) ** (-1 / 3)
             ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
-    ax.set_title(state(hurst=hurst, mean_gap=float(theory.mean_gap.mean())))
+    ax.set_title(state(hurst=theory.hurst, mean_gap=theory.mean_gap.mean()))
     ax.set(xscale="log", yscale="log", xlabel=plotting.MAGNIFICATION, ylabel=DENSITY)
     ax.set(xlim=(2, 3e7), ylim=(0.2, 4))
     plotting.write_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
@@ -91,7 +91,7 @@ def draw_simulation(ax, ensemble, lattice):
         measured = ensemble.sel(pressure=load, method="nearest")
         draw_measured(ax, measured, colour)
         theory = lattice.gap_density.sel(pressure=load, method="nearest")
-        label = state(pressure=float(measured.pressure))
+        label = state(pressure=measured.pressure)
         draw_variants(ax, theory, label, color=colour, linewidth=0.9)
     made = datasets.parameters(ensemble)
     surface = state(hurst=made["hurst"], magnification=made["magnification"])

@@ -3,10 +3,10 @@
 from itertools import pairwise
 
 import numpy as np
+import pandas as pd
 
 from common import plotting
 from common.edge_points import COLUMNS, select_certain
-from common.formatting import number
 from common.plotting import BLACK, GREY, pick_look, state
 from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
@@ -18,21 +18,10 @@ BINS = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
 
 
 def main(job):
-    points = join_surfaces([datasets.read(path, COLUMNS) for path in job.input.edges])
+    points = select_certain(datasets.read(path, COLUMNS) for path in job.input.edges)
     with plotting.open_figure(job.output, "AB", 3.4) as panels:
         draw_weak(panels["A"], points)
-        draw_ratios(panels["B"], list(points.values()))
-
-
-def join_surfaces(files):
-    """Certain points of every surface, by its name: of one file or several."""
-    surfaces = {}
-    for data in files:
-        made = datasets.parameters(data)
-        roughness = float(number(made["q0_h_rms"], 2))
-        name = state(magnification=made["magnification"], q0_h_rms=roughness)
-        surfaces.setdefault(name, []).append(data)
-    return {name: select_certain(parts) for name, parts in surfaces.items()}
+        draw_ratios(panels["B"], points)
 
 
 def draw_weak(ax, points):
@@ -46,10 +35,13 @@ def draw_weak(ax, points):
     plotting.draw_guide(ax, wide, at_approach, "at equal approach", (3, 0.4))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
-    for index, (name, (area, strength, effect, ratio, error)) in enumerate(points.items()):
-        weak = strength < equivalent_sphere.WEAK
-        bars = (effect * error / ratio)[weak]
-        ax.errorbar(area[weak], effect[weak], bars, label=name, **LOOK, **pick_look(index))
+    surfaces = points.groupby(["magnification", "roughness"], sort=False)
+    for index, ((magnification, roughness), found) in enumerate(surfaces):
+        weak = found[found.edge_strength < equivalent_sphere.WEAK]
+        bars = weak.effect * weak.over_model_total_error / weak.over_model
+        label = state(magnification=magnification, q0_h_rms=roughness)
+        look = LOOK | pick_look(index, label=label)
+        ax.errorbar(weak.attractive_over_contact, weak.effect, bars, **look)
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
     ax.set_ylabel("attraction at equal area over DMT's")
@@ -64,18 +56,20 @@ def draw_ratios(ax, points):
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
     for (low, high), factor in zip(pairwise(ends), factors, strict=True):
         plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
-    for index, (_, strength, _, ratio, error) in enumerate(points):
-        ax.errorbar(strength, ratio, error, **LOOK, **pick_look(index), alpha=0.5)
+    surfaces = points.groupby(["magnification", "roughness"], sort=False)
+    for index, (_, found) in enumerate(surfaces):
+        look = LOOK | pick_look(index, alpha=0.5)
+        ax.errorbar(found.edge_strength, found.over_model, found.over_model_total_error, **look)
     ax.axhline(1, color=GREY, linewidth=0.9)
     # Means between the strengths of `BINS`, as steps with their standard errors.
-    _, strength, _, ratio, _ = np.concatenate(points, axis=1)
     look = {"color": BLACK, "linewidth": 2}
-    for low, high in pairwise(BINS):
-        inside = ratio[(strength >= low) & (strength < high)]
-        if inside.size > 1:  # else there is no error of the mean
-            error = inside.std(ddof=1) / np.sqrt(inside.size)
-            ax.plot([low, high], [inside.mean()] * 2, **look)
-            ax.errorbar(np.sqrt(low * high), inside.mean(), error, **look)
+    bins = pd.cut(points.edge_strength, BINS, right=False)
+    for strengths, ratio in points.over_model.groupby(bins, observed=True):
+        if ratio.size > 1:  # else there is no error of the mean
+            ax.plot([strengths.left, strengths.right], [ratio.mean()] * 2, **look)
+            ax.errorbar(
+                np.sqrt(strengths.left * strengths.right), ratio.mean(), ratio.sem(), **look
+            )
     ax.plot([], [], **look, label="means, with standard errors")
     ax.legend(loc="upper left")
     ax.set(xscale="log", yscale="log", xlim=(ends[0], ends[-1]))

@@ -30,7 +30,7 @@ def main(job):
 
 def draw_shares(ax, table):
     """Share that remains against w/U_full: simulations at short ranges, and the theories."""
-    tough = table[remaining_table.is_wide(table) & ~remaining_table.is_weak(table)]
+    tough = table[table.wide & ~table.weak]
     narrowest = tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min")
     tough = tough[tough.zone == narrowest]
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.55)  # amid the surfaces simulated
@@ -50,12 +50,12 @@ def draw_shares(ax, table):
 
 def draw_errors(ax, table):
     """Theory over simulation in the works, where more than a little remains."""
-    table = table[remaining_table.is_wide(table) & (table.separation > LEAST)]
+    table = table[table.wide & (table.separation > LEAST)]
     ax.axhspan(1 - GOAL, 1 + GOAL, color=GREY, alpha=0.2, linewidth=0)
     ax.axhline(1, color=GREY, linewidth=0.9)
     for name, marker in WORKS.items():
         for held, colour in ((False, BLUE), (True, RED)):
-            rows = table[(remaining_table.is_held(table) == held) & (table[name] > LEAST)]
+            rows = table[(table.held == held) & (table[name] > LEAST)]
             look = {"marker": marker, "color": colour, "mfc": colour if held else "white"}
             ratio = rows.predicted / rows[name]
             draw_works(ax, rows.energy_ratio, ratio, rows, **look, markersize=3.5)
@@ -94,7 +94,7 @@ def draw_ranges(ax, table):
 
 def draw_weak(ax, table):
     """Share against the range of attraction, from weak to tough adhesion."""
-    rows = table[remaining_table.is_weak(table)]
+    rows = table[table.weak]
     energy = float(rows.full_contact_energy.iloc[0])
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
     for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):

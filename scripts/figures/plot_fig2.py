@@ -96,7 +96,7 @@ def draw_maps(panels, maps, adhesive):
     middle = maps.gap.sel(pressure=loads[len(loads) // 2]).transpose("y", "x").values
     x, y = find_densest(middle == 0)
     for whole, detail, load in zip("DEF", "GHI", loads, strict=False):
-        draw_contact(panels[whole], maps.sel(pressure=load), None)
+        draw_contact(panels[whole], maps.sel(pressure=load), 0)
         panels[whole].add_patch(Rectangle((x, y), DETAIL, DETAIL, fill=False, color=BLUE))
         panels[whole].set(xticks=[0, 0.5, 1], yticks=[0, 0.5, 1])
         draw_contact(panels[detail], adhesive.sel(pressure=load, method="nearest"), range_)
@@ -114,11 +114,10 @@ def find_densest(contact):
 
 
 def draw_contact(ax, solution, range_):
-    """Repulsive contact black and, if a range is given, gaps up to it red."""
+    """Repulsive contact black and gaps up to the range of attraction red."""
     gap = solution.gap.transpose("y", "x").values
     picture = np.ones((*gap.shape, 3))
-    if range_ is not None:
-        picture[gap <= range_] = to_rgb(ATTRACTION_COLOUR)
+    picture[gap <= range_] = to_rgb(ATTRACTION_COLOUR)
     picture[gap == 0] = to_rgb(BLACK)
     # The window is the unit of length.
     ax.imshow(picture, origin="lower", extent=(0, 1, 0, 1), aspect="equal", interpolation="none")

@@ -1,9 +1,6 @@
 """Figure 3: attractive area against range, and the prefactor a_V of its power law."""
 
-from typing import NamedTuple
-
 import numpy as np
-import xarray as xr
 
 from common import plotting
 from common.conventions import LOAD, VARIANT
@@ -20,33 +17,12 @@ WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
 THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
 
-class Case(NamedTuple):
-    """A simulated case: its areas, its fits of a_V and those of theory on its spectrum."""
-
-    areas: xr.Dataset
-    fit: xr.Dataset
-    lattice: xr.Dataset
-
-    @property
-    def order(self):
-        """Hurst exponent, side of the window in longest wavelengths, and magnification."""
-        made = datasets.parameters(self.areas)
-        return made["hurst"], made.get("window", 1), made["magnification"]
-
-    @property
-    def label(self):
-        """Magnification and, if it holds several wavelengths, the window."""
-        _, window, magnification = self.order
-        side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
-        return state(magnification=magnification) + side
-
-
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
     fits = [datasets.read(path, ["a_v", "window_low", "exponent"]) for path in job.input.fits]
     files = zip(job.input.bem, job.input.bem_fits, job.input.lattice_fits, strict=True)
     variables = ["attractive_area_mean"], ["a_v_mean"], ["a_v"]
-    cases = [Case(*map(datasets.read, paths, variables)) for paths in files]
+    cases = [join(*map(datasets.read, paths, variables)) for paths in files]
     cases.sort(key=lambda case: case.order)
     alike = [case for case in cases if case.order[0] == float(sweeps[0].hurst[0])]
     rows = "AB;CD;EE"
@@ -56,6 +32,18 @@ def main(job):
         draw_a_v(panels["C"], sweeps[2], fits[2], cases)
         draw_a_v_of_pressure(panels["D"], sweeps[3], fits[3], alike)
         draw_exponents(panels["E"], fits[0], alike)
+
+
+def join(areas, fit, lattice):
+    """A simulated case: its areas, its fits of a_V, and the a_V of theory on its spectrum."""
+    theory = lattice.a_v.sel(variant=VARIANT, drop=True)
+    fit = fit.assign(theory_a_v=theory).isel(window=0)
+    case = areas.merge(fit, join="exact", combine_attrs="override")
+    made = datasets.parameters(case)
+    window, magnification = made.get("window", 1), made["magnification"]
+    side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
+    label = state(magnification=magnification) + side
+    return case.assign_attrs(order=(made["hurst"], window, magnification), label=label)
 
 
 def draw_magnifications(ax, theory, cases):
@@ -70,7 +58,7 @@ def draw_magnifications(ax, theory, cases):
     place = {"loc": "upper left", "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(title=r"theory, $\zeta$ =", **place))
     for index, case in enumerate(cases):
-        area = case.areas.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
+        area = case.sel(pressure=pressure, method="nearest").sel(range=SIMULATED_RANGES)
         area = area.isel(range=slice(None, None, 4))
         x = area["range"] ** EXPONENT + 0.004 * (index - 1)  # sideways
         look = pick_look(index, label=case.label)
@@ -140,11 +128,10 @@ def draw_intervals(ax, x, a_v, colour):
 
 def draw_case(ax, case, x, pressures, label=None, **look):
     """a_V of a case at some pressures, with theory on its spectrum."""
-    at = {"pressure": pressures, "method": "nearest"}
-    fit, lattice = (data.isel(window=0).sel(**at) for data in (case.fit, case.lattice))
-    x = np.broadcast_to(x, fit.pressure.shape)
-    plotting.draw_hollow(ax, x, lattice.a_v.sel(variant=VARIANT), **look)
-    plotting.draw_points(ax, x, fit, "a_v_mean", **look, label=label)
+    at = case.sel(pressure=pressures, method="nearest")
+    x = np.broadcast_to(x, at.pressure.shape)
+    plotting.draw_hollow(ax, x, at.theory_a_v, **look)
+    plotting.draw_points(ax, x, at, "a_v_mean", **look, label=label)
 
 
 def draw_a_v_of_pressure(ax, sweep, fit, cases):
@@ -152,7 +139,7 @@ def draw_a_v_of_pressure(ax, sweep, fit, cases):
     sweep = sweep.sel(variant=VARIANT).isel(hurst=0, magnification=0)
     draw_intervals(ax, sweep.pressure, fit.a_v.isel(hurst=0, magnification=0), GREY)
     for index, case in enumerate(cases):
-        pressures = case.fit.pressure.values
+        pressures = case.pressure.values
         x = plotting.move_aside(pressures, index - 1)
         draw_case(ax, case, x, pressures, case.label, **pick_look(index))
     ax.set(xscale="log", yscale="log", ylim=(0.8, 25), xlabel=plotting.PRESSURE, ylabel=r"$a_V$")
@@ -168,7 +155,7 @@ def draw_exponents(ax, fit, cases):
         curve = exponents.sel(magnification=magnification)
         draw_theory(ax, curve["range"], curve, colour)
     for index, case in enumerate(cases):
-        exponent = case.fit.exponent.sel(pressure=LOAD, method="nearest")
+        exponent = case.exponent.sel(pressure=LOAD, method="nearest")
         exponent = exponent.isel(range=slice(None, None, 2))
         look = pick_look(index, linestyle="none", markersize=3, label=case.label)
         ax.plot(exponent["range"], exponent, **look)

@@ -30,8 +30,11 @@ def main(job):
 def draw_spectra(ax, surfaces, power):
     """All spectra times q to a power, so that the lines are steep (0) or level (2 H + 2)."""
     for index, surface in enumerate(surfaces):
-        draw = draw_measured if "psd_fit" in surface else draw_parametric
-        draw(ax, surface, power, COLOURS[index % len(COLOURS)])
+        label = datasets.parameters(surface)["label"]
+        plotting.draw_spectrum(ax, surface, COLOURS[index % len(COLOURS)], label, power)
+        if "psd_fit" in surface:
+            fit = surface.psd_fit.where(surface.fitted == 1) * surface.wave_number**power
+            ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)
     ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
     q = np.array(WAVE_NUMBERS)
     grey = {"color": GREY, "fontsize": 8}
@@ -43,30 +46,6 @@ def draw_spectra(ax, surfaces, power):
         upper, lower = LINES
         ax.text(30, upper * 8**-EXPONENT, LINES[upper], va="bottom", **grey)
         ax.text(1, lower * 3**-EXPONENT, LINES[lower], va="top", ha="right", **grey)
-
-
-def draw_parametric(ax, surface, power, colour):
-    q = surface.wave_number
-    smooth, rough = (surface.psd.sel(end=end) * q**power for end in ("smooth", "rough"))
-    plotting.draw_band(ax, q, smooth, rough, colour)
-    ax.plot(q, smooth, q, rough, color=colour, linewidth=0.9)
-    ax.plot(
-        [], [], color=colour, linewidth=4, alpha=0.6, label=datasets.parameters(surface)["label"]
-    )
-
-
-def draw_measured(ax, surface, power, colour):
-    """Radial averages with their sampling errors, and the fit within its range."""
-    # Beyond the instrument's cutoff the fit is no measurement.
-    if "q_cutoff" in surface and float(surface.q1) > float(surface.q_cutoff):
-        inside = surface.wave_number.values <= float(surface.q_cutoff) * (1 + 1e-9)
-        surface = surface.isel(wave_number=np.flatnonzero(inside))
-    scale = surface.wave_number**power
-    psd, error = surface.psd.isel(end=0) * scale, surface.psd_standard_error * scale
-    look = {"color": colour, "label": datasets.parameters(surface)["label"]}
-    plotting.draw_spectrum(ax, surface.wave_number, psd, error, **look)
-    fit = (surface.psd_fit * scale).where(surface.fitted == 1)
-    ax.plot(surface.wave_number, fit, color=BLACK, linewidth=0.9, zorder=5)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ LARGEST_RATIO = 4.0  # up or down, that the colours tell apart
 DARK_RATIO = 2.2  # up or down, beyond which a cell's colour asks for white text
 RATIO = r"$1/\kappa_\mathrm{ad}$, full over DMT"
 SMALL = {"ha": "center", "va": "center", "fontsize": 7}
-PLANE = "adhesion_length_over_range", "range_over_h_rms"
 
 
 def main(job):
@@ -26,9 +25,9 @@ def main(job):
 
 def draw_plane(ax, data):
     """Ratio in colour and in figures, bold where DMT is good enough, and where it should hold."""
+    data = data.transpose("adhesion_length_over_range", "range_over_h_rms", ...)
     ranges, lengths = data.range_over_h_rms.values, data.adhesion_length_over_range.values
-    ratio = data.dmt_ratio.transpose(*PLANE).values
-    good = (error_of_dmt(data) <= ACCURACY).transpose(*PLANE).values
+    ratio, good = data.dmt_ratio.values, error_of_dmt(data).values <= ACCURACY
     norm = mpl.colors.LogNorm(1 / LARGEST_RATIO, LARGEST_RATIO)
     mesh = ax.pcolormesh(find_cells(ranges), find_cells(lengths), ratio, norm=norm, cmap="RdYlBu_r")
     for (row, column), value in np.ndenumerate(ratio):
@@ -42,14 +41,12 @@ def draw_plane(ax, data):
             **SMALL,
         )
     ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=plotting.ADHESION_LENGTH)
-    limits = {"xlim": ax.get_xlim(), "ylim": ax.get_ylim()}
-    strength = data.zone_strength.transpose(*PLANE).values
-    ax.contour(ranges, lengths, strength, levels=[1], colors=BLACK)
+    ax.autoscale(False)
+    ax.contour(ranges, lengths, data.zone_strength, levels=[1], colors=BLACK)
     contour = make_key(r"$l_ad/\epsilon^2$ = 1", color=BLACK)
     ax.legend(handles=[contour], loc="upper left")
     jtb = 1 / criteria.jtb_limit(float(data.q0_h_rms), 1.0, 1.0)
     ax.axhline(jtb, color=BLACK, linestyle="--", linewidth=0.9)
-    ax.set(**limits)
     bar = ax.figure.colorbar(mesh, ax=ax, label=RATIO)
     plotting.write_ticks(bar.ax.yaxis, [0.25, 0.5, 1, 2, 4])
     bar.ax.minorticks_off()

@@ -52,8 +52,6 @@ def main(job):
         ]
         panels["A"].set_yticks(range(len(cases)), labels)
         panels["A"].tick_params(axis="y", length=0)
-        for letter in "BC":
-            panels[letter].tick_params(labelleft=False)
         draw_theories(panels["D"], cases)
         draw_gamma(panels["E"], gamma)
         draw_windows(panels["F"], cases)

@@ -84,23 +84,18 @@ def make_plot(**settings):
     return plot
 
 
-def draw_wanted_share(plot):
-    """Dashed line at the share from which a pair sticks."""
+def plot_shares(label, **settings):
+    """Empty plot of remaining shares, with a dashed line from which on a pair sticks."""
+    plot = make_plot(x_axis_type="log", x_axis_label=label, y_axis_label=REMAINS, **settings)
     look = {"dimension": "width", "line_dash": "dashed", "line_color": "#666"}
     plot.add_layout(Span(location=100 * DEFAULT_SHARE, **look))
+    return plot
 
 
 def draw_pairs(verdicts, pairs):
     """Remaining share of the `pairs` of `write_report.arrange_pairs`, with limits, by w/U_full."""
-    plot = make_plot(
-        height=460,
-        x_axis_type="log",
-        x_range=(LEAST_RATIO / 1.5, MOST_RATIO * 1.5),
-        y_range=(-3, 103),
-        x_axis_label="work of adhesion over energy of full contact",
-        y_axis_label=REMAINS,
-    )
-    draw_wanted_share(plot)
+    ranges = {"x_range": (LEAST_RATIO / 1.5, MOST_RATIO * 1.5), "y_range": (-3, 103)}
+    plot = plot_shares("work of adhesion over energy of full contact", height=460, **ranges)
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
     ratios = np.geomspace(LEAST_RATIO, MOST_RATIO, 500)
     model = {"line_color": "#999999", "line_dash": "dotted", "line_width": 1.5}
@@ -137,23 +132,16 @@ def locate(verdicts, row):
 
 def draw_curves(found):
     """Tabs with a figure of all `found` curves of a surface for each axis."""
-    panels = [
-        TabPanel(title=axis.capitalize(), child=draw_axis(axis, found[axis])) for axis in found
-    ]
-    return Tabs(tabs=panels, sizing_mode="stretch_width")
+    panels = {axis.capitalize(): draw_axis(axis, curves) for axis, curves in found.items()}
+    tabs = [TabPanel(title=title, child=panel) for title, panel in panels.items()]
+    return Tabs(tabs=tabs, sizing_mode="stretch_width")
 
 
 def draw_axis(axis, curves):
     """Curves along one axis: both ends of the surface, limits, and the pair as it is."""
-    plot = make_plot(
-        height=340 + LEGEND_ROW * len(curves),
-        x_axis_type="log",
-        x_range=DataRange1d(only_visible=True, range_padding=0.02),
-        y_range=(-2, 102),
-        x_axis_label=LABELS[axis],
-        y_axis_label=REMAINS,
-    )
-    draw_wanted_share(plot)
+    shown = DataRange1d(only_visible=True, range_padding=0.02)
+    height = 340 + LEGEND_ROW * len(curves)
+    plot = plot_shares(LABELS[axis], height=height, x_range=shown, y_range=(-2, 102))
     told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@rough{0.0} … @smooth{0.0}")]
     told.append(("limits [%]", "@low{0.0} to @high{0.0}"))
     items = []
@@ -177,7 +165,8 @@ def draw_contact(contact, pull_off, texts):
     codes, widest = code_maps(contact)
     first = min(FIRST_LOAD, len(texts) - 1)
     shown = ColumnDataSource({"code": [codes[first]]})
-    text = Div(text=texts[first], sizing_mode="stretch_width")
+    # Labels of materials are the user's: as text, not as HTML.
+    text = Div(text=texts[first], render_as_text=True, sizing_mode="stretch_width")
     look = {"title": "Load, from light to heavy", "show_value": False}
     look |= {"name": "load", "sizing_mode": "stretch_width"}
     slider = Slider(start=0, end=len(texts) - 1, value=first, **look)

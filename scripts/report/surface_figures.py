@@ -57,36 +57,30 @@ def draw_heights(ax, heights):
 def draw_spectrum(ax, surface):
     """Spectrum with errors, fit, the paper's lines and the ends of the instrument's band."""
     q = surface.wave_number.values
-    low, high = surface.psd.values
     if "psd_standard_error" in surface:
-        draw_measured(ax, surface, q, low, high)
+        draw_measured(ax, surface, q)
     else:
-        plotting.draw_band(ax, q, low, high, COLOURS[0])
-        ax.plot(q, low, q, high, color=COLOURS[0], linewidth=0.9)
+        plotting.draw_spectrum(ax, surface, COLOURS[0])
     for c0, label in LINES.items():
         line = c0 * q ** (-2 * (HURST + 1))
         ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
-    ax.set_ylim(bottom=low.min() / 1e3)  # room for the legend
+    ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / 1e3)  # room for the legend
     ax.legend(loc="lower left")
 
 
-def draw_measured(ax, surface, q, low, high):
-    """Rings within the band of the instrument; `low` and `high` are one standard error off."""
-    measured = np.ones_like(q, dtype=bool)
-    if float(surface.q1) > float(surface.q_cutoff) * (1 + 1e-9):
-        measured = q <= float(surface.q_cutoff) * (1 + 1e-9)
-        fit, factor = np.sqrt(low * high), np.sqrt(high / low) ** COVERS
-        look = {"where": ~measured, "color": GREY, "alpha": 0.3, "linewidth": 0}
-        ax.fill_between(q, fit / factor, fit * factor, **look)
+def draw_measured(ax, surface, q):
+    """Rings within the band of the instrument, the fit with its band beyond, and the cutoff."""
+    beyond = ~plotting.find_rings(surface)
+    low, high = surface.psd.values[:, beyond]  # one standard error off
+    fit, factor = np.sqrt(low * high), np.sqrt(high / low) ** COVERS
+    plotting.draw_band(ax, q[beyond], fit / factor, fit * factor, GREY)
     if "psd_measurement" in surface:  # those behind a stitched spectrum
         for index, levels in enumerate(surface.psd_measurement.values):
             look = {"color": COLOURS[1 + index % (len(COLOURS) - 1)], "linewidth": 0.8}
             ax.plot(surface.wave_number_measured, levels, **look, label=f"measurement {index + 1}")
-    look = {"color": COLOURS[0], "label": "measured"}
-    error = surface.psd_standard_error.values[measured]
-    plotting.draw_spectrum(ax, q[measured], low[measured], error, **look)
-    fit = surface.psd_fit.where((surface.fitted == 1) | ~measured)
+    plotting.draw_spectrum(ax, surface, COLOURS[0], "measured")
+    fit = surface.psd_fit.where((surface.fitted == 1) | beyond)
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
     text += ", roll-off" if "q_rolloff" in surface else ""
     ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)

@@ -26,6 +26,8 @@ def main(job):
     verdicts = read(inputs.verdicts).verdict.transpose("material", "surface").to_pandas()
     experiments, trade = read(inputs.experiments), summary.read(inputs.tradeoff)
     of_contact = trade.problem == "contact"
+    edges = select_certain(map(read, inputs.edges))
+    weak = edges.edge_strength < equivalent_sphere.WEAK
     write_page(
         inputs.template,
         job.output[0],
@@ -34,7 +36,7 @@ def main(job):
         cells=compare_cells(map(read, inputs.a_v), map(read, inputs.lattices)),
         gamma=read(inputs.gamma),
         dmt=weakest.dropna("range_over_h_rms", subset=["dmt_ratio"]),
-        sphere=compare_sphere(list(map(read, inputs.edges))),
+        sphere=edges.over_model[weak & (edges.attractive_over_contact >= LEAST_AREA)],
         least_area=LEAST_AREA,
         remaining=compare_remaining(remaining_table.read(inputs.remaining)),
         within=WELL_KNOWN,
@@ -57,23 +59,16 @@ def compare_cells(simulated, lattices):
     return sorted(rows, key=lambda row: row[:3])
 
 
-def compare_sphere(edges):
-    """Simulated weak attraction over the equivalent sphere's, set by set."""
-    area, strength, _, ratio, _ = select_certain(edges)
-    return ratio[(strength < equivalent_sphere.WEAK) & (area >= LEAST_AREA)]
-
-
 def compare_remaining(table):
     """Share of predicted works near the simulated ones, and means by energy ratio."""
-    wide = remaining_table.is_wide(table)
-    works = table.assign(wide=wide).melt(["wide", "predicted"], ["approach", "separation"])
+    works = table.melt(["wide", "predicted"], ["approach", "separation"])
     works = works[works.value > LEAST_SHARE]
     near = abs(works.predicted / works.value - 1) < WELL_KNOWN
-    tough = table[wide & (table.zone < 0.11)]
+    tough = table[table.wide & (table.zone < 0.11)]
     groups = tough.groupby(pd.cut(tough.energy_ratio, ENERGY_RATIOS), observed=True)
     columns = ["energy_ratio", "approach", "separation", "predicted", "pull_off"]
     return {
-        "points": wide.sum(),
+        "points": table.wide.sum(),
         "near": near.groupby(works.wide).agg(["mean", "size"]),
         "means": groups[columns].mean(),
     }

@@ -4,6 +4,7 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from common import experiment_outcomes as experiments
 from common import provided
@@ -32,9 +33,13 @@ def main(job):
     claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "sources"])
     verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin", "disagrees"])
     tested = datasets.read(inputs.experiments, ["outcome", "criterion_outcome"])
-    surfaces, ensembles, answers = (
-        {Path(path).stem: datasets.read(path) for path in inputs[kind]}
-        for kind in ("surfaces", "ensembles", "answers")
+    files = {
+        kind: path if isinstance(path, str) else {Path(one).stem: one for one in path}
+        for kind, path in inputs.items()
+    }
+    surfaces, ensembles, comparisons, answers = (
+        {name: datasets.read(path) for name, path in files[kind].items()}
+        for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
     pairs = arrange_pairs(verdicts, surfaces)
     materials = datasets.parameters(verdicts)["materials"]
@@ -43,10 +48,7 @@ def main(job):
         inputs.template,
         job.output[0],
         fidelity=params.fidelity,
-        files={
-            kind: path if isinstance(path, str) else {Path(one).stem: one for one in path}
-            for kind, path in inputs.items()
-        },
+        files=files,
         figures=list(map(embed, inputs.figures, inputs.captions)),
         figure_sources=params.figure_sources,
         criterion=datasets.read(inputs.criterion, ["a_v"]),
@@ -71,6 +73,7 @@ def main(job):
         surfaces=surfaces,
         sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
         answers={name: at_load(answer) for name, answer in answers.items()},
+        comparisons=comparisons,
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
         trade_figure=embed(inputs.trade_figure, inputs.trade_caption),
@@ -141,12 +144,9 @@ def find_disagreements(verdicts):
 
 def list_versions(files):
     """Versions of codes that the files record; several where they differ."""
-    versions = {}
-    for file in files:
-        for name, value in file.attrs.items():
-            if name.startswith("version_"):
-                versions.setdefault(name.removeprefix("version_"), set()).add(str(value))
-    return {name: sorted(found) for name, found in sorted(versions.items())}
+    recorded = pd.DataFrame([file.attrs for file in files]).filter(regex="^version_")
+    versions = recorded.rename(columns=lambda name: name.removeprefix("version_"))
+    return {name: sorted(set(versions[name].dropna())) for name in sorted(versions)}
 
 
 if __name__ == "__main__":

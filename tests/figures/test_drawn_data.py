@@ -11,6 +11,7 @@ from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.colors import same_color
 
 from common import plotting
+from common.edge_points import select_certain
 from figures import (
     plot_fig1,
     plot_fig2,
@@ -205,7 +206,7 @@ def case():
     area = np.outer([1, 10], 0.02 * ranges ** (2 / 3))
     a_v = np.multiply.outer(FACTORS, [[2.5, 1.5], [9.0, 9.0]])
     surface = {"hurst": 0.8, "magnification": 64, "window": 4}
-    return plot_fig3.Case(
+    return plot_fig3.join(
         dataset(coords, {"attractive_area_mean*": area}, **surface),
         dataset(windows, {"a_v_mean*": [[3.0, 2.0], [9.0, 9.0]]}, **surface),
         dataset(windows, {"a_v": a_v}, **surface),
@@ -213,7 +214,7 @@ def case():
 
 
 def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, case):
-    ranges = case.areas["range"].values
+    ranges = case["range"].values
     coords = {"hurst": [0.8], "load": [0], "variant": VARIANTS}
     coords |= {"magnification": [10.0, 1000.0], "range": ranges}
     area = np.outer(FACTORS, ranges)[None, None, :, None] * np.ones((1, 1, 1, 2, 1))
@@ -297,9 +298,9 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
     q = WAVE_NUMBERS
     more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
     more |= {"fitted": np.array([0, 1, 1, 0], dtype="i1"), "q1": 1e6, "q_cutoff": 1e5}
-    plot_fig6.draw_measured(ax, spectrum("wafer", **more), plot_fig6.EXPONENT, plotting.BLUE)
+    plot_fig6.draw_spectra(ax, [spectrum("wafer", **more)], plot_fig6.EXPONENT)
     drawn(ax, q[:3], [1e-5] * 3, marker="o")
-    drawn(ax, q[:3], [np.nan, 2e-5, 2e-5], color=plotting.BLACK)
+    drawn(ax, q, [np.nan, 2e-5, 2e-5, np.nan], color=plotting.BLACK)
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, 1.645 * 2e-6, rtol=1e-3)  # 90 %, not one standard error
 
@@ -424,7 +425,7 @@ def edges():
 
 def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
     halves = [edges.isel(adhesion_length_over_range=[i]) for i in (0, 1)]
-    plot_fig10.draw_weak(ax, plot_fig10.join_surfaces(halves))  # of one surface, a single name
+    plot_fig10.draw_weak(ax, select_certain(halves))  # of one surface, a single name
     drawn(ax, [0.2, 1.0], [3.0, 2.0], marker="o")
     t = np.geomspace(0.05, 200, 200)
     drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
@@ -433,7 +434,7 @@ def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
 
 
 def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
-    plot_fig10.draw_ratios(ax, list(plot_fig10.join_surfaces([edges]).values()))
+    plot_fig10.draw_ratios(ax, select_certain([edges]))
     drawn(ax, [0.01, 0.02, 1.0], [1.1, 0.9, 0.8], marker="o")
     (_, halves), (_, of_mean) = bar_lengths(ax)
     np.testing.assert_allclose(halves, TOTAL * np.array([1.1, 0.9, 0.8]))

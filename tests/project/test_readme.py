@@ -2,12 +2,16 @@
 
 from pathlib import Path
 
-import pandas as pd
+import numpy as np
 import pytest
 
+from common import remaining_table
 from common.conventions import at_load
+from common.edge_points import select_certain
 from report import write_findings
 from stickiness import datasets, error_budget
+from stickiness.criteria import equivalent_sphere
+from stickiness.criteria.pair import WORDS
 
 ROOT = Path(__file__).parents[2]
 RUNS = [ROOT / "results" / fidelity for fidelity in ("standard", "draft")]
@@ -34,23 +38,26 @@ def read_cell(results):
 
 
 def read_dmt_ratio(results):
-    rows = write_findings.compare_dmt(datasets.read(results / "adhesion/full/dmt_error.nc"))
-    return next(tuple(map(float, ratio)) for range_, ratio in rows if float(range_) == 1)
+    data = at_load(datasets.read(results / "adhesion/full/dmt_error.nc"))
+    at = data.isel(adhesion_length_over_range=0).sel(range_over_h_rms=1)
+    return float(at.dmt_ratio), float(at.dmt_ratio_total_error)
 
 
 def read_sphere(results):
-    files = [datasets.read(path) for path in sorted((results / "adhesion/edges").glob("*.nc"))]
-    return write_findings.compare_sphere(files)["ratio"]
+    points = select_certain(map(datasets.read, (results / "adhesion/edges").glob("*.nc")))
+    weak = points[points.edge_strength < equivalent_sphere.WEAK]
+    ratio = weak.over_model[weak.attractive_over_contact >= write_findings.LEAST_AREA]
+    return ratio.mean(), ratio.std()
 
 
 def read_works(results):
-    table = pd.read_csv(ROOT / "config/remaining.csv", comment="#")
-    return 100 * write_findings.compare_remaining(table)["near"]["wide"], 0.0
+    table = remaining_table.read(ROOT / "config/remaining.csv")
+    return 100 * write_findings.compare_remaining(table)["near"].loc[True, "mean"], 0.0
 
 
 def count_sticking(results):
-    counts = write_findings.count_words(datasets.read(results / "criteria/verdicts.nc"))["counts"]
-    return counts["sticks"] + counts["sticks fully"], 0.0
+    words = np.array(WORDS)[datasets.read(results / "criteria/verdicts.nc").verdict.values]
+    return np.isin(words, ["sticks", "sticks fully"]).sum(), 0.0
 
 
 def count_failed_claims(results):

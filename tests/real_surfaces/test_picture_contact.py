@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import xarray as xr
+from bokeh.models import Div
 
 from common import contact_picture
 from common.materials import Material, read_material
@@ -224,6 +225,7 @@ def test_both_figures_show_the_contact_and_the_curve(pressed, pulled, tmp_path):
     shown = codes.transpose(0, 2, 1)[~touching] * widest / (contact_picture.CONTACT - 1)
     np.testing.assert_allclose(shown, gaps, atol=0.002 * widest)
     drawn = interactive.draw_contact(pressed, pulled, list("abcdefgh"))
+    assert drawn.select_one({"type": Div}).render_as_text  # "gel <soft>" is a label, not a tag
     slider = drawn.select_one({"name": "load"})
     assert (slider.start, slider.end) == (0, 7)
     curves, _, _, (lowest, highest) = contact_picture.follow_tension(pulled)

@@ -168,6 +168,19 @@ def ensemble():
     return made_by(xr.Dataset(data, coords=coords), descriptor_seeds=100, **made)
 
 
+def comparison():
+    """Theory 10 % above simulation, known to 3 %, at every load."""
+    dims, shape = ("variant", "pressure", "range"), (1, 5, 20)
+    data = {
+        f"{name}_{kind}": (dims[:count], np.full(shape[:count], value))
+        for name, count in (("area_fraction", 2), ("mean_gap", 2), ("attractive_area", 3))
+        for kind, value in (("difference", 0.1), ("difference_total_error", 0.03))
+    }
+    coords = {"variant": ["a"], "pressure": [0.01, 0.03, 0.1, 0.3, 0.5]}
+    coords |= {"range": np.geomspace(1e-3, 1, 20)}
+    return made_by(xr.Dataset(data, coords=coords), case="case_of_two")
+
+
 def answer():
     """Area 0.05 ± 0.01 ± 0.002, gap 1 ± 0.001 ± 0.02, and a solver's part of 1e-6 in both."""
     errors = {
@@ -203,6 +216,7 @@ def results(claims, verdicts, surfaces):
         "experiments": experiments(),
         "surfaces": surfaces,
         "ensembles": {"case_of_two": ensemble()},
+        "comparisons": {"case_of_two": comparison()},
         "answers": {"case_of_two": answer()},
     }
 
@@ -264,6 +278,7 @@ def test_the_report_shows_what_is_in_the_files(page):
         "closed form",
         "load 0.06, requested accuracy 3 %, not reached",
         "area 0.050 ± 0.010 4 % < 0.01 % 20 % 0 % 0 % sampling",
+        "0.3 10.0 ± 3.0 10.0 ± 3.0 10.0 ± 3.0",  # the last load of theory against simulation
         "0.700 ± 0.020",
         "E = 1 kPa, ν = 0.5",
         "multilevel: 32 coarse seeds, 100 long-wave controls",

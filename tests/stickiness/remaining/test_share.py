@@ -56,7 +56,7 @@ def test_simulated_works_where_more_than_a_little_remains():
 
 def test_surfaces_that_nothing_was_fitted_to():
     table = remaining_table.read(TABLE)
-    held = table[remaining_table.is_held(table)]
+    held = table[table.held]
     for name in ("approach", "separation"):
         rows = held[held[name] > 0.05]
         assert len(rows) >= 10
@@ -65,7 +65,7 @@ def test_surfaces_that_nothing_was_fitted_to():
 
 def test_limits_cover_what_was_simulated():
     table = remaining_table.read(TABLE)
-    rows = table[remaining_table.is_wide(table)]
+    rows = table[table.wide]
     inside = (rows.predicted_low <= rows.bound) & (rows.bound <= rows.predicted_high)
     assert inside.mean() >= 0.9
 
