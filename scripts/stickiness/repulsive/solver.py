@@ -46,7 +46,7 @@ class Contact(active_set.State):
         Rigid displacement in ``gap = u + shift - h``; unit of the heights. On a periodic surface u
         has no mean, and the approach of a layer's backing is ``solid.mean_compliance *
         mean_pressure - shift``. With free edges u vanishes far away: the plane h = 0 is ``-shift``
-        below the surface of the undeformed half-space, and ``max(h) - shift`` is the approach.
+        below the surface of the undeformed half-space.
     residual : float
         Largest violation of the contact conditions, in units of h_rms: the maximum over the grid
         of ``|u + shift - h|`` in contact and of the penetration ``-(u + shift - h)`` outside it.
@@ -58,13 +58,20 @@ class Contact(active_set.State):
         Convolutions (a forward and a backward transform each) on all grids, those on
         coarser ones (also inside the preconditioner) counted by their share of the points of
         the given grid.
+    length : tuple of float
+        Sides of the periodic cell, or of the surface if its edges are free.
     rms_height : float
         Root mean square of the heights about their mean.
+    approach : float
+        With free edges, distance [unit of the heights] by which surface and far half-space have
+        come closer since they touched. Not a number on a periodic surface, where it is infinite.
     """
 
     mean_pressure: float
     mean_gap: float
+    length: tuple
     rms_height: float
+    approach: float
 
 
 class ConvergenceError(RuntimeError):
@@ -135,7 +142,7 @@ def solve(
     >>> solve(wave, length=1.0, pressure=0.1).area_fraction  # beyond pi * 0.01: full contact
     1.0
     >>> punch = solve(np.zeros((128, 128)), length=1.0, pressure=0.01, periodic=False)
-    >>> print(f"{punch.mean_pressure / -punch.shift:.2f}")  # fine pixels: 1.152
+    >>> print(f"{punch.mean_pressure / punch.approach:.2f}")  # fine pixels: 1.152
     1.15
     """
     heights = grid("heights", heights)
@@ -195,8 +202,14 @@ def press(
         field *= unit / lengths[0]
         gap *= unit
         state = replace(state, pressure=field, gap=gap, shift=state.shift * unit + mean)
-    mean_gap = float(state.gap.mean())
-    contact = Contact(mean_pressure=pressure, mean_gap=mean_gap, rms_height=rms, **vars(state))
+    contact = Contact(
+        **vars(state),
+        mean_pressure=pressure,
+        mean_gap=float(state.gap.mean()),
+        length=lengths,
+        rms_height=rms,
+        approach=np.nan if periodic else float(heights.max()) - state.shift,
+    )
     if not state.residual <= tol:
         raise ConvergenceError(
             f"residual {state.residual:.2e} h_rms after {state.iterations} iterations exceeds tol "
