@@ -79,7 +79,8 @@ try:
     campaigns = {name: load.load(Path(PROJECT, path)) for name, path in load.CAMPAIGNS.items()}
     TRADE, REMAINING_CAMPAIGN = campaigns["tradeoff"], campaigns["remaining"]
     if workflow.is_main_process:  # whose jobs read what was checked here
-        name = f"config of module {MODULE}" if MODULE else load.USER
+        more = [word for word in sys.argv[1:] if word.endswith((".yaml", ".yml"))]
+        name = f"config of module {MODULE}" if MODULE else " or ".join([load.USER, *more])
         load.check_all(config, campaigns, given, name, made=bool(MODULE))
     MATERIALS, REAL_SURFACES, EXPERIMENTS = (
         load.load(config[table])[table] for table in load.TABLES

@@ -39,7 +39,7 @@ AXES = {  # dimension, description, and why a value may be missing, of every cur
     "roughness": ("roughness_factor", "for the pair's heights times a factor", "not judged"),
     "rate": ("frequency", "at a frequency", "beyond the material's table, or elastic backing"),
 }
-OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "hurst", "psd")
+OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
 FILM, UNMEASURED = "elastic backing", "not measured"
 REMAINS = LIMITED["remaining"][1]
 THRESHOLDS = [name for name in QUANTITIES if name.startswith("modulus_threshold")]

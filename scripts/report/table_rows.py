@@ -41,6 +41,7 @@ def describe_pair(pair):
     if pair.layer_strain.max() > texts.MOST_STRAIN:
         row["strain"] = number(pair.layer_strain.max(), 2)
     margin, onset = (pair.margin.sel(criterion=name) for name in (REMAINING, EDGES))
+    low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
     total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
     errors = f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
@@ -49,7 +50,7 @@ def describe_pair(pair):
         "pull_off": (texts.describe_pull_off(pair), pair.pull_off.mean()),
         "threshold": (texts.describe_threshold(pair), pair.modulus_threshold.sel(end="rough")),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
-        "margin": (interval(*texts.find_limits(pair, "margin"), 2), np.sqrt(margin.prod("end"))),
+        "margin": (f"({number(low, 2)} to {number(high, 2)})", np.sqrt(margin.prod("end"))),
         "onset": (interval(*onset.values, 2), onset.mean()),
         "probability": (texts.show_probability(pair) if drawn else NOTHING, pair.probability),
         "errors": (errors if drawn else NOTHING, total),

@@ -12,6 +12,7 @@ _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flatte
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
 LONGEST_SIDE = 0.5  #: [m]; the longest travel of profilometers is 0.3 m
 SHORTEST_SIDE = 1e-9  #: [m]; a few atoms
+LARGEST_SLOPE = 20.0  #: rms gradient of surfaces
 REFUSED_SIDE = (
     f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
     "(2 mm, not 2 m?), or give plausibility: ignore if it is so"
@@ -22,7 +23,7 @@ _SI_LIMITS = {
     "modulus": (10.0, 1e13, "give it in Pa"),
     "work_of_adhesion": (1e-6, 10.0, "give it in J/m^2"),
     "range": (1e-11, 1e-5, "give it in m"),
-    "rms_slope": (1e-7, 20.0, "give heights and lengths both in m"),
+    "rms_slope": (1e-7, LARGEST_SLOPE, "give heights and lengths both in m"),
 }
 
 

@@ -311,7 +311,7 @@ def test_rows_of_pairs(pairs, verdicts):
     glass, sand, iron = jelly_glass["text"], jelly_sand["text"], iron_sand["text"]
     assert glass["remaining"] == "50 … 70 % (40 to 84 %)"
     assert glass["pull_off"] == "at least 2.5"  # near full contact, not simulated
-    assert (sand["margin"], sand["energy_ratio"]) == ("0.5 … 2", "0.25 … 1")
+    assert (sand["margin"], sand["energy_ratio"]) == ("(0.5 to 2)", "0.25 … 1")
     assert sand["threshold"] == "2.5 (1.5 to 4.5)"
     assert (glass["modulus"], iron["modulus"]) == ("0.0013", "2000")
     assert (iron["remaining"], iron["pull_off"]) == ("0 %", "–")

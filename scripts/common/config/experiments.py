@@ -149,7 +149,7 @@ class Experiment(Conditions):
     cases: f.Names[ObservedCase] = needed("what was observed, by name")
 
     def _problems(self, context):
-        experiment = self.model_dump(exclude_unset=True)
+        experiment = self.model_dump(exclude_unset=True, warnings=False)
         for name, case in experiment["cases"].items():
             given, path = conditions_of(experiment, case), f"cases.{name}"
             is_limit = case["observed"]["quantity"] == "limiting_roughness"

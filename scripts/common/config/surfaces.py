@@ -12,6 +12,7 @@ from common.config.fields import Section, needed, optional
 from common.config.materials import ElasticPair
 from stickiness import plausibility
 from stickiness.measured import readers
+from stickiness.spectrum import kinds
 
 _BUILTIN = "builtin:jacksboro"
 
@@ -55,6 +56,17 @@ class SelfAffine(f.Labelled, Direction):
                 yield f"{key} = {getattr(self, key)!r} must be positive"
             if values != sorted(values):
                 yield f"{key} = {values!r} must be [low, high]"
+            for value in values[-1:]:
+                q0, q1 = 2 * math.pi / longest, 2 * math.pi / shortest
+                q_rolloff = rolloff and 2 * math.pi / rolloff
+                band = {"hurst": self.hurst, "q0": q0, "q1": q1, "q_rolloff": q_rolloff}
+                slope = kinds.SelfAffine(**band, **{key: float(value)}).rms_slope
+                if slope > plausibility.LARGEST_SLOPE:
+                    yield (
+                        f"{key} = {value!r} means an rms slope of {slope:.3g}, above "
+                        f"{plausibility.LARGEST_SLOPE:g}, which no surface has; correct it, its "
+                        "unit or the wavelengths"
+                    )
 
 
 # Unit of a length, here as a length.
@@ -138,7 +150,7 @@ class Measured(f.Labelled, Reading):
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
     def _problems(self, context):
-        entries = measurements(self.model_dump(exclude_unset=True))
+        entries = measurements(self.model_dump(exclude_unset=True, warnings=False))
         for prefix, entry in entries:
             for problem in _file_problems(entry, context["made"]):
                 yield f"{prefix}{problem}"

@@ -79,7 +79,7 @@ def attractive_area(
 ) -> float | NDArray:
     """Fraction of the nominal area with 0 < gap <= eps, down to ranges far below the `edge_gap`.
 
-    Arguments and errors are those of `gaps.attractive_area`. With the contact's area less its
+    Arguments and errors are those of `dmt.attractive_area`. With the contact's area less its
     `boundary_strip` the fractions for all ranges add up to one.
     """
     gap, contact = gap_and_contact(gap, contact, grid=True)
