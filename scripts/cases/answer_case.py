@@ -70,7 +70,11 @@ def main(job):
     for source in SOURCES:
         components = [by_source[source] for _, by_source in found]
         errors = [np.broadcast_to(one.error, len(loads)) for one in components]
-        text = "; ".join(dict.fromkeys(one.text for one in components))
+        about = {}  # columns by what a text says of them
+        for column, one in zip(columns, components, strict=True):
+            about.setdefault(one.text, []).append(column)
+        texts = [f"{', '.join(names)}: {text}" for text, names in about.items()]
+        text = "; ".join(texts if len(about) > 1 else about)
         parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), text)
     dataset = with_budget(dataset, "value", **parts)
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):

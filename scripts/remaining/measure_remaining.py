@@ -10,7 +10,7 @@ import xarray as xr
 
 from common.conventions import annotate
 from common.job import start
-from common.model_surfaces import cell_size, model_spectrum
+from common.model_surfaces import cell_size, make_heights
 from stickiness import datasets, surface
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measurement
@@ -52,7 +52,7 @@ FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path i
 def main(job):
     made, seed = job.params.surface, int(job.wildcards.seed)
     length = cell_size(made)
-    heights = surface.synthesise(model_spectrum(made), made["points"], length, seed)
+    heights = make_heights(made, made["points"], seed)
     spectrum = surface.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
     along, values = "zone", made.get("zones")

@@ -86,7 +86,8 @@ def list_presets(models, presets, surface, descriptor_seeds):
         try:
             chosen = preset_by_rule(models, presets, name, surface, descriptor_seeds)
         except UnreachableError as refusal:
-            lines.append([f"{name}: out of reach, {str(refusal).split(';')[0]}"])
+            reason = f"{name}: out of reach, {str(refusal).split(';')[0]}"
+            lines.append([reason, *[""] * 6])
             continue
         costs = predicted_cost(problem, chosen), adhesive_cost(problem, chosen)
         lines.append([name, *vars(chosen).values(), *(f"{cost:.0f}" for cost in costs)])

@@ -102,5 +102,5 @@ def test_case_is_answered_with_what_is_not_known(means):
     np.testing.assert_array_equal(slope.value, datasets.read(means).contact_slope_mean)
     assert np.isnan(slope.value_total_error).all()
     assert budget.dominant(slope.isel(pressure=0), "value") == "solver"
-    assert "not known, how this quantity changes" in answer.value_error.comment
+    assert "contact_slope: not known, how this quantity" in answer.value_error.comment
     assert np.isfinite(answer.sel(column="area").value_total_error).all()

@@ -59,7 +59,11 @@ def attraction(
     a_v: ArrayLike,
     kappa_rep: float = KAPPA_REP,
 ) -> EdgeAttraction:
-    """Attraction over repulsion at equal area of contact; see `criteria.traction_ratio`."""
+    """Attraction over repulsion at equal area of contact, by the equivalent sphere.
+
+    `rms_slope` is the rms gradient of all waves, `kappa_rep` the slope of area against load without
+    adhesion; the other arguments are those of `criteria.traction_ratio`.
+    """
     dmt = traction_ratio(h_rms, q0, adhesion_length, range, a_v)
     # Mean pressure in the contact is E* h'/kappa, attraction over it sigma_0 t.
     strength_over_pressure = adhesion_length / range * kappa_rep / rms_slope

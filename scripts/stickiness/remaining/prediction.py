@@ -14,14 +14,15 @@ from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
-# absolute. In simulations of two by two waves and more they hold all energies where more than 5 %
-# remains, but two thirds of those at energy ratios up to 0.35, where the theory is mostly too high.
-# That of the onset is the spread of the forms by which simulations are extrapolated to short
-# ranges, not an interval of 90 %.
+# absolute, which is all that is known of small ones. In simulations of two by two waves and more
+# they hold all energies where more than 5 % remains, but two thirds of those at energy ratios up to
+# 0.35, where the theory is mostly too high; half of all in cells of one wave. That of the onset is
+# the spread of the forms by which simulations are extrapolated to short ranges, not an interval of
+# 90 %.
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
-# On layers limits are wider by these parts of what is lost, times the distance of S of the longest
+# All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost, times the distance of S of the longest
 # waves from 1. LAYER_LESS is for films on a soft backing and for S of about a half, LAYER_MORE for
 # thin incompressible layers, whose long waves are stiffer than springs. Both were set so that
 # limits hold all simulations on layers (H = 0.6 and 0.8, no roll-off); no others were kept back.

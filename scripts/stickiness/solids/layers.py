@@ -124,7 +124,8 @@ class Layer(_Compliant):
     def mean_compliance(self) -> float:
         """Compression per uniform pressure, times E* [length].
 
-        The layer is wide and cannot spread, on a base that it sticks to or slips on alike.
+        ``d (1 - 2 nu)/(1 - nu)^2``. The layer is wide and cannot spread, on a base that it sticks
+        to or slips on alike.
         """
         return self.thickness * (1 - 2 * self.poisson) / (1 - self.poisson) ** 2
 
