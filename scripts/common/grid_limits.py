@@ -53,9 +53,10 @@ def estimate_first_order(values):
 def find_halved(realisations):
     """Indices, up to three, of the finest grids that are each twice as fine as the one before."""
     resolution = realisations.resolution.values
-    doubled = np.isclose(resolution[1:], 2 * resolution[:-1])[:-3:-1]
-    last = len(resolution) - 1
-    return list(range(last - int(np.argmin([*doubled, False])), last + 1))
+    grids, count = len(resolution), 1
+    while count < min(grids, 3) and np.isclose(resolution[-count], 2 * resolution[-count - 1]):
+        count += 1
+    return list(range(grids - count, grids))
 
 
 def subpixel_part(name, fine, values):

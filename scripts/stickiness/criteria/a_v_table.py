@@ -207,8 +207,9 @@ class AvTable:
     def _check(self, name: str, values: NDArray) -> None:
         low, high = self.bounds[name]
         inside = (values >= low * (1 - 1e-9)) & (values <= high * (1 + 1e-9))
-        infinite = " or infinite" if name == "magnification" else ""
-        inside |= bool(infinite) & np.isposinf(values)
+        infinite = ""
+        if name == "magnification":
+            infinite, inside = " or infinite", inside | np.isposinf(values)
         if not inside.all():
             raise ValueError(
                 f"{name} must lie between {low:g} and {high:g}{infinite}, where a_V is "

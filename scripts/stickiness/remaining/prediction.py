@@ -22,10 +22,11 @@ from stickiness.spectrum.interface import Spectrum, check_spectrum
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
-# All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost, times the distance of S of the longest
-# waves from 1. LAYER_LESS is for films on a soft backing and for S of about a half, LAYER_MORE for
-# thin incompressible layers, whose long waves are stiffer than springs. Both were set so that
-# limits hold all simulations on layers (H = 0.6 and 0.8, no roll-off); no others were kept back.
+# All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost,
+# times the distance of S of the longest waves from 1. LAYER_LESS is for films on a soft backing and
+# for S of about a half, LAYER_MORE for thin incompressible layers, whose long waves are stiffer
+# than springs. Both were set so that limits hold all simulations on layers (H = 0.6 and 0.8, no
+# roll-off); no others were kept back.
 LAYER_LESS, LAYER_MORE = 0.06, 0.2
 # The largest tension on separation is what remains over a distance, the range plus
 # DISTANCE x^DISTANCE_POWER rms heights.
