@@ -46,6 +46,7 @@ rule write_report:
         comparisons=several("fits/theory/{case}.nc", case=COMPLETE),
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         answers=several("cases/{case}.nc", case=CASES),
+        laws=ERROR_MODELS,
         trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
         trade_caption=project_file("report/tradeoff.rst"),
@@ -62,6 +63,7 @@ rule write_report:
     conda:
         "../envs/environment.yaml"
     params:
+        presets=PRESETS,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
         code=source_hash("report/write_report.py"),

@@ -15,7 +15,10 @@ from common.templates import write_page
 from report import interactive, pages
 from report.table_rows import TONES, describe_pair, describe_surface
 from stickiness import datasets, error_budget
-from stickiness.accuracy.quantities import COLUMNS
+from stickiness.accuracy import plan
+from stickiness.accuracy.error_models import Surface, read_models
+from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
+from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -76,6 +79,7 @@ def main(job):
         answers={name: at_load(answer) for name, answer in answers.items()},
         comparisons={name: compare_theory(data) for name, data in comparisons.items()},
         compared_range=COMPARED_RANGE,
+        presets=describe_presets(read_models(inputs.laws), **params.presets),
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
         trade_figure=embed(inputs.trade_figure, inputs.trade_caption),
@@ -124,6 +128,20 @@ def arrange_pairs(verdicts, surfaces):
         for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
         for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
     ]
+
+
+def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
+    """Settings of every preset, with their predicted cost and errors."""
+    given = models, Surface.of(surface), presets["pressures"]
+    whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
+    single = {name: Problem(*given, columns_of([name]), descriptor_seeds) for name in MODELLED}
+    rows = []
+    for name, error in presets["accuracy"].items():
+        chosen = plan.preset(fidelities[name])
+        errors = {name: worst_error(problem, chosen)[0] for name, problem in single.items()}
+        row = {"name": name, "asked": error, "settings": vars(chosen), "errors": errors}
+        rows.append(row | {"cost": predicted_cost(whole, chosen)})
+    return rows
 
 
 def compare_theory(comparison):
