@@ -91,6 +91,9 @@ def crossings(modulus: Modulus, threshold: float, frequencies: NDArray) -> list[
     too, and interpolated in logarithms. With each comes whether the modulus exceeds the threshold
     beyond.
     """
+    frequencies, _ = positive(frequencies=frequencies, threshold=threshold)
+    if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):
+        raise ValueError(f"frequencies must be one increasing sequence, got {frequencies!r}")
     if isinstance(modulus, Table):
         inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
         frequencies = np.union1d(frequencies, inside)
