@@ -35,8 +35,7 @@ def takes_positive(function: Callable) -> Callable:
         except TypeError as error:
             raise TypeError(f"{function.__name__}: {error}") from None
         bound.apply_defaults()
-        absent = {name for name in optional if bound.arguments[name] is None}
-        given = {name: x for name, x in bound.arguments.items() if name not in absent}
+        given = {n: x for n, x in bound.arguments.items() if x is not None or n not in optional}
         return function(**bound.arguments | dict(zip(given, positive(**given), strict=True)))
 
     return checked

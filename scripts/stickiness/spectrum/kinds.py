@@ -99,7 +99,7 @@ class PowerLawSegments(Spectrum):
         return cut
 
     def __repr__(self) -> str:
-        laws = [str(values.tolist()) for values in self._laws]
+        laws = (np.array2string(x, separator=", ", threshold=3, edgeitems=1) for x in self._laws)
         return f"PowerLawSegments({', '.join(laws)}, {self.ellipse!r})"
 
     # Integrals are summed from the end where the terms are small, so that spectra of ten decades
