@@ -18,7 +18,15 @@ def write(path, medians):
 
 
 def read(path):
-    return pd.read_csv(path, comment="#", dtype={"value": str})
+    """Read the table of medians; ValueError if it is not there or lacks a column."""
+    try:
+        medians = pd.read_csv(path, comment="#", dtype={"value": str})
+    except FileNotFoundError:
+        raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
+    missing = [name for name in (*KEYS, "error", "cost") if name not in medians]
+    if missing:
+        raise ValueError(f"{path}: lacks the column {missing[0]!r}; the target tradeoff makes it")
+    return medians
 
 
 def tables(medians):

@@ -24,13 +24,18 @@ def positive(**values: ArrayLike) -> tuple[NDArray, ...]:
 
 
 def takes_positive(function: Callable) -> Callable:
-    """Let a function have its arguments as float arrays, all positive and finite; None may stay."""
+    """Let a function have its arguments as positive and finite float arrays; default None stays."""
+    expected = signature(function)
+    optional = {name for name, one in expected.parameters.items() if one.default is None}
 
     @wraps(function)
     def checked(*args, **kwargs):
-        bound = signature(function).bind(*args, **kwargs)
+        try:
+            bound = expected.bind(*args, **kwargs)
+        except TypeError as error:
+            raise TypeError(f"{function.__name__}: {error}") from None
         bound.apply_defaults()
-        given = {name: value for name, value in bound.arguments.items() if value is not None}
+        given = {n: x for n, x in bound.arguments.items() if x is not None or n not in optional}
         return function(**bound.arguments | dict(zip(given, positive(**given), strict=True)))
 
     return checked

@@ -103,8 +103,6 @@ def synthesise(
             f"pixels of length/n = {length / n:.6g}; take n >= "
             f"{int(np.ceil(2 * length / shortest))} or lower {lower}"
         )
-    if amplitudes not in ("gaussian", "fixed"):
-        raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
     i, j, variance = spectrum.modes(length)
     modes = sample_modes(variance, seed, amplitudes)
     heights = sum_modes(i, j, modes, n)
@@ -191,6 +189,8 @@ def check_window(spectrum: Spectrum, length: float) -> None:
 
 def sample_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArray:
     """Complex amplitudes of modes of given variances; more modes leave the first ones as are."""
+    if amplitudes not in ("gaussian", "fixed"):
+        raise ValueError(f"amplitudes must be 'gaussian' or 'fixed', got {amplitudes!r}")
     samples = np.random.Generator(np.random.PCG64(seed)).standard_normal((len(variance), 2))
     modes = samples[:, 0] + 1j * samples[:, 1]  # E|modes|^2 = 2
     if amplitudes == "fixed":

@@ -30,6 +30,7 @@ _ASKED_BACK = {
     "Mm": ("megametre, a thousand kilometres", "mm", "1e6 m"),
     "Pm": ("petametre", "pm", "1e15 m"),
 }
+_SECONDS = r"\s*[*·⋅\s]\s*s(?:econds?)?(?![A-Za-z])"  # behind mPa: a viscosity, where it is common
 
 
 @cache
@@ -63,7 +64,7 @@ def si(value: str, unit: str) -> float:
     if "," in value:  # a comma would be dropped, and 2,5 nm become 25 nm
         raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
     for typed, (meaning, meant, instead) in _ASKED_BACK.items():
-        if re.search(rf"(?<![A-Za-z]){typed}(?![A-Za-z])", value):
+        if re.search(rf"(?<![A-Za-z]){typed}(?![A-Za-z])(?!{_SECONDS})", value):
             raise ValueError(
                 f"{value!r}: {typed} is {meaning}; did you mean {value.replace(typed, meant)!r}? "
                 f"If not, write it in SI units, e.g. {instead!r}"

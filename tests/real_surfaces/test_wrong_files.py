@@ -89,7 +89,7 @@ REFUSED = {
     "ten by ten": (ROUGH[:10, :10], {}, ["10 x 10 points", "64 points along its shorter side"]),
     "a short profile": (ROUGH[0, :30], {}, ["of 30 points", "a profile 256"]),
     "flat": (np.ones((N, N)), {}, ["all heights are 1e-06 m; nothing to analyse"]),
-    "all missing": (np.full((N, N), np.nan), {}, ["16384 of 16384 points (100.0 %) are missing"]),
+    "all missing": (np.full((N, N), np.nan), {}, ["16384 points, which are all, are missing"]),
     "half missing": (np.where(ROUGH > 0, np.nan, ROUGH), {}, ["more than the 10.0 %", "crop"]),
     "three dimensions": (np.ones((3, 4, 5)), {}, ["two-dimensional array or a profile"]),
     "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, ["not a readable numpy file"]),

@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, units
-from stickiness.criteria import a_v_table, equivalent_sphere
-from stickiness.measured import instrument_spectrum, psd, topography
+from stickiness.accuracy import model_choice, multilevel
+from stickiness.adhesive import edge_zone
+from stickiness.criteria import a_v_table, equivalent_sphere, formulas
+from stickiness.measured import instrument_spectrum, levelling, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.repulsive import subpixel
+from stickiness.repulsive import richardson, subpixel
 from stickiness.solids import moduli
 
 SIDE = 2 * np.pi
@@ -42,6 +44,7 @@ MISUSES = [
     (lambda: press(tol=10.0), "tol must be positive and at most"),
     (lambda: press(start=HEIGHTS), "start must be a Contact"),
     (lambda: surface.synthesise(BAND, 16, SIDE, None), "seed must be an integer"),
+    (lambda: surface.synthesise(BAND, 16, SIDE, 1, "uniform"), "amplitudes must be 'gaussian' or"),
     (lambda: surface.synthesise("steel", 16, SIDE, 1), "spectrum must be"),
     (lambda: surface.lattice_spectrum(BAND, SIDE / 3), "window does not hold"),
     (lambda: surface.lattice_spectrum(BAND, 1e6 * SIDE), "must be in the inverse of its unit"),
@@ -56,6 +59,8 @@ MISUSES = [
     (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
+    (lambda: formulas.jtb_limit(1.0, None, 0.1), "adhesion_length must be a number, got None"),
+    (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
     (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),
     (
         lambda: dmt.attraction_of_areas([0.3, 0.2, 0.1], [3, 2, 1], LAW),
@@ -72,10 +77,28 @@ MISUSES = [
         "kappa_rep must be positive",
     ),
     (lambda: equivalent_sphere.error_factor(1.0, -1.0), "strength must be positive"),
+    (
+        lambda: model_choice.relative_error(
+            {("maugis", 0.8): ((), 0, 0)}, "maugis", 0.8, 32, 0.0, 0.1, 0.1
+        ),
+        "values must be positive",
+    ),
+    (lambda: edge_zone.resolution(0.1, 0.0, 0.1), "range must be positive"),
     (lambda: moduli.Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
+    (
+        lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [2.0, 1.0]),
+        "frequencies must be one increasing",
+    ),
+    (lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [-1.0, 1.0]), "frequencies must be posit"),
+    (lambda: richardson.estimate("area", [1, 2], 0, 1), "quantity must be one of area_fr"),
+    (lambda: richardson.estimate("mean_gap", [1], 0, 1), "two or three grids, got 1"),
+    (lambda: richardson.estimate("mean_gap", [1, np.nan], 0, 1), "values and part must be finite"),
+    (lambda: richardson.estimate("mean_gap", [1, 2], 0, -1), "edges must not be negative"),
+    (lambda: levelling.fill_missing(HEIGHTS * np.nan, 1), "256 of 256 points, which are all,"),
     (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), "heights leave the range of floats"),
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),
+    (lambda: instrument_spectrum.tip_cutoff(HEIGHTS, (1.0, 1.0), 0.0), "radius must be positive"),
     (lambda: instrument_spectrum.Limits(resolution=0.0), "resolution must be positive"),
     (lambda: units.si("nan m", "m"), "not finite"),
 ]
@@ -85,6 +108,11 @@ MISUSES = [
 def test_misuse_is_refused_by_name(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+def test_a_missing_argument_is_named_with_its_function():
+    with pytest.raises(TypeError, match="jtb_limit: missing a required argument"):
+        formulas.jtb_limit(1.0)
 
 
 @pytest.mark.parametrize("kind", [int, np.uint8, np.float32])

@@ -14,6 +14,8 @@ from stickiness.units import si
         ("50 mJ/m^2", "J/m^2", 0.05),
         ("1e3 1/m", "1/m", 1e3),
         ("1e-3 m^0.4", "m^0.4", 1e-3),
+        ("1 mPa*s", "Pa*s", 1e-3),
+        ("0.9 mPa·s", "Pa*s", 9e-4),
     ],
 )
 def test_converts_to_si(text, unit, value):

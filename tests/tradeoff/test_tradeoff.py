@@ -130,6 +130,11 @@ def test_committed_table_survives_writing(tmp_path):
     medians = summary.read(ROOT / "config/tradeoff.csv")
     summary.write(tmp_path / "again.csv", medians)
     assert summary.read(tmp_path / "again.csv").equals(medians)
+    with pytest.raises(ValueError, match="no such file"):
+        summary.read(tmp_path / "nowhere.csv")
+    summary.write(tmp_path / "again.csv", medians.drop(columns="cost"))
+    with pytest.raises(ValueError, match=r"again.csv: lacks the column 'cost'"):
+        summary.read(tmp_path / "again.csv")
 
 
 def made_up():

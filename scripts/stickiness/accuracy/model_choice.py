@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.accuracy.error_models import Surface
+from stickiness.arguments import positive
 from stickiness.criteria.formulas import jtb_limit
 from stickiness.units import si
 
@@ -38,6 +39,7 @@ def relative_error(table: ErrorTable, law: str, hurst: float, *values: float) ->
     """
     if (law, hurst) not in table:
         return np.nan
+    positive(values=values)
     axes, ratio, error = table[law, hurst]
     # Without neighbours, outside the table, no corner is left.
     corners = [_neighbours(axis, np.log(v)) for axis, v in zip(axes, values, strict=True)]

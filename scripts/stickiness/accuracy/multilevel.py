@@ -14,10 +14,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from stickiness.arguments import integer
+from stickiness.arguments import finite, integer
 from stickiness.spectrum.kinds import Spectrum
 from stickiness.surface import Amplitudes, check_window, sample_modes, sum_modes
 
@@ -47,10 +47,11 @@ def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> E
     scatter is left out. `elsewhere` (M, k) are controls of other seeds. The standard error is that
     of the residuals, each against coefficients fitted without it, and that of the controls' mean.
     """
-    fewest = 4 * (controls.shape[1] + 1)
+    values = _samples("values", values)
+    controls = _samples("controls", controls, (len(values), "any"))
+    elsewhere = _samples("elsewhere", elsewhere, ("any", controls.shape[1]))
     # With fewer the coefficients scatter so much that the standard error comes out too small.
-    if len(values) < fewest:
-        raise ValueError(f"values must hold at least {fewest} samples, got {len(values)}")
+    _samples("values", values, fewest=4 * (controls.shape[1] + 1))
     flat = values.reshape(len(values), -1)
     corrected, coefficient = _regress(flat, controls, elsewhere.mean(0))
     variance = _error(corrected) ** 2 + _error(elsewhere @ coefficient) ** 2
@@ -75,6 +76,9 @@ def multilevel_mean(
     those of other seeds. `controls` (N, k) and `elsewhere` (M, k) are descriptors of the seeds of
     `many`, and of seeds that are not solved. See `corrected_mean` for `fewest`.
     """
+    fine = _samples("fine", fine)
+    coarse = _samples("coarse", coarse, fine.shape)
+    many = _samples("many", many, ("any", *fine.shape[1:]))
     level = controlled_mean(many, controls, elsewhere)
     one_sign = np.all(many >= 0, axis=0) | np.all(many <= 0, axis=0)
     return corrected_mean(fine, coarse, level, one_sign, fewest)
@@ -117,6 +121,10 @@ def descriptors(
     area.
     """
     check_window(spectrum, length)
+    if not cutoff >= 1:
+        raise ValueError(f"cutoff must be at least 1, got {cutoff!r}")
+    if not isinstance(seeds, Iterable):
+        raise ValueError(f"seeds must be a sequence of integers, got {seeds!r}")
     dq = 2 * np.pi / length
     i, j, variance = spectrum.modes(length)
     q = dq * np.hypot(i, j)
@@ -136,6 +144,17 @@ def descriptors(
         summits = [scale * heights[-count:].mean() for count in counts]
         rows.append([scale**2 * energy, np.sqrt(slope), slope, *summits])
     return np.array(rows).reshape(-1, len(DESCRIPTORS))
+
+
+def _samples(name: str, given: ArrayLike, shape: tuple = (), fewest: int = 2) -> NDArray:
+    """Finite samples along axis 0, of a shape (where given) that may hold "any" for a length."""
+    (values,) = finite(**{name: given})
+    if values.ndim == 0 or len(values) < fewest:
+        raise ValueError(f"{name} must hold at least {fewest} samples, got shape {values.shape}")
+    wanted = tuple(m if n == "any" else n for n, m in zip(shape, values.shape, strict=False))
+    if shape and (len(shape) != values.ndim or wanted != values.shape):
+        raise ValueError(f"{name} must be of shape {shape}, got {values.shape}")
+    return values
 
 
 def _regress(values: NDArray, controls: NDArray, target: NDArray) -> tuple[NDArray, NDArray]:

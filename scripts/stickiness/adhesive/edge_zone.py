@@ -8,6 +8,8 @@ grids single points snap in and out of contact, and the edge does not show at al
 
 import numpy as np
 
+from stickiness.arguments import positive
+
 # Pixels up to this share of epsilon^2/l_a count as fine enough. For the exponential law the mean
 # pressure at a given gap then hardly changes with the grid any more. The traction of Maugis is
 # another matter: its jump pins on the grid, and approach and separation differ by that much more.
@@ -16,4 +18,5 @@ COARSEST = 0.5
 
 def resolution(pixel: float, range: float, adhesion_length: float) -> float:
     """Pixel over epsilon^2/l_a, all in one unit; the grid resolves the edge up to `COARSEST`."""
+    positive(pixel=pixel, range=range, adhesion_length=adhesion_length)
     return pixel * adhesion_length / np.square(range)

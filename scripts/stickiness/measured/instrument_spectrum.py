@@ -203,6 +203,7 @@ def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
     """Wavelength below which heights show the tip, a sphere; None if none, inf if all do."""
+    number("radius", radius)
     # A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
     # which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
     # 2022, doi:10.1016/j.apsadv.2021.100190). The wavelength is the length of the stencil.

@@ -108,6 +108,8 @@ def fill_missing(
     """Fill points that are not finite from their neighbours; returns a copy, and how many."""
     hole = ~np.isfinite(heights)
     missing = int(np.count_nonzero(hole))
+    if missing == hole.size:
+        raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
     if missing / hole.size > max_missing:
         raise ValueError(
             f"{source}: {missing} of {hole.size} points ({100 * missing / hole.size:.1f} %) are "

@@ -6,7 +6,7 @@ doi 10.1115/1.2833523), and a layer by S times that, see `solids`.
 """
 
 import threading
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 
 import numpy as np
 from scipy import fft
@@ -15,22 +15,23 @@ from stickiness.arguments import positive
 from stickiness.repulsive import convolution
 from stickiness.solids import HALF_SPACE
 
-_MOST_KEPT = 48  # operators and the like, of all threads
+_FEW, _MANY = 12, 24  # kept of one kind, of all threads: many operators of half-spaces
 
 
-def keep(kind, *arguments):
+def keep(kind, *arguments, most=_FEW):
     """Object of a kind, kept for the next call: threads must not share plans and buffers."""
-    return _kept(threading.get_ident(), kind, *arguments)
+    return _last(kind, most)(threading.get_ident(), *arguments)
 
 
-@lru_cache(maxsize=_MOST_KEPT)
-def _kept(thread, kind, *arguments):
-    return kind(*arguments)
+@cache
+def _last(kind, most):
+    """Function that keeps the last objects of a kind."""
+    return lru_cache(maxsize=most)(lambda thread, *arguments: kind(*arguments))
 
 
 def clear_caches():
     """Free the plans and buffers of all objects that are kept."""
-    _kept.cache_clear()
+    _last.cache_clear()
 
 
 def wavenumbers(shape, lengths):
@@ -144,7 +145,8 @@ def displace_by_pixel(shape, pixel):
 def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
     """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread."""
     kind = HalfSpace if periodic else FreeHalfSpace
-    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid)
+    most = _MANY if periodic and solid == HALF_SPACE else _FEW
+    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid, most=most)
 
 
 def check_length(length, shape):

@@ -16,6 +16,8 @@ from typing import Any
 
 import numpy as np
 
+from stickiness.arguments import nonnegative
+
 Values = Any  # float, numpy array or xarray.DataArray: all that is done is arithmetic
 
 
@@ -72,6 +74,13 @@ def estimate(
     >>> round(float(found.value), 4), round(float(found.error), 4)
     (0.062, 0.0005)
     """
+    if quantity not in RULES:
+        raise ValueError(f"quantity must be one of {', '.join(RULES)}, got {quantity!r}")
+    if len(values) not in (2, 3):
+        raise ValueError(f"values must be those of two or three grids, got {len(values)}")
+    if not all(np.all(np.isfinite(each)) for each in (*values, part)):
+        raise ValueError("values and part must be finite, got NaN or infinite ones")
+    nonnegative(edges=edges, climbs=climbs)
     rule = RULES[quantity]
     change = values[-1] - values[-2]
     square = change**2

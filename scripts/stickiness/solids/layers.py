@@ -80,9 +80,9 @@ class Film:
     thickness: float
 
     def __post_init__(self):
-        number("modulus_ratio", self.modulus_ratio)
-        number("poisson", self.poisson, zero=True, most=0.5)
-        number("thickness", self.thickness)
+        _set(self, "modulus_ratio", number("modulus_ratio", self.modulus_ratio))
+        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
+        _set(self, "thickness", number("thickness", self.thickness))
 
 
 @dataclass(frozen=True)
@@ -112,8 +112,8 @@ class Layer(_Compliant):
     backing: Literal["bonded", "slip"] | Film = "bonded"
 
     def __post_init__(self):
-        number("thickness", self.thickness)
-        number("poisson", self.poisson, zero=True, most=0.5)
+        _set(self, "thickness", number("thickness", self.thickness))
+        _set(self, "poisson", number("poisson", self.poisson, zero=True, most=0.5))
         if not (self.backing in ("bonded", "slip") or isinstance(self.backing, Film)):
             raise ValueError(
                 "backing must be 'bonded', 'slip' or a Film(modulus_ratio, poisson, thickness), "
@@ -183,6 +183,10 @@ def check_solid(solid: Solid) -> Solid:
         got = f"the class {solid.__name__}" if isinstance(solid, type) else repr(solid)
         raise ValueError(f"solid must be solids.HalfSpace() or a solids.Layer(...), got {got}")
     return solid
+
+
+def _set(frozen: Film | Layer, name: str, value: float) -> None:
+    object.__setattr__(frozen, name, value)
 
 
 def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:

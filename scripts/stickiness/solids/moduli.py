@@ -91,7 +91,10 @@ def crossings(modulus: Modulus, threshold: float, frequencies: NDArray) -> list[
     too, and interpolated in logarithms. With each comes whether the modulus exceeds the threshold
     beyond.
     """
-    if isinstance(modulus, Table):
+    frequencies, _ = positive(frequencies=frequencies, threshold=threshold)
+    if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):
+        raise ValueError(f"frequencies must be one increasing sequence, got {frequencies!r}")
+    if isinstance(modulus, Table) and frequencies.size:
         inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
         frequencies = np.union1d(frequencies, inside)
     excess = np.log(np.asarray(modulus.storage(frequencies)) / threshold)

@@ -98,6 +98,10 @@ class PowerLawSegments(Spectrum):
         cut.prescribed = "C"
         return cut
 
+    def __repr__(self) -> str:
+        laws = (np.array2string(x, separator=", ", threshold=3, edgeitems=1) for x in self._laws)
+        return f"PowerLawSegments({', '.join(laws)}, {self.ellipse!r})"
+
     # Integrals are summed from the end where the terms are small, so that spectra of ten decades
     # lose no digits to cancellation.
 
@@ -201,8 +205,12 @@ class SelfAffine(PowerLawSegments):
     @property
     def q_longest(self) -> float:
         """See `Spectrum.q_longest`; with a direction the geometric mean of along and across."""
-        bends = self.q_rolloff is not None and self.q_rolloff < self.q1
-        return self.q_rolloff if bends else self.q0
+        return self.q0 if self.q_rolloff is None else self.q_rolloff
+
+    def _cut(self, q1: float) -> PowerLawSegments:
+        cut = super()._cut(q1)
+        bends = self.q_rolloff is None or self.q_rolloff < q1
+        return cut if bends else PowerLawSegments(*cut._laws, cut.ellipse)  # a plateau alone
 
     def __repr__(self) -> str:
         rest = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
@@ -314,6 +322,9 @@ class Sum(Spectrum):
     def __init__(self, *parts: Spectrum):
         self.parts = parts
         self.q0, self.q1 = min(part.q0 for part in parts), max(part.q1 for part in parts)
+
+    def __repr__(self) -> str:
+        return f"Sum({', '.join(map(repr, self.parts))})"
 
     @property
     def isotropic(self) -> bool:

@@ -53,6 +53,16 @@ def test_operators_are_kept_for_a_thread_and_can_be_freed():
     assert half_space.half_space((8, 8), (1.0, 1.0)) is not one
 
 
+@pytest.mark.parametrize(
+    ("most", "kind"), [(24, {}), (12, {"periodic": False}), (12, {"solid": Layer(0.1, 0.5)})]
+)
+def test_the_last_operators_of_a_kind_are_kept(most, kind):
+    first, *rest = (half_space.half_space((8, 8), (1.0 + n, 1.0), **kind) for n in range(most))
+    assert half_space.half_space((8, 8), (1.0, 1.0), **kind) is first
+    half_space.half_space((8, 8), (1.0 + most, 1.0), **kind)  # drops that of the second length
+    assert half_space.half_space((8, 8), (2.0, 1.0), **kind) is not rest[0]
+
+
 def preconditioned(shape, touching, solid):
     """Product of preconditioner and compliance on a set of points, without the mean."""
     problem = Problem(np.zeros(shape), (1.0, shape[1] / shape[0]), 1.0, solid)

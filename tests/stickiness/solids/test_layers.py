@@ -108,6 +108,12 @@ def test_a_film_bends_besides_the_layer_on_a_rigid_base(poisson):
     assert layer.in_unit(0.1).compliance(0.1 * 2) == pytest.approx(layer.compliance(2.0) / 0.1)
 
 
+def test_numpy_scalars_are_kept_as_plain_floats():
+    layer = Layer(np.array(0.2), np.float64(0.3), Film(np.float32(2), np.array(0.25), 1))
+    same = Layer(0.2, 0.3, Film(2.0, 0.25, 1.0))
+    assert (hash(layer), repr(layer)) == (hash(same), repr(same))
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [

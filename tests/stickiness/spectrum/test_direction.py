@@ -6,7 +6,7 @@ from scipy import integrate
 
 from stickiness import surface
 from stickiness.measured.psd import power_spectrum
-from stickiness.spectrum import SelfAffine
+from stickiness.spectrum import SelfAffine, kinds
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
 GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 16.0, "h_rms": 1.0}
@@ -115,6 +115,8 @@ def test_truncation_cuts_the_norm_and_keeps_the_direction():
         np.testing.assert_allclose(cut.psd_of_norm(cut.ellipse.norm(qx, qy)), want, rtol=1e-12)
         assert (cut.q0, cut.q1) == (1.0, q1)
         assert cut.band == pytest.approx((0.5, 2 * q1))
+        again = eval(repr(cut), {**vars(kinds)})
+        np.testing.assert_allclose(again.psd([1.5, 2.4]), cut.psd([1.5, 2.4]), rtol=1e-5)
     assert "anisotropy=4, angle=0.3" in repr(s)
 
 

@@ -101,6 +101,7 @@ def test_bad_parts_are_named():
 
 def test_truncation():
     both = combine(ONE, OTHER)
+    assert repr(both) == f"Sum({ONE!r}, {OTHER!r})"
     cut = both.truncated(30.0)
     assert cut.h_rms**2 == pytest.approx(float(both.variance_below(30.0)), rel=1e-12)
     assert cut.truncated(1.5).h_rms ** 2 == pytest.approx(ONE.variance_below(1.5), rel=1e-12)
