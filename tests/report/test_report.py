@@ -43,6 +43,16 @@ def budgeted(dataset, name, **errors):
     return budget.with_budget(dataset, name, **parts)
 
 
+LAWS, TRADE = "config/accuracy.csv", "config/tradeoff.csv"
+QUICK = {"pixels_per_wavelength": 4, "tolerance": 1e-4, "seeds": 3, "coarse_seeds": 32}
+PRESETS = {
+    "fidelities": {"quick": QUICK},
+    "presets": {"accuracy": {"quick": 0.3}, "pressures": [0.065]},
+    "surface": {"hurst": 0.8, "magnification": 64},
+    "descriptor_seeds": 2048,
+}
+
+
 @pytest.fixture(scope="module")
 def claims():
     count = len(GRADES)
@@ -240,7 +250,7 @@ def page(results, tmp_path_factory):
         caption.write_text(f"Caption of *{name}* & b < gamma. More {{words}}.\n\nDetails.")
         return str(path), str(caption)
 
-    inputs = {"template": "report/report.html.j2", "trade": "config/tradeoff.csv"}
+    inputs = {"template": "report/report.html.j2", "laws": LAWS, "trade": TRADE}
     for kind, found in results.items():
         inputs[kind] = (
             [save(each, folder / kind / f"{name}.nc") for name, each in found.items()]
@@ -252,7 +262,7 @@ def page(results, tmp_path_factory):
     inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
     inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
     path = folder / "report/report.html"
-    settings = {"fidelity": "draft"}
+    settings = {"presets": PRESETS, "fidelity": "draft"}
     settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
     write_report.main(make_job(inputs, {"page": str(path)}, **settings))
     return Page(path.read_text(encoding="utf-8"))
