@@ -1,6 +1,7 @@
 """Probe one component of the library at the extremes of its parameters."""
 
 import logging
+import signal
 import traceback
 import warnings
 from collections import Counter
@@ -19,6 +20,7 @@ from stickiness.repulsive.solver import ConvergenceError
 
 OUTCOMES = ("right", "refused", "not converged", "failed")
 RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
+TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
 LONGEST = 160  # characters of a message that are kept
 LABELS = {
     "magnification": "magnification q1/q0",
@@ -69,8 +71,14 @@ RESULTS = {
 }
 
 
+def expire(*_):
+    raise TimeoutError(f"took more than {TIME_LIMIT:g} s")
+
+
 def probe_point(probe, **point):
     """Outcome of one point, its largest error over the tolerance, and a message or a check."""
+    before = signal.signal(signal.SIGPROF, expire)
+    signal.setitimer(signal.ITIMER_PROF, TIME_LIMIT)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -83,6 +91,9 @@ def probe_point(probe, **point):
         in_library = Path(last.filename).is_relative_to(Path(stickiness.__file__).parent)
         outcome = REFUSED if isinstance(error, ValueError) and in_library else FAILED
         return outcome, np.nan, f"{type(error).__name__}: {error}"
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
     # A NaN must not hide behind a comparison that is false.
     excess = np.where(np.isfinite(excess), excess, np.inf)
     worst = int(np.argmax(excess))

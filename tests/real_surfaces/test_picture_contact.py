@@ -10,7 +10,7 @@ from bokeh.models import Div
 from common import contact_picture
 from common.materials import Material, read_material
 from real_surfaces import analyse_surface, contact_measured, measured_surface, picture_contact
-from real_surfaces.picture_contact import LeftOutError
+from real_surfaces.picture_contact import ATTRACTED, OPEN, TOUCHING, LeftOutError
 from remaining import measure_remaining
 from report import interactive, write_surface
 from stickiness import repulsive, surface
@@ -62,12 +62,15 @@ def test_contact_grows_with_the_load(pressed):
     assert 0.3 < float(pressed.area_fraction[-1]) < 0.5
 
 
-def test_gaps_are_where_nothing_touches(pressed):
+def test_traction_balances_the_load_and_gaps_are_where_nothing_touches(pressed):
+    traction = pressed.contact_pressure.mean(["x", "y"])
+    np.testing.assert_allclose(traction, pressed.mean_pressure, rtol=1e-5)
     np.testing.assert_allclose(pressed.gap.mean(["x", "y"]), pressed.mean_gap, rtol=1e-5)
     closed = pressed.contact.values == 1
     assert closed.any()
     assert np.all(pressed.gap.values[closed] == 0)
     assert np.all(pressed.gap.values[~closed] > 0)
+    assert np.all(pressed.contact_pressure.values[pressed.contact.values == 0] == 0)
     assert float(pressed.residual.max()) <= picture_contact.CONTACT_TOLERANCE
 
 
@@ -159,8 +162,10 @@ def test_surfaces_meet_are_squeezed_and_part(pulled):
     for way, order in ((there, -1), (back, 1)):
         assert np.all(order * np.diff(way.mean_gap) > 0)
     for state in (there.isel(state=0), back.isel(state=-1)):
-        assert float(state.contact_area) == float(state.attracted_area) == 0
+        assert np.all(state.zone == OPEN)
     assert -float(there.mean_traction[-1]) >= float(pulled.squeeze_pressure)
+    for name, code in (("contact_area", TOUCHING), ("attracted_area", ATTRACTED)):
+        np.testing.assert_allclose((pulled.zone == code).mean(["x", "y"]), pulled[name])
     assert float(pulled.contact_area.max()) > 0.1
 
 

@@ -58,6 +58,16 @@ def test_giving_up_is_not_failing():
     assert outcome(lambda: solver.solve(heights, 1.0, 0.1, max_iterations=1)) == UNCONVERGED
 
 
+def test_what_takes_too_long_has_failed(monkeypatch):
+    monkeypatch.setattr(probe_stability, "TIME_LIMIT", 0.05)
+
+    def endless():
+        while True:
+            pass
+
+    assert outcome(endless) == FAILED
+
+
 @pytest.mark.parametrize("name", COMPONENTS)
 def test_the_middle_of_every_map_is_right(name):
     probe, values = COMPONENTS[name]

@@ -20,7 +20,7 @@ LOOPS = [
     for function in vars(module).values()
     if hasattr(function, "__wrapped__") and function.__module__ == module.__name__
 ]
-IN_DOUBLE = (problem._unloaded, solver._sum_up)
+IN_DOUBLE = (problem._unloaded, problem._react, solver._sum_up)
 
 
 def single(*shape):

@@ -6,7 +6,7 @@ rough contact is taken for its *equivalent sphere*, of equal tau and equal t, at
 contact area (doi:10.1016/0021-9797(92)90285-T). Its contact has the radius a, its zone c, and c_0
 at vanishing traction; the attraction over its DMT limit is ``2 [c^2 arccos(a/c) + a sqrt(c^2 -
 a^2)]/(pi (c_0^2 - a^2))``. Simulation over the model is 1.03 +- .06 for tau < 0.2 and 0.75 to 1.35
-beyond, up to tau = 4.6 and down to t = 0.2 (benchmarks/tough_edges.py). l_a = w/E*.
+beyond, up to tau = 4.6 and down to t = 0.2. l_a = w/E*.
 """
 
 from __future__ import annotations

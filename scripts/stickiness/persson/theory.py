@@ -45,7 +45,7 @@ class Persson:
         Continuous, tabulated, or the shells of a periodic window. With a direction, its average
         over directions is used; quadrature errs by 1e-6 in the mean gap and 3e-5 in P(u) then.
         Simulated areas over theory's are larger than without a direction by 1, 10 and 17 % at
-        ratios of 2, 4 and 8 at small loads (`benchmarks/direction.py`).
+        ratios of 2, 4 and 8 at small loads.
     variant : {"afferrante2018", "almqvist2011"}
         Width of the Gaussians that P(u) is made of: the rms height h of the roughness that is not
         in sight yet (Almqvist et al. 2011, doi:10.1016/j.jmps.2011.08.004), or h_eff with

@@ -49,9 +49,9 @@ def test_inequality_forms_agree_on_a_map():
     np.testing.assert_array_equal(verdict.sticky, criteria.slope_angle(inverse) > np.pi / 2)
     ratio = criteria.traction_ratio(h, q0, length, eps, a_v)
     np.testing.assert_allclose(verdict.margin, ratio**0.6, rtol=1e-13)
-    printed = criteria.violano(h, q0, length, eps, criteria.PRINTED_A_V).margin
+    printed = criteria.violano_printed(h, q0, length, eps).margin
     np.testing.assert_allclose(printed, (9 / 4 * length / (eps * q0)) ** 0.6 / h, rtol=1e-13)
-    valid = h > criteria.jtb_limit(q0, length, eps)
+    valid = criteria.dmt_validity(h, q0, length, eps).valid
     np.testing.assert_array_equal(valid, h / eps > 4 / 75 * (length / eps) / (eps * q0))
 
 
@@ -134,6 +134,8 @@ def test_fuller_tabor():
     verdict = criteria.fuller_tabor(h, 2 / radius, length)
     assert verdict.margin == pytest.approx(10 / theta, rel=1e-13)
     assert verdict.sticky is (theta < 10)
+    given = criteria.fuller_tabor(h, 99.0, length, radius=radius)
+    assert given.margin == pytest.approx(10 / theta, rel=1e-13)
 
 
 @pytest.mark.slow
@@ -192,6 +194,7 @@ def test_energy_criteria_agree_in_order_of_magnitude():
         (lambda: criteria.pastewka_robbins(0.0, 1.0, 1.0, 1.0), "rms_slope must"),
         (lambda: criteria.pastewka_robbins(1.0, 1.0, 1.0, 1.0, -1.0), "interaction_range must"),
         (lambda: criteria.pastewka_robbins_a_v_power_law(1.0, 10.0), "hurst must be below 1"),
+        (lambda: criteria.fuller_tabor(1.0, 1.0, 1.0, radius=0.0), "radius must"),
         (lambda: criteria.bearing_area(1.0, 1.0, 1.0, 0.0), "range must"),
         (lambda: criteria.persson_tosatti(0.0, 1.0), "elastic_energy must"),
         (lambda: criteria.dahlquist(-1.0), "modulus_pa must"),

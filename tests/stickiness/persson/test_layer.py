@@ -30,6 +30,7 @@ def test_thick_layers_are_half_spaces(correction):
     thick = persson.Persson(ROUGH, correction=correction, solid=Layer(1e3, 0.5))
     p = loads(half)
     np.testing.assert_allclose(thick.area_fraction(p), half.area_fraction(p), rtol=1e-12)
+    np.testing.assert_allclose(thick.area_fraction(p, 8.0), half.area_fraction(p, 8.0), rtol=1e-12)
     # Almost all of the gap is decided next to q0, where pressures are small.
     p = np.append(p, [1e-12, 1e-8, 1e-6, 1e-4])
     np.testing.assert_allclose(thick.mean_gap(p), half.mean_gap(p), rtol=1e-9)
@@ -52,6 +53,8 @@ def test_area_by_the_variance_of_the_pressure(solid):
     variance = np.sum(SHELLS.variance * solid.stiffness(SHELLS.q) ** 2)
     p = LOADS * np.sqrt(variance)
     np.testing.assert_allclose(theory.area_fraction(p), erf(LOADS / np.sqrt(2)), rtol=1e-9)
+    first = erf(p / np.sqrt(2 * 0.5 * solid.stiffness(1.0) ** 2))
+    np.testing.assert_allclose(theory.area_fraction(p, 1.5), first, rtol=1e-9)
 
 
 def test_the_distribution_of_gaps_is_refused():
