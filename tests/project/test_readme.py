@@ -68,8 +68,8 @@ def count_failed_claims(results):
 @pytest.mark.parametrize(
     ("text", "number", "rounding", "read"),
     [
-        ("theory gives 3.7 at 10⁶", 3.7, 0.05, lambda results: read_claim(results, 8)),
-        ("a_V is 1.8 in cells four", 1.8, 0.05, read_cell),
+        ("theory it reaches 3.7 at 10⁶", 3.7, 0.05, lambda results: read_claim(results, 8)),
+        ("a_V is 1.8 if the cell is four", 1.8, 0.05, read_cell),
         ("by a factor of 1.1", 1.1, 0.05, read_dmt_ratio),
         ("simulation is 1.03 times", 1.03, 0.005, read_sphere),
         ("92 % of the predicted works", 92, 0.5, read_works),
