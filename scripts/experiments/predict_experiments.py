@@ -62,7 +62,7 @@ VARIABLES = {
     "tests": ("1", "1 where a published number or answer is compared with the prediction"),
     "known": ("1", "how the least known input is known"),
     "observed_known": ("1", "how the observation is known"),
-    "waves_in_contact": ("1", "longest waves across what holds at pull-off", "flat on flat"),
+    "waves_in_contact": ("1", "longest waves across the contact at pull-off", "flat on flat"),
     "h_rms": ("m", "rms height, given or limiting"),
     "most_effective_input": ("1", "input within whose limits the prediction changes most"),
     "effect_of_input": ("1", "factor that it changes, at most 1e9", "nothing is predicted"),

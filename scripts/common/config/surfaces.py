@@ -56,14 +56,14 @@ class SelfAffine(f.Labelled, Direction):
                 yield f"{key} = {getattr(self, key)!r} must be positive"
             if values != sorted(values):
                 yield f"{key} = {values!r} must be [low, high]"
-            for value in values[-1:]:
-                q0, q1 = 2 * math.pi / longest, 2 * math.pi / shortest
-                q_rolloff = rolloff and 2 * math.pi / rolloff
-                band = {"hurst": self.hurst, "q0": q0, "q1": q1, "q_rolloff": q_rolloff}
-                slope = kinds.SelfAffine(**band, **{key: float(value)}).rms_slope
+            if values:
+                band = {"q0": 2 * math.pi / longest, "q1": 2 * math.pi / shortest}
+                band["q_rolloff"] = rolloff and 2 * math.pi / rolloff
+                rough = kinds.SelfAffine(hurst=self.hurst, **band, **{key: float(values[-1])})
+                slope = rough.rms_slope
                 if slope > plausibility.LARGEST_SLOPE:
                     yield (
-                        f"{key} = {value!r} means an rms slope of {slope:.3g}, above "
+                        f"{key} = {values[-1]!r} means an rms slope of {slope:.3g}, above "
                         f"{plausibility.LARGEST_SLOPE:g}, which no surface has; correct it, its "
                         "unit or the wavelengths"
                     )
