@@ -98,14 +98,13 @@ def real_surfaces(asphalt, map, measured_surfaces):
     )
     # Only measured spectra can test the line, not parameters that somebody assumed.
     heights = [float(data.C0_reference_upper.max()) / UPPER_LINE for data in measured_surfaces]
-    line = OPEN if not heights else grade(max(heights) <= 1, False)
     labels = [datasets.parameters(data)["label"] for data in measured_surfaces]
     close = abs(printed / PRINTED_MODULUS - 1) < 0.1
     return Finding(
         printed,
         grade(close, False),  # of the arithmetic alone
         claimed=PRINTED_MODULUS,
-        line=line,
+        line=grade(max(heights) <= 1, False) if heights else OPEN,
         a_v=map.a_v,
         derived=derived,
         measured=list(zip(labels, heights, strict=True)),
@@ -313,11 +312,10 @@ def truncation(remaining):
 def follow_magnification(table, hurst):
     """What finer waves do to the adhesion of the same long waves, by magnification.
 
-    Of the narrowest cohesive zone that was followed over the most magnifications: the energy gained
-    over that with the fewest waves, by surface, at the work of adhesion that equals the energy of
-    full contact with these; and the share that remains where both energies are equal, mean over
-    the surfaces that have all magnifications.
+    The energy gained at the work of adhesion that equals the energy of full contact with the fewest
+    waves, over that with these, by surface; and the mean share where both energies are equal.
     """
+    # The narrowest cohesive zone that was followed over the most magnifications.
     rows = table[(table.hurst == hurst) & (table.window == 2)]
     followed = rows.groupby("zone").magnification.nunique()
     rows = rows[rows.zone == followed[followed == followed.max()].index.min()]
@@ -347,13 +345,12 @@ def stickiness_of_experiments(experiments):
     )
     # The worst outcome among the observations that were read from a publication.
     worst = NOT if missed else QUALIFIED if some else REPRODUCED if compatible else OPEN
-    limit = float(rubber.criterion_roughness.sel(criterion=PAPER))
     return Finding(
-        limit * 1e6,
+        float(rubber.criterion_roughness.sel(criterion=PAPER)) * 1e6,
         worst,
         errors={"model": np.nan},
         rubber=rubber,
-        overshoot=limit / rubber.h_rms,
+        paper=PAPER,
         missed=missed,
         some=some,
         compatible=compatible,
