@@ -2,16 +2,7 @@
 
 import numpy as np
 
-from claims.ledger import (
-    NOT,
-    REPRODUCED,
-    Finding,
-    claim,
-    describe_cell,
-    errors_by_source,
-    grade,
-    value_and_error,
-)
+from claims.ledger import Finding, claim, describe_cell, errors_by_source, grade, value_and_error
 from common.conventions import LINEAR_UP_TO, VARIANT, at_load
 from stickiness import datasets
 from stickiness.criteria import a_v_fit
@@ -197,20 +188,20 @@ def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_w
     grown = abs(value * float(step.sel(hurst=0.8, method="nearest")))
     middle = first.sel(hurst=0.8, method="nearest").sortby("magnification")
     middle = middle.sel(magnification=MIDDLE)
-    about = grade(abs(value - 3) <= error < 0.5, float(np.abs(middle / 3 - 1).max()) < 0.25)
-    converges = grade(float(np.abs(step).max()) < 0.02, False)
+    is_3, about = abs(value - 3) <= error < 0.5, float(np.abs(middle / 3 - 1).max()) < 0.25
+    steady = float(np.abs(step).max()) < 0.02
     errors = errors_by_source(largest.isel(window=0), "a_v")
     narrow, wide = (at_load(data).isel(window=0) for data in (fit_bem_128, fit_bem_wide))
     return Finding(
         value,
-        about if converges == REPRODUCED else grade(False, about != NOT),
+        grade(is_3 and steady, about),
         claimed=3.0,
         errors=errors | {"bandwidth": grown, "model": np.hypot(errors["model"], error)},
         zetas=fit.magnification[-2:],
         middle=(middle.min(), middle.max()),
         middle_zetas=middle.magnification[[0, -1]],
-        about=about,
-        converges=converges,
+        about=grade(is_3, about),
+        converges=grade(steady, False),
         growth=[(float(one.hurst), one) for one in step],
         intervals=(largest.a_v.min(), largest.a_v.max()),
         simulated=[

@@ -287,7 +287,8 @@ def find_modulus(surface, share, sign):
 @claim(21)
 def truncation(remaining):
     (smooth, equal), (rough, _) = (follow_magnification(remaining, hurst) for hurst in (0.8, 0.5))
-    finest = smooth.columns[smooth.count() > 1][-1]  # of those that several surfaces have
+    number = smooth.count()
+    finest = number[number == number.iloc[1:].max()].index[-1]  # of those that most surfaces have
     (before, last), ends = smooth.columns[-2:], smooth.iloc[:, -2:].dropna().mean()
     # Change that the last step would make over a factor of ten in magnification.
     late = float((ends[last] / ends[before]) ** (1 / np.log10(last / before))) - 1
@@ -301,7 +302,7 @@ def truncation(remaining):
         errors={"sampling": float(scatter)},
         coarse=smooth.columns[0],
         fine=finest,
-        rough=rough[finest].mean(),
+        rough=(rough.columns[-1], rough.mean().iloc[-1]),
         surfaces=len(smooth) + len(rough),
         steps=(before, last),
         late=late,
@@ -324,7 +325,7 @@ def follow_magnification(table, hurst):
     rows = rows[rows.seed.isin(works.index)].sort_values("adhesion_length")
     found = {
         at: [
-            np.interp(work, one.adhesion_length, one.bound)
+            np.interp(work, one.adhesion_length, one.bound, left=np.nan, right=np.nan)
             for work in (works[at[0]], one.full_contact_energy.iloc[0])
         ]
         for at, one in rows.groupby(["seed", "magnification"])
