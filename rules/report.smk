@@ -1,6 +1,9 @@
 # The report of all results, and a page for every real surface.
 
-PAGE_PARTS = [project_file(f"report/{part}") for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")]
+PAGE_PARTS = [
+    project_file(f"report/{part}")
+    for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")
+]
 
 
 def figure_sources(wildcards, output):
