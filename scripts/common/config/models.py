@@ -467,6 +467,7 @@ class RemainingSet(ModelSurface):
     energies: f.Values
     zones: f.Values = optional("q0 range^2/adhesion_length")
     ranges: f.Values = optional("ranges over h_rms")
+    squeezes: f.Values = optional("pressures before separation, over E* q0 h_rms; by default 0.1")
 
     def _problems(self, context):
         yield from super()._problems(context)
