@@ -65,6 +65,20 @@ def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
     return state
 
 
+def pressure_at(states, curve):
+    """Pressure without adhesion at the area of adhesive contact, NaN beyond the curve of areas."""
+    # The curve may be on another grid, or without its pixels: it is scaled to the area at this gap.
+    area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
+    loads = np.log(curve.pressure.values)
+
+    def invert(wanted, known):
+        logs = np.interp(np.log(wanted), np.log(known), loads, left=np.nan, right=np.nan)
+        return np.exp(logs)
+
+    curve, dims = curve.rename(pressure="load"), [[], ["load"]]
+    return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)
+
+
 def solver_error(states):
     """Relative error by the solver and by the branch that it ends on, at every point of a set."""
     over = states.attraction_dmt.isel(resolution=-1, drop=True) / states.pressure
