@@ -1,9 +1,9 @@
-"""Adhesion of a set of parameters: in the DMT limit, and at every point by the chosen model.
+"""Adhesion of a set of parameters: by the DMT sum, and at every point by the chosen model.
 
 Full simulations are averaged over the realisations: slopes of the area-load relation, and their
-ratio to the DMT limit. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
+ratio to the DMT sum. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
 half the relative reduction by adhesion of the pressure that belongs to an area. The sum of the
-tractions gives it directly, as in the DMT limit, but misses the area that the tractions pull into
+tractions gives it directly, as the DMT sum does, but misses the area that the tractions pull into
 contact. Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more
 slowly.
 """
@@ -34,7 +34,7 @@ STATES = {
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
     "attractive_area": "area within the range, not in contact, over nominal area",
 }
-# Slopes and fits have as their control the quantity of the DMT limit of the same name.
+# Slopes and fits have as their control the quantity of the DMT sum of the same name.
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",
@@ -47,9 +47,9 @@ FITS = {
     "inverse_kappa_ad_fit": "1/kappa_ad from fitted 1/kappa",
 }
 RATIOS = {
-    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT limit",
-    "dmt_ratio_at_gap": "fall of the pressure at equal mean gap over the DMT sum",
-    "weak_ratio": "fall of the pressure at equal mean gap over its limit for weak adhesion",
+    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT sum",
+    "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
+    "weak_ratio": "fall of the pressure by adhesion at equal mean gap over its weak limit",
 }
 CONTROLS = {n: n.removesuffix("_net").removesuffix("_direct") for n in SLOPES | FITS}
 ALL = STATES | SLOPES | FITS | RATIOS
@@ -60,18 +60,18 @@ NET = [name for name in ALL if "net" in name.split("_")]
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 # Pixels across the zone of attraction below which an attraction is a statement about the grid.
 NARROWEST = 1.5
-AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT limit that without adhesion
+AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT sum that without adhesion
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
-    "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
+    "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
     "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
     "sampling": "Student's t of the standard error; of full simulation not less than what the "
     "count of turned pixels leaves open",
     "bandwidth": SIMULATED["bandwidth"].text,
-    "model": "of the DMT limit as measured, of areas not known; of full simulation what comparing "
+    "model": "of the DMT sum as measured, of areas not known; of full simulation what comparing "
     "at equal area instead of equal mean gap changes, or what a straight line leaves out",
 }
-FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
+FEW = f"DMT sum, {MISSING}, a single seed, or fewer than two loads to fit"
 OTHERS = {
     "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
     "residual": "largest residual of all realisations",
@@ -80,7 +80,7 @@ OTHERS = {
 }
 VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
 VARIABLES |= {name: (*text[:2], FEW) for name, text in describe_errors(ALL, plain=True).items()}
-VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE)
+VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT sum in 1/kappa_ad", OUTSIDE)
 
 
 def main(job):
@@ -89,7 +89,6 @@ def main(job):
     dmt_limit.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    adhesion = datasets.parameters(limit)
     made, seeds = datasets.parameters(ensemble), []
     dataset = take_dmt_limit(limit)
     if job.input.realisations:
@@ -111,12 +110,12 @@ def main(job):
         dataset,
         job.output.averages,
         title="adhesive contact averaged over realisations, by the model chosen",
-        parameters={**made, **adhesion, "seeds": seeds},
+        parameters={**made, **datasets.parameters(limit), "seeds": seeds},
     )
 
 
 def take_dmt_limit(limit):
-    """The averages in the DMT limit, in which all areas are that without adhesion."""
+    """The averages by the DMT sum, in which all areas are that without adhesion."""
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
     dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
@@ -131,7 +130,7 @@ def take_dmt_limit(limit):
 
 
 def average(states, full, ensemble, limit, made):
-    """Means over the realisations: full simulations, or their DMT limit where there are none."""
+    """Means over the realisations: full simulations, or the DMT sum where there are none."""
     adhesion = datasets.parameters(limit)
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
@@ -148,7 +147,7 @@ def average(states, full, ensemble, limit, made):
     reported = whole & (wide | ~full)
     resolved = dict.fromkeys(STATES | SLOPES, reported) | dict.fromkeys(RATIOS, reported & full)
     resolved |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
-    # The DMT limit of the coarsest solutions: of these seeds, and of many more.
+    # The DMT sum of the coarsest solutions: of these seeds, and of many more.
     quantities = partial(quantities_of, adhesion, in_limit)
     controls = coarse(ensemble, quantities)
     twins = controls and quantities(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
@@ -203,7 +202,7 @@ def add_pixels(states, made):
 
 
 def add_dmt(states, full):
-    """States, in the DMT limit where no full simulation is wanted."""
+    """States, by the DMT sum where no full simulation is wanted."""
     limit = {
         "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,

@@ -1,7 +1,7 @@
 """Full simulation against the model of the edges of contact, at equal area of contact.
 
 Adhesive states are compared, seed by seed, with the contact without adhesion that has the same
-area. The reduction of the load by adhesion, over the attraction in the DMT limit, is the effect
+area. The reduction of the load by adhesion, over the attraction by the DMT sum, is the effect
 that the equivalent sphere models.
 """
 
@@ -25,7 +25,7 @@ MISSING = (
 )
 # Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
 FEWEST_POINTS = 100
-EFFECT = "attraction at equal area of contact over the DMT limit"
+EFFECT = "attraction at equal area of contact over the DMT sum"
 VARIABLES = {
     "attractive_over_contact": ("1", "attractive over contact area without adhesion", MISSING),
     "edge_strength": ("1", "Tabor's parameter of the edges", MISSING),
@@ -76,8 +76,16 @@ def compare(adhesive, alone, adhesion, grid):
     adhesive = adhesive.isel(resolution=grid, drop=True)
     strength = adhesive.adhesion_length_over_range / roughness(adhesion)
     alone = alone.isel(resolution=-1, drop=True)
-    load = pressure_at(adhesive, alone.pixel_area_fraction)
-    attractive = adhesive.attraction_dmt / strength * find_growth(adhesion, alone, load)
+    load, pressure = pressure_at(adhesive, alone.pixel_area_fraction), adhesive.pressure
+    areas = integrate_law(adhesion, alone.attractive_area)
+    # In proportion to the adhesion length: all have the same growth.
+    areas = np.log(areas.isel(adhesion_length_over_range=0, drop=True))
+    of_loads = areas.assign_coords(pressure=np.log(areas.pressure))
+    # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
+    reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
+    growth = reached - of_loads.interp(pressure=np.log(pressure))
+    growth = np.exp(growth.drop_vars("pressure", errors="ignore"))
+    attractive = adhesive.attraction_dmt / strength * growth
     t = attractive / adhesive.repulsive_area
     known = (t * load).notnull() & (t > 0)
     # The model refuses what is not known.
@@ -98,18 +106,6 @@ def compare(adhesive, alone, adhesion, grid):
             "over_model": (effect / model).where(reported),
         }
     )
-
-
-def find_growth(adhesion, alone, load):
-    """Growth of the attractive area from the load at the same mean gap to another load."""
-    pressure, attraction = load.pressure, integrate_law(adhesion, alone.attractive_area)
-    # In proportion to the adhesion length: the growth is the same for all.
-    attraction = attraction.isel(adhesion_length_over_range=0, drop=True)
-    of_loads = np.log(attraction).assign_coords(pressure=np.log(attraction.pressure))
-    # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
-    reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
-    growth = reached - of_loads.interp(pressure=np.log(pressure))
-    return np.exp(growth.drop_vars("pressure", errors="ignore"))
 
 
 if __name__ == "__main__":

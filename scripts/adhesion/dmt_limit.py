@@ -20,7 +20,7 @@ SMALLEST = 1e-300  # area: none at ranges that a coarse grid does not see
 
 QUANTITIES = {
     "attraction": "attractive pressure over E* q0 h_rms",
-    "attraction_weak": "fall of the pressure at equal mean gap by weak adhesion over E* q0 h_rms",
+    "attraction_weak": "fall of the pressure at equal mean gap in the weak limit over E* q0 h_rms",
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_ad": "1/kappa_ad = p_ad/(2 p_rep)",
     "inverse_kappa_fit": "1/kappa fitted through the origin over the loads up to 30 % area",

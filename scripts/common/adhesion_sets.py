@@ -23,8 +23,8 @@ OUTSIDE = "outside the table of measured errors"
 # with attraction above 1.5 times the load. The mean over four seeds moves less than the error here.
 SOLVER = 1e-6
 BRANCH, BRANCHING = 0.03, 1.5  # relative error where the attraction is that many times the load
-STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
-# Attraction over repulsion, in the DMT limit, up to which the answer is nearly linear in it.
+STRONGEST = 8.0  # attraction over repulsion, by the DMT sum, that is still looked at
+# Attraction over repulsion, by the DMT sum, up to which the answer is nearly linear in it.
 NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
 
@@ -72,8 +72,7 @@ def pressure_at(states, curve):
     loads = np.log(curve.pressure.values)
 
     def invert(wanted, known):
-        logs = np.interp(np.log(wanted), np.log(known), loads, left=np.nan, right=np.nan)
-        return np.exp(logs)
+        return np.exp(np.interp(np.log(wanted), np.log(known), loads, np.nan, np.nan))
 
     curve, dims = curve.rename(pressure="load"), [[], ["load"]]
     return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)

@@ -5,7 +5,7 @@ import numpy as np
 
 from common import plotting
 from common.conventions import middles
-from common.plotting import BLACK, GREY, make_key, pick_look, state
+from common.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
 
@@ -81,12 +81,10 @@ def draw_weak(ax, data):
     ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE)
     ax.set_ylabel("attraction, full over DMT sum")
     plotting.write_ticks(ax.yaxis, [0.125, 0.25, 0.5, 1, 2, 4])
-    look = {"color": GREY, "marker": "o", "markersize": 3.5, "label": "equal mean gap"}
-    plotting.draw_hollow(ax, [], [], **look)
-    ax.plot([], [], color=GREY, linewidth=0.9, label="its weak limit")
-    length = float(weak.adhesion_length_over_range)
-    ax.set_title(f"weak adhesion, {state(adhesion_length=length)}")
-    ax.legend(loc="upper right")
+    at_gap = make_dot("equal mean gap", color=GREY, markersize=3.5, mfc="white")
+    ax.set_title(f"weak adhesion, {state(adhesion_length=weak.adhesion_length_over_range)}")
+    limit = make_key("its weak limit", color=GREY, linewidth=0.9)
+    plotting.add_legend(ax, at_gap, limit, loc="upper right")
 
 
 if __name__ == "__main__":
