@@ -71,7 +71,7 @@ LEFT = {
     "model": "of the DMT sum as measured, of areas not known; of full simulation what comparing "
     "at equal area instead of equal mean gap changes, or what a straight line leaves out",
 }
-FEW = f"DMT sum, {MISSING}, a single seed, or fewer than two loads to fit"
+FEW = f"DMT sum, {MISSING}, a single seed, or too few loads"
 OTHERS = {
     "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
     "residual": "largest residual of all realisations",

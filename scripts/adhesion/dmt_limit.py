@@ -26,9 +26,9 @@ QUANTITIES = {
     "inverse_kappa_fit": "1/kappa fitted through the origin over the loads up to 30 % area",
     "inverse_kappa_ad_fit": "1/kappa_ad, from the fall of the fitted 1/kappa",
 }
-FEW = "fewer than two loads, or a single seed"
+FEW = "fewer than two loads to fit, fewer than three in all, or a single seed"
 VARIABLES = describe_errors(QUANTITIES, plain=True, discretisation=grid_limits.INHERITED)
-VARIABLES |= {n: (*text[:2], FEW) for n, text in VARIABLES.items() if "fit" in n}
+VARIABLES |= {n: (*t[:2], FEW) for n, t in VARIABLES.items() if "fit" in n or "weak" in n}
 VARIABLES["dmt_error"] = ("1", "measured relative error of this 1/kappa_ad", OUTSIDE)
 MODEL = "of the DMT sum against full simulation, as measured"
 # Relative error of a slope between loads over the logarithm of their step, see `weak_attraction`.
