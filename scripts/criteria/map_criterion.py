@@ -20,7 +20,7 @@ from stickiness.spectrum.kinds import SelfAffine
 
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
-DMT = f"{LIMIT} in the DMT limit"
+DMT = f"{LIMIT} by the DMT sum"
 RULE = "c in h_rms^2 < c lambda_L w/E*, for many waves and a short range"
 HURSTS = (0.5, 0.6, 0.7, 0.8, 0.9)
 BROAD, SHORT = 1e4, 1e-6  # magnification, and range over h_rms, of this rule
@@ -121,7 +121,7 @@ class Roughness:
         return self.attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
     def by_dmt(self, h, q0, length, which):
-        """Attraction over repulsion in the DMT limit."""
+        """Attraction over repulsion by the DMT sum."""
         return criteria.traction_ratio(h, q0, length, 1.0, self.a_v(h, q0, which))
 
     def by_edges(self, h, q0, length, which, sign):
