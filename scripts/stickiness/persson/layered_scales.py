@@ -12,7 +12,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.persson.kernels import Kernels
+from stickiness.persson.kernels import RESOLVED, Kernels
 from stickiness.persson.scale_quadrature import scale_edges, split_panels
 from stickiness.solids import Layer
 from stickiness.spectrum.interface import Spectrum
@@ -47,6 +47,15 @@ class LayeredScales:
             terms = faded * universal.gap_kernel(x2) * self._growth / (2 * s)
             terms[..., 0] = s[0] * faded[..., 0] * universal.mean_kernel(x2[..., 0])
         return 2 / np.sqrt(np.pi) * np.sum(per_pressure * terms, axis=-1)
+
+    def elastic_energy(self, p: NDArray, universal: Kernels) -> NDArray:
+        """Elastic energy [length] at mean pressures `p` [E*], less the mean compression's."""
+        x = np.clip(p[..., None] / np.sqrt(self._m), *RESOLVED)
+        below = self._m * universal.energy_share(x)
+        terms = np.diff(below, axis=-1, prepend=0.0)
+        if not self.spectrum.is_discrete:
+            terms[..., 1:] = (self._growth * universal.kept_energy(x))[..., 1:]
+        return 0.5 * np.sum(self.solid.factor(self._q) / self._q * terms, axis=-1)
 
     def _slope_weight(self, q: NDArray) -> NDArray:
         return (q / self.solid.factor(q)) ** 2
