@@ -201,16 +201,9 @@ class Kernels:
         return self._evaluate(self._mean, x2)
 
     def energy_share(self, x: NDArray) -> NDArray:
-        """Average of A S at A = erf(p/sqrt(m')) over scales, weighted by dm', to m = (p/x)^2.
-
-        Its derivative d(m share)/dm is A S, and it is 1 in full contact.
-        """
+        """Average over dm' up to m = (p/x)^2 of A S at A = erf(p/sqrt(m')); 1 in full contact."""
         lacking = (self.gap_kernel(x**2) - self.mean_kernel(x**2)) * np.exp(-(x**2))
-        return self.kept_energy(x) + 2 / np.sqrt(np.pi) * x * lacking
-
-    def kept_energy(self, x: NDArray) -> NDArray:
-        """Energy A S of the scale where A = erf(x), over the same scale's in full contact."""
-        return erf(x) * self.correction.diffusion(x)
+        return erf(x) * self.correction.diffusion(x) + 2 / np.sqrt(np.pi) * x * lacking
 
     def _evaluate(self, table: EvenTable, x2: ArrayLike) -> NDArray:
         log_x = 0.5 * np.log(np.asarray(x2, dtype=float))

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import erf
 
 from stickiness.persson.kernels import RESOLVED, Kernels
 from stickiness.persson.scale_quadrature import scale_edges, split_panels
@@ -27,7 +28,8 @@ class LayeredScales:
         self.spectrum, self.solid = spectrum, solid
         if spectrum.is_discrete:
             self._q = spectrum.q
-            self._m = np.cumsum(0.5 * spectrum.variance * self._slope_weight(self._q))
+            self._growth = 0.5 * spectrum.variance * self._slope_weight(self._q)
+            self._m = np.cumsum(self._growth)
         else:
             self._q, self._m, self._growth = self._gauss_nodes(nodes)
 
@@ -37,25 +39,26 @@ class LayeredScales:
 
     def mean_gap(self, p: NDArray, universal: Kernels) -> NDArray:
         """Mean gap [length] at mean pressures `p` > 0 [E*]."""
-        s, per_pressure = np.sqrt(self._m), self.solid.factor(self._q) / self._q
+        s = np.sqrt(self._m)
         x2 = (p[..., None] / s) ** 2
         faded = np.exp(-x2)
-        # within a shell S/q stands still: int F(p/s) ds = s kappa(p/s)
-        if self.spectrum.is_discrete:
-            terms = np.diff(s * faded * universal.mean_kernel(x2), axis=-1, prepend=0.0)
-        else:
-            terms = faded * universal.gap_kernel(x2) * self._growth / (2 * s)
-            terms[..., 0] = s[0] * faded[..., 0] * universal.mean_kernel(x2[..., 0])
-        return 2 / np.sqrt(np.pi) * np.sum(per_pressure * terms, axis=-1)
+        # int F(p/s) ds = s kappa(p/s)
+        local = universal.gap_kernel(x2) * faded * self._growth / (2 * s)
+        return 2 / np.sqrt(np.pi) * self._sum(s * faded * universal.mean_kernel(x2), local)
 
     def elastic_energy(self, p: NDArray, universal: Kernels) -> NDArray:
         """Elastic energy [length] at mean pressures `p` [E*], less the mean compression's."""
         x = np.clip(p[..., None] / np.sqrt(self._m), *RESOLVED)
-        below = self._m * universal.energy_share(x)
-        terms = np.diff(below, axis=-1, prepend=0.0)
-        if not self.spectrum.is_discrete:
-            terms[..., 1:] = (self._growth * universal.kept_energy(x))[..., 1:]
-        return 0.5 * np.sum(self.solid.factor(self._q) / self._q * terms, axis=-1)
+        local = erf(x) * universal.correction.diffusion(x) * self._growth
+        return 0.5 * self._sum(self._m * universal.energy_share(x), local)
+
+    def _sum(self, integral: NDArray, growth: NDArray) -> NDArray:
+        """Sum of S/q over scales, times what an integral up to them grows by."""
+        # Within a shell, and in the first panel, S/q stands still.
+        if self.spectrum.is_discrete:
+            growth = np.diff(integral, axis=-1, prepend=0.0)
+        growth[..., 0] = integral[..., 0]
+        return np.sum(self.solid.factor(self._q) / self._q * growth, axis=-1)
 
     def _slope_weight(self, q: NDArray) -> NDArray:
         return (q / self.solid.factor(q)) ** 2
