@@ -220,6 +220,6 @@ def test_elastic_energy_against_simulation(hurst):
         energies = [np.mean(s.pressure * (s.gap + heights - s.shift)) / 2 for s in solved]
         kinds = [energies / theory.elastic_energy(loads, same) - 1 for same in (False, True)]
         assert np.all(np.abs(kinds[0]) < theory.elastic_energy_error(loads))
-        errors.append(np.sqrt(np.mean(np.square(kinds), axis=1)))
-    best, areas = np.mean(errors, axis=0)
-    assert best < 0.05 < 0.1 < areas
+        errors.append(kinds)
+    best, areas = np.abs(np.mean(errors, axis=0)).max(axis=1)
+    assert best < 0.07 < 0.12 < areas
