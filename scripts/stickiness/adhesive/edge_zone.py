@@ -25,9 +25,9 @@ def resolution(pixel: float, range: float, adhesion_length: float) -> float:
 def is_lost(resolution: float, strength: float) -> bool:
     """Whether the grid alone, and not the attraction, sets the edges of contact.
 
-    `strength` of the law over the rms pressure that flattens the surface. Of what adhesion takes
-    from the load a `resolution` of 4, 8, 16, 32, 64 and 512 keeps 0.85, 0.65, 0.5, 0.3, 0.2 and
-    0.05 (measured, at a given mean gap). Below the root of resolution/20 that is 1.5 % of the load
-    at most; from a strength of 30 on, points stick wherever a descent leaves them.
+    `strength` of the law over the rms pressure that flattens the surface. At a `resolution` of 4,
+    8, 16, 32 and 64 the grid keeps 0.85, 0.65, 0.5, 0.3 and 0.2 of what adhesion takes from the
+    load. Below the root of resolution/20 that is 1.5 % of the load at most, but from 30 on points
+    stick wherever a descent leaves them. All measured at a given mean gap.
     """
     return resolution > 50 and strength > min(30, np.sqrt(resolution / 20))

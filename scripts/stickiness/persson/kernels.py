@@ -24,7 +24,6 @@ _STEP = 0.005  # of the tables in ln x: Hermite interpolation then errs by less 
 _X_LOW, _X_HIGH = 1e-11, 25.0  # below, F is its logarithmic limit; above, exp(-x^2) < 1e-271
 _X_START = 26.0  # where the sums begin: what lies above is worth exp(-51) at _X_HIGH
 _Y_LOW, _Y_HIGH = 1e-11, 6.5  # below, T is its power-law limit; above, erf(y) = 1
-RESOLVED = 1e-150, 20.0  #: p/sqrt(m), beyond which contact is nothing or full to rounding
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
@@ -200,10 +199,11 @@ class Kernels:
         """Return exp(x^2) kappa(x) for x^2, with kappa(x) = x int_x^inf F(t)/t^2 dt."""
         return self._evaluate(self._mean, x2)
 
-    def energy_share(self, x: NDArray) -> NDArray:
-        """Average over dm' up to m = (p/x)^2 of A S at A = erf(p/sqrt(m')); 1 in full contact."""
-        lacking = (self.gap_kernel(x**2) - self.mean_kernel(x**2)) * np.exp(-(x**2))
-        return erf(x) * self.correction.diffusion(x) + 2 / np.sqrt(np.pi) * x * lacking
+    def energy_kept(self, p: NDArray, m: NDArray) -> tuple[NDArray, NDArray]:
+        """Energy A S of the scale m over that in full contact, and its mean over scales up to m."""
+        x = np.clip(p / np.sqrt(m), 1e-150, 20.0)
+        kept, rest = erf(x) * self.correction.diffusion(x), 2 / np.sqrt(np.pi) * x * np.exp(-(x**2))
+        return kept, kept + rest * (self.gap_kernel(x**2) - self.mean_kernel(x**2))
 
     def _evaluate(self, table: EvenTable, x2: ArrayLike) -> NDArray:
         log_x = 0.5 * np.log(np.asarray(x2, dtype=float))

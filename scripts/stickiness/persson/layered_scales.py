@@ -11,9 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import erf
 
-from stickiness.persson.kernels import RESOLVED, Kernels
+from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import scale_edges, split_panels
 from stickiness.solids import Layer
 from stickiness.spectrum.interface import Spectrum
@@ -42,22 +41,19 @@ class LayeredScales:
         s = np.sqrt(self._m)
         x2 = (p[..., None] / s) ** 2
         faded = np.exp(-x2)
-        # int F(p/s) ds = s kappa(p/s)
-        local = universal.gap_kernel(x2) * faded * self._growth / (2 * s)
-        return 2 / np.sqrt(np.pi) * self._sum(s * faded * universal.mean_kernel(x2), local)
+        total, kernel = s * faded * universal.mean_kernel(x2), faded * universal.gap_kernel(x2)
+        return 2 / np.sqrt(np.pi) * self._sum(total, kernel * self._growth / (2 * s))
 
     def elastic_energy(self, p: NDArray, universal: Kernels) -> NDArray:
         """Elastic energy [length] at mean pressures `p` [E*], less the mean compression's."""
-        x = np.clip(p[..., None] / np.sqrt(self._m), *RESOLVED)
-        local = erf(x) * universal.correction.diffusion(x) * self._growth
-        return 0.5 * self._sum(self._m * universal.energy_share(x), local)
+        kept, mean = universal.energy_kept(p[..., None], self._m)
+        return 0.5 * self._sum(self._m * mean, kept * self._growth)
 
-    def _sum(self, integral: NDArray, growth: NDArray) -> NDArray:
-        """Sum of S/q over scales, times what an integral up to them grows by."""
-        # Within a shell, and in the first panel, S/q stands still.
-        if self.spectrum.is_discrete:
-            growth = np.diff(integral, axis=-1, prepend=0.0)
-        growth[..., 0] = integral[..., 0]
+    def _sum(self, total: NDArray, growth: NDArray) -> NDArray:
+        """Sum over scales of S/q times what an integral grows by; `total` is that up to each."""
+        if self.spectrum.is_discrete:  # within a shell S/q stands still
+            growth = np.diff(total, axis=-1, prepend=0.0)
+        growth[..., 0] = total[..., 0]
         return np.sum(self.solid.factor(self._q) / self._q * growth, axis=-1)
 
     def _slope_weight(self, q: NDArray) -> NDArray:

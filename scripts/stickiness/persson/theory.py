@@ -23,7 +23,7 @@ from scipy.special import erf
 
 from stickiness.arguments import finite, nonnegative, number, positive
 from stickiness.persson import gaps
-from stickiness.persson.kernels import RESOLVED, CorrectionName, kernels
+from stickiness.persson.kernels import CorrectionName, kernels
 from stickiness.persson.layered_scales import LayeredScales
 from stickiness.persson.scale_quadrature import scale_nodes
 from stickiness.plausibility import warn_of_pressure
@@ -154,25 +154,23 @@ class Persson:
     def elastic_energy(self, p: ArrayLike, same_correction: bool = False) -> NDArray:
         """Elastic energy per nominal area over E* [length] at mean pressures `p` >= 0.
 
-        The integral of A S dm/(2 q), with the area A of the theory without a correction and the
-        correction's S (Yang & Persson 2008). By default that is "xu2024" with `ENERGY_GAMMA`: within
-        5 % (rms) of simulations at loads from 0.01 E* q0 h_rms on (H = 0.5 to 0.9, magnifications
-        4 to 32), where "yang2008" with 0.45 is 9 % too high in the mean. With `same_correction` it
-        is this theory's, and the energy is the integral of `p` over the falling `mean_gap`.
+        The integral of A S dm/(2 q), A of the theory without a correction (Yang & Persson 2008). By
+        default S is that of "xu2024" with `ENERGY_GAMMA`: within 5 % (rms) of simulations at loads
+        from 0.01 E* q0 h_rms on (H = 0.5 to 0.9), where "yang2008" with 0.45 is 9 % too high. With
+        `same_correction` it is this theory's, and the energy is the integral of -p d(ubar).
         """
         (p,) = nonnegative(p=p)
         universal = self._setting.kernels if same_correction else kernels(ENERGY_GAMMA, "xu2024")
         if self._layered is not None:
             return self._layered.elastic_energy(p, universal)
         m, _, weight = self._setting.scales.fine
-        x = np.clip(p[..., None] / np.sqrt(m), *RESOLVED)
-        return 0.5 * np.sum(weight * m * universal.energy_share(x), axis=-1)
+        return 0.5 * np.sum(weight * m * universal.energy_kept(p[..., None], m)[1], axis=-1)
 
     def elastic_energy_error(self, p: ArrayLike) -> NDArray:
-        """Relative error of `elastic_energy`, which covers 90 % of simulations on a half-space.
+        """Relative error of `elastic_energy`; covers 90 % of the simulations, on half-spaces.
 
-        It grows at small loads, where the highest peak of a cell is too low for the theory: at
-        0.0014 E* q0 h_rms by 1.5, 1.35 and 1.15 in cells of 4, 8 and 16 longest waves a side.
+        It grows at small loads, where the peaks of a cell are too low. At 0.0014 E* q0 h_rms the
+        theory is 1.5, 1.35 and 1.15 times too high in cells of 4, 8 and 16 longest waves a side.
         """
         share = self.elastic_energy(p) / self.spectrum.elastic_energy(self.solid)
         return 0.13 * (1 - share) * np.maximum(1.0, np.sqrt(0.02 / share))

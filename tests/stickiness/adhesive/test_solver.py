@@ -267,14 +267,14 @@ def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
     """Range over height and adhesion length over range at their ends, under every control."""
     heights = rough(24)
     law = law_of(kind, eps, la)
+    if (eps, la) == (1e-3, 10.0):
+        with pytest.raises(ValueError, match="does not resolve the edges of contact"):
+            adhesive.solve(heights, 1.0, law, pressure=LOAD)
+        return
     for control in controls(law, heights.shape):
         load = control.get("pressure")
         try:
             a = adhesive.solve(heights, 1.0, law, **control)
-        except ValueError as error:
-            assert (eps, la) == (1e-3, 10.0)
-            assert "does not resolve the edges" in str(error)
-            continue
         except adhesive.PullOffError as error:
             a = error.contact
             # parted: no point is left that could hold the load
@@ -299,8 +299,8 @@ def test_a_range_that_the_grid_loses_is_refused():
         lost = (found.mean_pressure - best.mean_pressure) / alone.mean_pressure
         all_of_it = 1 - best.mean_pressure / alone.mean_pressure
         assert 1 - lost / all_of_it == pytest.approx(kept, abs=0.06)
+    short = Exponential(length, np.sqrt(length / 64 / 52))
     with pytest.raises(ValueError, match="does not resolve the edges of contact"):
-        short = Exponential(length, np.sqrt(length / 64 / 52))
         adhesive.solve(rough(64), 1.0, short, mean_gap=mean_gap)
 
 
