@@ -167,11 +167,7 @@ class Persson:
         return 0.5 * np.sum(weight * m * universal.energy_kept(p[..., None], m)[1], axis=-1)
 
     def elastic_energy_error(self, p: ArrayLike) -> NDArray:
-        """Relative error of `elastic_energy`; covers 90 % of the simulations, on half-spaces.
-
-        It grows at small loads, where the peaks of a cell are too low. At 0.0014 E* q0 h_rms the
-        theory is 1.5, 1.35 and 1.15 times too high in cells of 4, 8 and 16 longest waves a side.
-        """
+        """Relative error of `elastic_energy`; covers 90 % of the simulations, on half-spaces."""
         share = self.elastic_energy(p) / self.spectrum.elastic_energy(self.solid)
         return 0.13 * (1 - share) * np.maximum(1.0, np.sqrt(0.02 / share))
 
