@@ -57,6 +57,11 @@ class TractionLaw(ABC):
         """Largest traction [E*], the theoretical strength of the interface."""
 
     @property
+    def maugis_range(self) -> float:
+        """Range [length] of the Maugis law of equal work of adhesion and strength."""
+        return self.adhesion_length / self.strength
+
+    @property
     def strength_gap(self) -> float:
         """Gap of the largest traction [length], beyond which it never rises again."""
         return 0.0
@@ -115,6 +120,26 @@ class Exponential(TractionLaw):
 
 
 @dataclass(frozen=True)
+class VanDerWaals(TractionLaw):
+    """Van der Waals attraction of half-spaces, cut off by a hard wall.
+
+    sigma = (2 adhesion_length/range) (range/g)^3 with g = gap + range: the range is the cut-off
+    distance D0, and A_H/(6 pi g^3) follows from w = A_H/(12 pi D0^2). Israelachvili, Intermolecular
+    and Surface Forces, 3rd ed. (2011), sections 13.1 and 13.13, isbn:978-0-12-375182-9.
+    """
+
+    @property
+    def strength(self) -> float:
+        return 2 * self.maugis_stress
+
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        # In single precision if the gaps are.
+        s = 1 / (1 + np.asarray(gap) / self.range)
+        traction = self.strength * s**3
+        return traction, traction * s * (-3 / self.range), s**2 * -self.adhesion_length
+
+
+@dataclass(frozen=True)
 class LennardJones(TractionLaw):
     """Lennard-Jones 9-3 law between half-spaces, which also repels below gap 0.
 
@@ -145,11 +170,26 @@ class LennardJones(TractionLaw):
         return traction, derivative, -self.adhesion_length * (4 * s**2 - s**8) / 3
 
 
-#: Laws that a configuration may name.
-LAWS = {"maugis": Maugis, "exponential": Exponential}
+#: Laws by the names that a configuration gives them.
+LAWS = {"maugis": Maugis, "exponential": Exponential, "van_der_waals": VanDerWaals}
+#: Their strengths over adhesion_length/range.
+STRENGTHS = {name: law(1.0, 1.0).strength for name, law in LAWS.items()}
+
+
+def find_strength(names: ArrayLike) -> NDArray:
+    """Strength of laws, by their names in `LAWS`, over adhesion_length/range."""
+    known, place = np.unique(names, return_inverse=True)
+    return np.array([STRENGTHS[name] for name in known])[place].reshape(np.shape(names))
 
 
 def check_law(law: TractionLaw) -> None:
     """Raise ValueError unless this is a traction law."""
     if not isinstance(law, TractionLaw):
         raise ValueError(f"law must be a TractionLaw such as Exponential(...), got {law!r}")
+
+
+def check_name(law: str) -> str:
+    """Return the name of a law, or raise ValueError unless it is in `LAWS`."""
+    if law not in LAWS:
+        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {law!r}")
+    return law

@@ -187,7 +187,7 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
 
 
 def _warn_of_edges(pixel, law):
-    ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    ratio = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     if ratio > _UNRESOLVED_PIXEL:
         warnings.warn(
             f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "

@@ -106,7 +106,7 @@ def measure(
     squeeze = number("squeeze", squeeze)
     check_law(law)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     if np.ptp(heights) > 0 and resolution > COARSEST:
         raise ValueError(
             f"a pixel of {pixel:.3g} is {resolution:.2g} times the width of the cohesive zone, "

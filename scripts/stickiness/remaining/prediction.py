@@ -9,9 +9,17 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import number, plain, positive
-from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
+from stickiness.remaining.share import (
+    EXPONENTIAL,
+    ONSET,
+    find_onset,
+    remaining_share,
+    tough_area,
+    weak_distance,
+)
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
+from stickiness.traction_laws import check_name, find_strength
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. In simulations of two by two waves and more
@@ -22,6 +30,10 @@ from stickiness.spectrum.interface import Spectrum, check_spectrum
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
+# Relative error of a share, far below the onset, of a law whose tail reaches over all gaps: it goes
+# with the square of the gap at first touch. Simulated shares of 16 to 256 of the longest waves at
+# ranges from 0.03 h_rms on are 0.5 to 2 times the value.
+TAIL_ERROR = 1.0
 # All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost,
 # times the distance of S of the longest waves from 1. LAYER_LESS is for films on a soft backing and
 # for S of about a half, LAYER_MORE for thin incompressible layers, whose long waves are stiffer
@@ -81,6 +93,7 @@ class Roughness:
     #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     half_space_energy: ArrayLike | None = None
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
+    law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -91,10 +104,12 @@ class Roughness:
         zone = self.zone(adhesion_length, range)
         reach = np.asarray(range) / self.h_rms
         onset = ONSET - sign * ONSET_ERROR
-        share = remaining_share(ratio, reach, zone, onset, self.relative_compliance)
+        share = remaining_share(ratio, reach, zone, onset, self.relative_compliance, self.law)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
-        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * fades * lost
+        tail = np.where(np.equal(self.law, EXPONENTIAL), 0.0, TAIL_ERROR * (1 - fades))
+        error = (SHARE_ERROR + tail) * lost
+        share = share * (1 + error) ** sign + sign * LEAST_ERROR * fades * lost
         harder = 1 - np.asarray(self.relative_compliance)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
@@ -104,25 +119,37 @@ class Roughness:
             # and a softer one has none of more.
             known = np.isfinite(self.half_space_energy)
             energy = np.where(known, self.half_space_energy, self.elastic_energy)
-            deep = Roughness(self.h_rms, self.q0, energy).share(adhesion_length, range, sign)
+            deep = Roughness(self.h_rms, self.q0, energy, law=self.law)
+            deep = deep.share(adhesion_length, range, sign)
             bound = np.where(harder >= 0, np.minimum(share, deep), np.maximum(share, deep))
             share = np.where(known, bound, share)
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-        """Distance over which what remains acts, the range plus part of the rms height [length]."""
+        """Distance over which what remains acts, the range plus part of the rms height [length].
+
+        The tail of a law reaches further. Single summits that are the last to part are not in it:
+        each holds 2 pi R w.
+        """
         ratio = np.asarray(adhesion_length) / self.elastic_energy
-        return plain(np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms)
+        reach = np.asarray(range) / self.h_rms
+        found = reach / find_strength(self.law) + DISTANCE * ratio**DISTANCE_POWER
+        tail = np.not_equal(self.law, EXPONENTIAL)
+        if tail.any():
+            weak = weak_distance(ratio, reach, self.law)
+            found = np.where(tail, np.maximum(found, weak), found)
+        return plain(found * self.h_rms)
 
     def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Width of the cohesive zone over the longest waves.
 
         That is twice the stiffness q0/(2 S) of these waves over the slope w/range^2 of the law,
-        so that attraction reaches over gaps the more, the stiffer a layer holds them.
+        so that attraction reaches over gaps the more, the stiffer a layer holds them. The range is
+        work over strength.
         """
         softened = np.asarray(adhesion_length) * self.relative_compliance
-        return self.q0 * np.asarray(range) ** 2 / softened
+        return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
 
     def tension(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -143,7 +170,8 @@ class Roughness:
         beyond = np.clip(
             (np.log(length / self.elastic_energy) - known) / (unknown - known), 0.0, 1.0
         ) * np.clip(sign, 0.0, 1.0)
-        return plain(found ** (1 - beyond) * np.maximum(length / range, found) ** beyond)
+        strength = find_strength(self.law) * length / range
+        return plain(found ** (1 - beyond) * np.maximum(strength, found) ** beyond)
 
     def threshold(
         self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0
@@ -156,11 +184,11 @@ class Roughness:
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
-        at = np.broadcast_arrays(*values, half_space, sign)
+        at = np.broadcast_arrays(*values, half_space, sign, self.law)
         energy = at[2]
 
-        def excess(log_length, h, q0, energy, compliance, range, half_space, sign):
-            rough = Roughness(h, q0, energy, compliance, half_space)
+        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, law):
+            rough = Roughness(h, q0, energy, compliance, half_space, law=law)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
@@ -190,6 +218,7 @@ def predict(
     range: float,
     q0: float | None = None,
     solid: Solid = HALF_SPACE,
+    law: str = EXPONENTIAL,
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
@@ -212,6 +241,9 @@ def predict(
         Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin
         incompressible layers the value is a third to nine tenths of what was simulated (the less,
         the weaker the adhesion); the limits hold that.
+    law : str
+        Name of the traction law in `traction_laws.LAWS`, such as "van_der_waals", whose range is
+        the cut-off distance.
 
     Examples
     --------
@@ -231,9 +263,11 @@ def predict(
         relative_compliance=check_solid(solid).factor(q0),
         half_space_energy=find_half_space_energy(spectrum, solid),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
+        law=check_name(law),
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio, softened = length / rough.elastic_energy, length * rough.relative_compliance
+    reach = range / float(find_strength(law))
     least, pull_off, most = (float(rough.tension(length, range, sign)) for sign in (-1, 0, 1))
     return Prediction(
         approach=share,
@@ -244,6 +278,6 @@ def predict(
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=(least, most),
         energy_ratio=ratio,
-        tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * range**3))),
+        tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * reach**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,
     )
