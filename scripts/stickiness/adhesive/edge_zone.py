@@ -3,7 +3,8 @@
 Next to the edge of a contact the gap opens as ``u = C x^(3/2)``. Attraction of range epsilon and
 adhesion length l_a acts over a zone of width ``d = (epsilon/C)^(2/3)``; it deforms the half-space
 there by about ``l_a d/epsilon``, as much as its own range if d is ``epsilon^2/l_a``. On coarser
-grids single points snap in and out of contact, and the edge does not show at all.
+grids single points snap in and out of contact, and the edge does not show at all. The range is work
+over strength, `TractionLaw.maugis_range`.
 """
 
 import numpy as np

@@ -193,7 +193,7 @@ def _warn_of_edges(pixel, law):
             f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
             f"{law.range:.3g} and an adhesion length of {law.adhesion_length:.3g}: points snap in "
             "and out one by one, and pull-off is too strong. Take pixels of at most "
-            f"{edge_zone.COARSEST * pixel / ratio:.3g} (range^2/(2 adhesion_length)), "
+            f"{edge_zone.COARSEST * pixel / ratio:.3g} (adhesion_length/(2 strength^2)), "
             "or a longer range",
             PlausibilityWarning,
             stacklevel=3,

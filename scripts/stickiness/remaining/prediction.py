@@ -107,9 +107,9 @@ class Roughness:
         share = remaining_share(ratio, reach, zone, onset, self.relative_compliance, self.law)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
-        tail = np.where(np.equal(self.law, EXPONENTIAL), 0.0, TAIL_ERROR * (1 - fades))
-        error = (SHARE_ERROR + tail) * lost
-        share = share * (1 + error) ** sign + sign * LEAST_ERROR * fades * lost
+        tail = np.where(np.equal(self.law, EXPONENTIAL), 0.0, 1 - fades)
+        error = (SHARE_ERROR + TAIL_ERROR * tail) * lost
+        share = share * (1 + error) ** sign + sign * LEAST_ERROR * (1 - tail) * fades * lost
         harder = 1 - np.asarray(self.relative_compliance)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)

@@ -25,8 +25,8 @@ SHARPNESS = 8.0  #: of the corner between tough and weak
 # 2 and 0.4 to 0.9 at 2.3. No single pair of constants does for all of them.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2
 # Mean gap over h_rms at which the highest summit of a surface touches and nothing is deformed yet.
-# Surfaces of 16 to 256 of the longest waves had 3.4 to 4.15; in 10^6 points that are independent the
-# highest is at 4.9.
+# Surfaces of 16 to 256 of the longest waves had 3.4 to 4.15; of 10^6 independent heights the
+# largest is at 4.9.
 FIRST_TOUCH = 4.0
 _GAPS = np.linspace(0.0, FIRST_TOUCH, 81)  # mean gaps over h_rms
 _ENERGY = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
@@ -34,8 +34,8 @@ _ENERGY_SLOPE = -(ENERGY_DECAY + 2 * ENERGY_CURVATURE * _GAPS) * _ENERGY
 _CONTACT, _CONTACT_SLOPE = ndtr(-_GAPS), -np.exp(-(_GAPS**2) / 2) / np.sqrt(2 * np.pi)
 for _values in (_ENERGY, _ENERGY_SLOPE, _CONTACT, _CONTACT_SLOPE):
     _values[-1] = 0.0
-# Gaps over h_rms, evenly spaced in the logarithm, and their part of Gaussian heights by mean gap. For
-# ranges from 1e-6 to 10 means agree with adaptive quadrature to 1e-6.
+# Gaps over h_rms, even in the logarithm, and their weights in Gaussian heights by mean gap. Means
+# of the van der Waals law agree with adaptive quadrature to 1e-5 for ranges from 1e-6 to 10.
 _LOGS, _STEP_OF_LOGS = np.linspace(-28.0, 3.0, 388, retstep=True)
 _OPENINGS = np.exp(_LOGS)
 _OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
