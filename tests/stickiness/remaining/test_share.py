@@ -2,16 +2,21 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
 
 from common import remaining_table
+from stickiness.remaining import share as module
 from stickiness.remaining.share import (
+    FIRST_TOUCH,
     ONSET,
     find_onset,
     remaining_share,
     tough_area,
     tough_share,
+    weak_distance,
     weak_share,
 )
+from stickiness.traction_laws import LAWS
 
 TABLE = "config/remaining.csv"
 
@@ -27,6 +32,45 @@ def test_attraction_of_long_range_needs_no_contact():
     # The mean gap at first touch is that of the heights' tail, far below the range.
     assert weak_share(1e-3, 100.0) == pytest.approx(1, abs=0.06)
     assert weak_share(1e-3, 0.04) < 1e-4
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("reach", [1e-6, 1e-3, 0.03, 1.0, 10.0])
+def test_mean_attraction_is_that_of_gaussian_heights(law, reach):
+    """Against adaptive quadrature over the gaps, decade by decade."""
+    potential = LAWS[law](1.0, reach).potential
+    ends = np.array([0, *np.geomspace(1e-9, 10, 11), 30])
+    ends = np.unique([*ends, reach])  # where the law of Maugis ends
+    for place in (0, 20, -1):
+        mean_gap = module._GAPS[place]
+
+        def density(gap, mean_gap=mean_gap):
+            return -potential(gap) * np.exp(-((mean_gap - gap) ** 2) / 2) / np.sqrt(2 * np.pi)
+
+        parts = [quad(density, *each, epsrel=1e-9) for each in zip(ends, ends[1:], strict=False)]
+        expected = sum(value for value, _ in parts)
+        found = module._mean_attraction(np.array([reach]), law)[0, place]
+        # evenly spaced points see the kink of the law of Maugis to second order
+        assert found == pytest.approx(expected, rel=5e-3 if law == "maugis" else 1e-5)
+
+
+def test_hard_surfaces_keep_the_attraction_of_their_gaps_at_first_touch():
+    """Nothing is deformed: range^2 times the mean inverse square of the gap, and summits near."""
+    reach = np.array([0.01, 0.03, 0.1])
+    share = weak_share(1e-8, reach, "van_der_waals")
+    away = share / reach**2 * FIRST_TOUCH**2
+    assert np.all((away > 1) & (away < 2))
+    assert share[2] == pytest.approx(module._mean_attraction(reach, "van_der_waals")[2, -1])
+    # an exponential law has next to nothing there
+    assert weak_share(1e-8, 0.1) < 0.1 * share[2]
+
+
+def test_tension_of_a_tail_is_the_slope_of_its_energy():
+    """Twice the attraction over the separation, if the range is long; no more than rigid bodies."""
+    far = 30.0
+    slope = 2 / (far + FIRST_TOUCH)
+    distance = weak_distance(1e-8, far, "van_der_waals")
+    assert distance == pytest.approx(1 / slope, rel=0.02)
 
 
 def test_the_larger_of_both_with_a_rounded_corner():
