@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from stickiness.remaining.share import EXPONENTIAL
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+from stickiness.traction_laws import EXPONENTIAL
 from stickiness.units import si
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")

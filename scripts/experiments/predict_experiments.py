@@ -25,9 +25,8 @@ from stickiness.criteria.verdict import describe_surface
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
-from stickiness.remaining.share import EXPONENTIAL
 from stickiness.spectrum.kinds import SelfAffine
-from stickiness.traction_laws import STRENGTHS
+from stickiness.traction_laws import EXPONENTIAL, find_strength
 from stickiness.units import si
 
 SHAPE = ("hurst", "longest_wavelength", "shortest_wavelength", "rolloff_wavelength")
@@ -232,8 +231,7 @@ def predict(observation):
         found = np.array([one.relative for one in spheres])
     elif quantity == "relative_pull_off":
         stress = np.array([pair.tension(length, reach, sign) for sign in SIGNS])
-        strength = STRENGTHS[observation.law] * length / reach
-        found = np.minimum(stress / strength, 1.0)
+        found = np.minimum(stress * reach / length / find_strength(observation.law), 1.0)
     elif quantity == "work_of_approach":
         found[0] /= LATE
     elif quantity == "work_of_separation" and spheres:

@@ -41,6 +41,7 @@ class TractionLaw(ABC):
     #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
     #: between constants, as in the law of Maugis.
     smooth: ClassVar[bool] = True
+    strength_ratio: ClassVar[float] = 1.0  #: strength over `maugis_stress`
 
     def __post_init__(self):
         number("adhesion_length", self.adhesion_length)
@@ -52,14 +53,14 @@ class TractionLaw(ABC):
         return self.adhesion_length / self.range
 
     @property
-    @abstractmethod
     def strength(self) -> float:
         """Largest traction [E*], the theoretical strength of the interface."""
+        return self.strength_ratio * self.maugis_stress
 
     @property
     def maugis_range(self) -> float:
         """Range [length] of the Maugis law of equal work of adhesion and strength."""
-        return self.adhesion_length / self.strength
+        return self.range / self.strength_ratio
 
     @property
     def strength_gap(self) -> float:
@@ -94,10 +95,6 @@ class Maugis(TractionLaw):
 
     smooth: ClassVar[bool] = False
 
-    @property
-    def strength(self) -> float:
-        return self.maugis_stress
-
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         gap = np.asarray(gap, dtype=float)
         traction = np.where(gap <= self.range, self.maugis_stress, 0.0)
@@ -108,10 +105,6 @@ class Maugis(TractionLaw):
 @dataclass(frozen=True)
 class Exponential(TractionLaw):
     """Traction that decays exponentially, sigma = (adhesion_length/range) exp(-gap/range)."""
-
-    @property
-    def strength(self) -> float:
-        return self.maugis_stress
 
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         # In single precision if the gaps are.
@@ -125,12 +118,10 @@ class VanDerWaals(TractionLaw):
 
     sigma = (2 adhesion_length/range) (range/g)^3 with g = gap + range: the range is the cut-off
     distance D0, and A_H/(6 pi g^3) follows from w = A_H/(12 pi D0^2). Israelachvili, Intermolecular
-    and Surface Forces, 3rd ed. (2011), sections 13.1 and 13.13, isbn:978-0-12-375182-9.
+    and Surface Forces, 3rd ed. (2011), chapter 13, isbn:978-0-12-375182-9.
     """
 
-    @property
-    def strength(self) -> float:
-        return 2 * self.maugis_stress
+    strength_ratio: ClassVar[float] = 2.0
 
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         # In single precision if the gaps are.
@@ -148,11 +139,7 @@ class LennardJones(TractionLaw):
     """
 
     hard_wall: ClassVar[bool] = False
-
-    @property
-    def strength(self) -> float:
-        """Return 16 adhesion_length/(9 sqrt(3) range) [E*], reached at `strength_gap`."""
-        return 16 * self.maugis_stress / (9 * np.sqrt(3.0))
+    strength_ratio: ClassVar[float] = 16 / 9 / 3.0**0.5  # reached at `strength_gap`
 
     @property
     def strength_gap(self) -> float:
@@ -170,26 +157,20 @@ class LennardJones(TractionLaw):
         return traction, derivative, -self.adhesion_length * (4 * s**2 - s**8) / 3
 
 
+EXPONENTIAL = "exponential"  #: the law that simulations are made with
 #: Laws by the names that a configuration gives them.
-LAWS = {"maugis": Maugis, "exponential": Exponential, "van_der_waals": VanDerWaals}
-#: Their strengths over adhesion_length/range.
-STRENGTHS = {name: law(1.0, 1.0).strength for name, law in LAWS.items()}
+LAWS = {"maugis": Maugis, EXPONENTIAL: Exponential, "van_der_waals": VanDerWaals}
 
 
 def find_strength(names: ArrayLike) -> NDArray:
     """Strength of laws, by their names in `LAWS`, over adhesion_length/range."""
     known, place = np.unique(names, return_inverse=True)
-    return np.array([STRENGTHS[name] for name in known])[place].reshape(np.shape(names))
+    if unknown := set(known.tolist()) - set(LAWS):
+        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {unknown.pop()!r}")
+    return np.array([LAWS[name].strength_ratio for name in known])[place].reshape(np.shape(names))
 
 
 def check_law(law: TractionLaw) -> None:
     """Raise ValueError unless this is a traction law."""
     if not isinstance(law, TractionLaw):
         raise ValueError(f"law must be a TractionLaw such as Exponential(...), got {law!r}")
-
-
-def check_name(law: str) -> str:
-    """Return the name of a law, or raise ValueError unless it is in `LAWS`."""
-    if law not in LAWS:
-        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {law!r}")
-    return law

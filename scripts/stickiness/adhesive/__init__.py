@@ -11,13 +11,7 @@
 
 from stickiness.adhesive.path import PathPoint, path
 from stickiness.adhesive.solver import Adhesion, ConvergenceError, PullOffError, solve
-from stickiness.traction_laws import (
-    Exponential,
-    LennardJones,
-    Maugis,
-    TractionLaw,
-    VanDerWaals,
-)
+from stickiness.traction_laws import Exponential, LennardJones, Maugis, TractionLaw, VanDerWaals
 
 __all__ = [
     "Adhesion",

@@ -3,8 +3,7 @@
 Next to the edge of a contact the gap opens as ``u = C x^(3/2)``. Attraction of range epsilon and
 adhesion length l_a acts over a zone of width ``d = (epsilon/C)^(2/3)``; it deforms the half-space
 there by about ``l_a d/epsilon``, as much as its own range if d is ``epsilon^2/l_a``. On coarser
-grids single points snap in and out of contact, and the edge does not show at all. The range is work
-over strength, `TractionLaw.maugis_range`.
+grids single points snap in and out of contact, and the edge does not show at all.
 """
 
 import numpy as np
@@ -18,6 +17,6 @@ COARSEST = 0.5
 
 
 def resolution(pixel: float, range: float, adhesion_length: float) -> float:
-    """Pixel over epsilon^2/l_a, all in one unit; the grid resolves the edge up to `COARSEST`."""
+    """Pixel over epsilon^2/l_a, fine enough up to `COARSEST`; epsilon is a law's `maugis_range`."""
     positive(pixel=pixel, range=range, adhesion_length=adhesion_length)
     return pixel * adhesion_length / np.square(range)

@@ -20,11 +20,10 @@ from stickiness.remaining.prediction import (
     find_anisotropy_error_factor,
     find_half_space_energy,
 )
-from stickiness.remaining.share import EXPONENTIAL
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
-from stickiness.traction_laws import check_name
+from stickiness.traction_laws import EXPONENTIAL
 
 
 @dataclass(frozen=True)
@@ -121,8 +120,7 @@ def verdict(
         Of the material, thickness in m; see `stickiness.solids`. It changes what remains. Other
         criteria than that and Persson-Tosatti's take a half-space.
     law : str
-        Name of the traction law in `traction_laws.LAWS`, of what remains. The range of
-        "van_der_waals" is the cut-off distance. The other criteria know the range alone.
+        As of `predict`, for what remains. The other criteria know the range alone.
 
     Returns
     -------
@@ -173,7 +171,7 @@ def verdict(
         raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
-    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share, law=check_name(law))
+    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share, law=law)
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
     limits = {f"{name}_limits": (found[f"{name}_low"], found[f"{name}_high"]) for name in LIMITED}

@@ -10,36 +10,30 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erfcx, lambertw, ndtr
+from scipy.special import lambertw, ndtr
 
 from stickiness.arguments import plain, positive
-from stickiness.traction_laws import LAWS, find_strength
+from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 # Fitted to simulations of H = 0.5 to 0.9 and magnifications 4 (predicted over simulated about 0.9)
 # to 64 (1.15), and of zones from 0.05 on. Other forms fit as well, with onsets of 0.36 to 0.51.
 ONSET, ADVANCE = 0.43, 1.3
-EXPONENTIAL = "exponential"  #: the law that simulations were made with
 SHARPNESS = 8.0  #: of the corner between tough and weak
 # Exponents of the elastic energy of contact without adhesion against the mean gap over h_rms. Over
 # simulations of whole surfaces it is 0.9 to 1.15 up to a gap of 1, 0.7 to 0.9 at 1.5, 0.5 to 0.9 at
 # 2 and 0.4 to 0.9 at 2.3. No single pair of constants does for all of them.
 ENERGY_DECAY, ENERGY_CURVATURE = 2.2, 0.2
-# Mean gap over h_rms at which the highest summit of a surface touches and nothing is deformed yet.
-# Surfaces of 16 to 256 of the longest waves had 3.4 to 4.15; of 10^6 independent heights the
-# largest is at 4.9.
+# Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.4 to 4.15
+# in cells of 16 to 256 of the longest waves. The largest of 10^6 independent heights is at 4.9.
 FIRST_TOUCH = 4.0
-_GAPS = np.linspace(0.0, FIRST_TOUCH, 81)  # mean gaps over h_rms
-_ENERGY = np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
-_ENERGY_SLOPE = -(ENERGY_DECAY + 2 * ENERGY_CURVATURE * _GAPS) * _ENERGY
-_CONTACT, _CONTACT_SLOPE = ndtr(-_GAPS), -np.exp(-(_GAPS**2) / 2) / np.sqrt(2 * np.pi)
-for _values in (_ENERGY, _ENERGY_SLOPE, _CONTACT, _CONTACT_SLOPE):
-    _values[-1] = 0.0
+_GAPS, _STEP_OF_GAPS = np.linspace(0.0, FIRST_TOUCH + 0.05, 82, retstep=True)  # mean, over h_rms
+_CONTACT, _ENERGY = ndtr(-_GAPS), np.exp(-ENERGY_DECAY * _GAPS - ENERGY_CURVATURE * _GAPS**2)
+_CONTACT[-2:] = _ENERGY[-2:] = 0.0
 # Gaps over h_rms, even in the logarithm, and their weights in Gaussian heights by mean gap. Means
-# of the van der Waals law agree with adaptive quadrature to 1e-5 for ranges from 1e-6 to 10.
-_LOGS, _STEP_OF_LOGS = np.linspace(-28.0, 3.0, 388, retstep=True)
-_OPENINGS = np.exp(_LOGS)
+# of smooth laws agree with adaptive quadrature to 1e-5 for ranges from 1e-6 to 10.
+_OPENINGS = np.exp(np.linspace(-28.0, 3.0, 389))
 _OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
-_OPEN *= (_OPENINGS * _STEP_OF_LOGS)[:, None]
+_OPEN *= np.gradient(np.log(_OPENINGS))[:, None] * _OPENINGS[:, None]
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
 _CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
 _LEVELS = np.linspace(-0.5, 6.0, 66)
@@ -82,53 +76,35 @@ def weak_share(
 
     The largest of ``<attraction> - U(gap)/w`` over the mean gap, as in the bearing area model
     of Ciavarella (doi:10.1007/s11012-017-0701-6), where overlap of undeformed heights is contact.
-    U is the elastic energy of contact without adhesion, and none is left at `FIRST_TOUCH`. `law` is
-    a name of `LAWS`. The exponential law's share is too low at gaps of 1.3 to 2 rms heights, so
-    that even a short range leaves 0.4 % at x = 0.3, 1.1 % at 0.4 and 2 % at 0.5.
+    U is the elastic energy of contact without adhesion, none from `FIRST_TOUCH` on. It is too low
+    at gaps of 1.3 to 2 rms heights, so that even a short range leaves 0.4 % at x = 0.3, 1.1 % at
+    0.4 and 2 % at 0.5. `law` is a name of `LAWS`, or an array of names.
     """
-    x, gained, _ = _follow_gaps(energy_ratio, range_ratio, law)
-    return plain(np.maximum(np.max(gained - _ENERGY / x, axis=-1), 0.0))
+    return plain(np.maximum(np.max(_follow(energy_ratio, range_ratio, law), axis=-1), 0.0))
 
 
 def weak_distance(
     energy_ratio: ArrayLike, range_ratio: ArrayLike, law: ArrayLike = EXPONENTIAL
 ) -> float | NDArray:
-    """Distance over h_rms that weak attraction acts over.
+    """`weak_share` over the largest slope of the energy from there outwards, over h_rms."""
+    gained = _follow(energy_ratio, range_ratio, law)
+    steps = np.delete(-np.diff(gained), -2, axis=-1)  # without that to first touch, a jump
+    first = np.minimum(np.argmax(gained, axis=-1), _GAPS.size - 3)
+    beyond = np.arange(_GAPS.size - 2) >= first[..., None]
+    largest = np.max(steps, axis=-1, where=beyond, initial=0.0)
+    return plain(np.max(gained, axis=-1) * _STEP_OF_GAPS / largest)
 
-    That is the share over the largest slope of the energy from the deepest state outwards.
-    """
-    x, gained, slope = _follow_gaps(energy_ratio, range_ratio, law)
-    share, tension = gained - _ENERGY / x, _ENERGY_SLOPE / x - slope
-    beyond = np.arange(_GAPS.size) >= np.argmax(share, axis=-1)[..., None]
-    return plain(np.max(share, axis=-1) / np.max(tension, axis=-1, where=beyond, initial=0.0))
 
-
-def _follow_gaps(energy_ratio, range_ratio, law):
-    """Energy ratio, mean attraction and its slope along mean gaps, the last axis."""
+def _follow(energy_ratio, range_ratio, law):
+    """Energy gained over the work of adhesion along mean gaps, the last axis."""
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
-    gained, slope = np.empty((2, *e.shape, _GAPS.size))
-    law = np.broadcast_to(law, e.shape)
+    law, gained = np.broadcast_to(law, e.shape), np.empty((*e.shape, _GAPS.size))
     for name in np.unique(law):
         # The mean is dear and knows the range alone, of which grids of pairs have few.
         ranges, place = np.unique(e[law == name], return_inverse=True)
-        mean = _mean_attraction(ranges, name)
-        gained[law == name] = (mean + _CONTACT)[place]
-        slope[law == name] = (np.gradient(mean, _GAPS, axis=-1) + _CONTACT_SLOPE)[place]
-    return x[..., None], gained, slope
-
-
-def _mean_attraction(range_ratio: NDArray, law: str) -> NDArray:
-    """Mean over open gaps of minus the potential over the work of adhesion, ``(range, gap)``."""
-    if law != EXPONENTIAL:
-        potential = LAWS[law](1.0, 1.0).potential(_OPENINGS / range_ratio[:, None])
-        return -potential @ _OPEN
-    away = 1 / range_ratio[:, None] - _GAPS
-    found = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
-    far = away <= 0  # nowhere if the range is short
-    if far.any():
-        gaps = np.broadcast_to(_GAPS, away.shape)[far]
-        found[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * ndtr(-away[far])
-    return found
+        mean = _CONTACT - LAWS[name](1.0, 1.0).potential(_OPENINGS / ranges[:, None]) @ _OPEN
+        gained[law == name] = mean[place]
+    return gained - _ENERGY / x[..., None]
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
@@ -172,7 +148,7 @@ def remaining_share(
 
     `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
     independent: springs count by (1 - S)^2, which follows simulations of S = 0.1 to 0.5.
-    Springs have the exponential law of equal work and strength.
+    Springs have the exponential law of equal strength.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
     weak = np.asarray(weak_share(energy_ratio, range_ratio, law))
