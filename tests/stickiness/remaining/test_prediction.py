@@ -53,7 +53,7 @@ def test_simulated_hard_pairs_keep_what_is_predicted(reach, ratio):
     expected = predict(spectrum, work, reach, law="van_der_waals")
     low, high = expected.separation_limits
     assert low < -found.energy / work < high / HYSTERESIS
-    assert 0.5 < expected.separation * work / -found.energy < 2
+    assert 0.4 < expected.separation * work / -found.energy < 2
     assert predict(spectrum, work, reach).separation < 0.6 * expected.separation
 
 

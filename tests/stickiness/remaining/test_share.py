@@ -3,19 +3,25 @@
 import numpy as np
 import pytest
 from scipy.integrate import quad
+from scipy.special import ndtr
 
 from common import remaining_table
+from stickiness import repulsive, surface
 from stickiness.remaining import share as module
 from stickiness.remaining.share import (
     FIRST_TOUCH,
+    LIFT,
     ONSET,
+    decay_energy,
+    find_deepest_state,
     find_onset,
     remaining_share,
     tough_area,
     tough_share,
-    weak_distance,
+    tough_tension,
     weak_share,
 )
+from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS
 
 TABLE = "config/remaining.csv"
@@ -38,10 +44,13 @@ def test_attraction_of_long_range_needs_no_contact():
 @pytest.mark.parametrize("reach", [1e-6, 1e-3, 0.03, 1.0, 10.0])
 def test_mean_attraction_is_that_of_gaussian_heights(law, reach):
     """Against adaptive quadrature over the gaps, decade by decade."""
-    potential = LAWS[law](1.0, reach).potential
+    potential, ranges = LAWS[law](1.0, reach).potential, np.array([reach])
     ends = np.array([0, *np.geomspace(1e-9, 10, 11), 30])
     ends = np.unique([*ends, reach])  # where the law of Maugis ends
-    for place in (0, 20, -1):
+    found = module._mean_attraction(ranges)[0] - ndtr(-module._GAPS)
+    if law != "exponential":
+        found = found + module._mean_excess(ranges, law)[0]
+    for place in (0, 20, 80):
         mean_gap = module._GAPS[place]
 
         def density(gap, mean_gap=mean_gap):
@@ -49,37 +58,73 @@ def test_mean_attraction_is_that_of_gaussian_heights(law, reach):
 
         parts = [quad(density, *each, epsrel=1e-9) for each in zip(ends, ends[1:], strict=False)]
         expected = sum(value for value, _ in parts)
-        found = module._follow(1e300, reach, law)[place] - module._CONTACT[place]
-        # evenly spaced points see the kink of the law of Maugis to second order
-        assert found == pytest.approx(expected, rel=5e-3 if law == "maugis" else 1e-5)
+        # The first part is overlap, too. Even points see the kink of Maugis' law to second order.
+        assert found[place] == pytest.approx(
+            expected, rel=5e-3 if law == "maugis" else 1e-5, abs=1e-15
+        )
 
 
 def test_hard_surfaces_keep_the_attraction_of_their_gaps_at_first_touch():
     """Nothing is deformed: range^2 times the mean inverse square of the gap, and summits near."""
     reach = np.array([0.01, 0.03, 0.1])
-    share = weak_share(1e-8, reach, "van_der_waals")
+    share = weak_share(1e-8, reach, law="van_der_waals")
     away = share / reach**2 * FIRST_TOUCH**2
     assert np.all((away > 1) & (away < 2))
-    assert share[2] == pytest.approx(module._follow(1e300, 0.1, "van_der_waals")[-2])
     # an exponential law has next to nothing there
     assert weak_share(1e-8, 0.1) < 0.1 * share[2]
 
 
 def test_tension_of_a_tail_is_the_slope_of_its_energy():
-    """Twice the attraction over the separation, if the range is long; no more than rigid bodies."""
-    far = 30.0
-    slope = 2 / (far + FIRST_TOUCH)
-    distance = weak_distance(1e-8, far, "van_der_waals")
-    assert distance == pytest.approx(1 / slope, rel=0.02)
+    """Twice the attraction over the separation, if the range is long."""
+    x, far = 1e-8, 30.0
+    share, tension, area = find_deepest_state(x, far, 1.0, law="van_der_waals")
+    assert x * share / tension == pytest.approx((far + FIRST_TOUCH) / 2, rel=0.02)
+    assert area == 0
 
 
-def test_the_larger_of_both_with_a_rounded_corner():
+def test_tough_contact_has_the_least_energy_of_its_areas():
+    """The least F - x A over areas, with F of `tough_tension`, is what remains at every x."""
+    x, t = np.array([0.5, 0.8, 1.5, 3.0]), np.linspace(0, 12, 20001)[:, None]
+    area = -np.expm1(-t)
+    energy = 1 - (1 + (1 - ONSET) * t) * np.exp(-t) - x * area
+    assert -energy.min(axis=0) / x == pytest.approx(tough_share(x), abs=1e-6)
+    assert np.take_along_axis(area, energy.argmin(axis=0)[None], 0)[0] == pytest.approx(
+        tough_area(x), abs=1e-3
+    )
+
+
+@pytest.mark.parametrize("x", [0.6, 1.0, 2.0])
+def test_the_tension_is_the_steepest_rise_of_the_energy(x):
+    """By finite differences of energy over mean gap, from the energies of `tough_tension`."""
+    t = np.linspace(1e-4, (x - ONSET) / (1 - ONSET), 4001)
+    stored = 1 - (1 + (1 - ONSET) * t) * np.exp(-t)
+    gaps = np.geomspace(1e-6, 10, 20001)
+    gap = LIFT * np.interp(-stored, -np.exp(-decay_energy(gaps)[0]), gaps)
+    slope = np.diff(stored + x * np.expm1(-t)) / np.diff(gap)
+    assert tough_tension(x) == pytest.approx(slope.max(), rel=0.01)
+
+
+def test_the_deeper_state_counts():
     x, e = np.geomspace(0.05, 3, 30)[:, None], np.geomspace(0.05, 3, 30)
     zone = e**2 / x
-    larger = np.maximum(tough_share(x, find_onset(zone)), weak_share(x, e))
-    share = remaining_share(x, e, zone)
-    assert np.all(share >= larger)
-    assert np.all(share <= 2 ** (1 / 8) * larger + 1e-15)
+    share, tension, area = find_deepest_state(x, e, zone, 0.2)
+    assert share == pytest.approx(remaining_share(x, e, zone, load_scale=0.2))
+    assert np.all(share >= tough_share(x, find_onset(zone)))
+    assert np.all(share >= weak_share(x, e, 0.2))
+    assert np.all((area >= 0) & (area <= 1) & (tension >= 0))
+
+
+def test_energy_of_contact_without_adhesion():
+    """`ENERGY_DECAY` against the boundary element method, on a surface of many waves."""
+    rough = SelfAffine(hurst=0.7, q0=1.0, q1=8.0, h_rms=1.0)
+    heights = surface.synthesise(rough, n=128, length=8 * np.pi, seed=5)
+    full = surface.realised_spectrum(heights, 8 * np.pi).elastic_energy()
+    for pressure in (0.3, 0.1, 0.03):
+        state = repulsive.solve(heights, 8 * np.pi, pressure)
+        deflection = state.gap + heights
+        stored = np.mean(state.pressure * (deflection - deflection.mean())) / 2
+        decay, _ = decay_energy(state.gap.mean())
+        assert decay == pytest.approx(-np.log(abs(stored) / full), rel=0.05)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
