@@ -83,7 +83,6 @@ rule picture_contact:
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         material=PICTURED_MATERIAL,
         entry=MATERIALS[PICTURED_MATERIAL],
-        law=REMAINING_CAMPAIGN["law"],
         squeeze=REMAINING_CAMPAIGN["squeeze"],
         code=source_hash("real_surfaces/picture_contact.py"),
     script:

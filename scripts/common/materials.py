@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+from stickiness.traction_laws import EXPONENTIAL
 from stickiness.units import si
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
@@ -19,6 +20,7 @@ class Material:
     depends_on_rate: bool  # whether the modulus is more than a constant
     solid: Solid = HALF_SPACE  # or a layer, thickness in m
     surface: str | None = None  # name of the rough surface of the material
+    law: str = EXPONENTIAL  # name of the traction law
 
     @property
     def modulus(self):
@@ -40,6 +42,7 @@ def read_material(entry):
         depends_on_rate=any(key in entry for key in RATE_KEYS),
         solid=read_solid(entry),
         surface=entry.get("surface"),
+        law=entry.get("law", EXPONENTIAL),
     )
 
 

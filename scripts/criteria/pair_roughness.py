@@ -140,9 +140,10 @@ def put_on_layer(pair, solid, spectra):
     return found
 
 
-def read_draws(pair):
-    """`Roughness` of the draws of a measured surface; None of others."""
+def read_draws(pair, law):
+    """`Roughness` of the draws of a measured surface, for a law by name; None of others."""
     if "h_rms_draws" not in pair:
         return None
+    pair = pair.assign(law=law)
     names = [field.name for field in fields(Roughness)]
     return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})

@@ -142,7 +142,7 @@ def judge_pairs(solids, roughness, frequencies):
     """Quantities of every pair by the library; `roughness` has a row of `combine` by material."""
     known = {
         name: ("material", [getattr(solid, name) for solid in solids])
-        for name in ("modulus", "work_of_adhesion", "range")
+        for name in ("modulus", "work_of_adhesion", "range", "law")
     }
     ends = [[one.drop_dims("draw", errors="ignore") for one in row] for row in roughness]
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)
@@ -162,7 +162,8 @@ def judge_pairs(solids, roughness, frequencies):
     margins = [criterion.margin(pair) for criterion in CRITERIA.values()]
     thresholds = [criterion.modulus_threshold(pair) for criterion in CRITERIA.values()]
     moduli = np.array([np.atleast_1d(solid.plane_strain.storage(frequencies)) for solid in solids])
-    draws = [[read_draws(one) for one in row] for row in roughness]
+    rows = zip(solids, roughness, strict=True)
+    draws = [[read_draws(one, solid.law) for one in row] for solid, row in rows]
     return dataset.assign(
         **judge_measured(solids, draws),
         **follow_remaining(pair, solids, draws, strain, moduli),

@@ -26,6 +26,7 @@ from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
 from stickiness.spectrum.kinds import SelfAffine
+from stickiness.traction_laws import EXPONENTIAL, find_strength
 from stickiness.units import si
 
 SHAPE = ("hurst", "longest_wavelength", "shortest_wavelength", "rolloff_wavelength")
@@ -114,6 +115,7 @@ class Observation:
     limits: NDArray  # low and high, of what was observed or of the factor of the relation
     inputs: dict[str, NDArray]
     swept: tuple[str, ...]
+    law: str  # name of the traction law
     known: int  # place in `GRADES` of the least known input or of what was observed
     tests: bool  # whether a published number or answer is compared with the prediction
 
@@ -133,6 +135,7 @@ class Observation:
             elastic_energy=energy * h_rms**2,
             **{name: inputs[name] for name in ("modulus", "work_of_adhesion", "range")},
             a_v=np.array(at),
+            law=self.law,
         )
 
     def press(self, pair: Pair) -> list[sphere.SpherePullOff] | None:
@@ -173,6 +176,7 @@ def read_observation(experiment, name, entry):
         limits=np.array([limits[0], limits[-1]], dtype=float),
         inputs=inputs,
         swept=swept,
+        law=case.get("law", entry.get("law", EXPONENTIAL)),
         known=max(GRADES.index(given["known"]) for given in (observed, *conditions.values())),
         tests=entry.get("published", True) and not by_relation,
     )
@@ -227,7 +231,7 @@ def predict(observation):
         found = np.array([one.relative for one in spheres])
     elif quantity == "relative_pull_off":
         stress = np.array([pair.tension(length, reach, sign) for sign in SIGNS])
-        found = np.minimum(stress * reach / length, 1.0)
+        found = np.minimum(stress * reach / length / find_strength(observation.law), 1.0)
     elif quantity == "work_of_approach":
         found[0] /= LATE
     elif quantity == "work_of_separation" and spheres:

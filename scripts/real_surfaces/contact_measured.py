@@ -182,7 +182,7 @@ def press_with_adhesion(heights, lengths, pressures, law):
         )
     curve = xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
     pixel = max(side / n for side, n in zip(lengths, heights.shape, strict=True))
-    resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     return curve.assign(edge_resolution=resolution)
 
 

@@ -31,7 +31,7 @@ from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 from stickiness.repulsive.half_space import measure_slope
 from stickiness.repulsive.solver import ConvergenceError
-from stickiness.traction_laws import LAWS
+from stickiness.traction_laws import LAWS, find_strength
 
 PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
 MOST_PIXELS, LEAST_PIXELS = 8, 4  # per shortest wavelength
@@ -99,7 +99,7 @@ def main(job):
         if len(measurements(asked)) > 1:
             contact.attrs["measurement"] = heights.source
         rough, material = prepare(heights, q_cutoff, PULL_OFF_POINTS), read_material(entry)
-        pull_off = separate(rough, band, material, params.law, params.squeeze)
+        pull_off = separate(rough, band, material, params.squeeze)
     except LeftOutError as reason:
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
@@ -196,7 +196,7 @@ def find_error(fine, coarse):
     return fine * maximum_filter1d(abs(coarse / fine - 1), 3, mode="nearest")
 
 
-def separate(rough, band, material, law, squeeze):
+def separate(rough, band, material, squeeze):
     """States of approach, squeeze and separation of `PeriodicHeights`; `band` is q0 and q1."""
     if material.surface is not None:
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")
@@ -204,7 +204,8 @@ def separate(rough, band, material, law, squeeze):
     heights, sides = rough.heights, rough.sides
     h_rms, length = float(np.std(heights)), material.work_of_adhesion / material.modulus
     pixel = sides[0] / heights.shape[0]
-    range_ = max(material.range, np.sqrt(PIXELS_IN_ZONE * pixel * length))
+    strength = float(find_strength(material.law))
+    range_ = max(material.range, strength * np.sqrt(PIXELS_IN_ZONE * pixel * length))
     shortest = amount(range_, "m", 2)
     if range_ > h_rms:
         raise LeftOutError(
@@ -212,13 +213,13 @@ def separate(rough, band, material, law, squeeze):
             f"height, {amount(h_rms, 'm', 2)}"
         )
     spectrum = periodic.shells(heights, sides)
-    predicted = remaining.predict(spectrum, length, range_, q0, material.solid)
+    predicted = remaining.predict(spectrum, length, range_, q0, material.solid, material.law)
     if predicted.separation_limits[1] < LEAST_SHOWN:
         raise LeftOutError(
             f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
             f"remains, even at a range of {shortest}, the shortest that the grid resolves"
         )
-    squeeze, law = squeeze * q0 * h_rms, LAWS[law](length, range_)
+    squeeze, law = squeeze * q0 * h_rms, LAWS[material.law](length, range_)
     settings = {"squeeze": squeeze, "tol": PULL_OFF_TOLERANCE, "solid": material.solid}
     settings["steps"] = PULL_OFF_STEPS
     try:
@@ -241,7 +242,7 @@ def separate(rough, band, material, law, squeeze):
             "jumps": found.jumps,
             "range": range_,
             "material_range": material.range,
-            "zone_width": q0 * range_**2 / length,
+            "zone_width": q0 * law.maugis_range**2 / length,
             "energy_ratio": predicted.energy_ratio,
             "h_rms": h_rms,
             "shortest_wavelength": rough.shortest_wavelength,

@@ -41,6 +41,7 @@ class TractionLaw(ABC):
     #: Whether the traction is continuous beyond the wall; where it is not it must jump at `range`
     #: between constants, as in the law of Maugis.
     smooth: ClassVar[bool] = True
+    strength_ratio: ClassVar[float] = 1.0  #: strength over `maugis_stress`
 
     def __post_init__(self):
         number("adhesion_length", self.adhesion_length)
@@ -52,9 +53,14 @@ class TractionLaw(ABC):
         return self.adhesion_length / self.range
 
     @property
-    @abstractmethod
     def strength(self) -> float:
         """Largest traction [E*], the theoretical strength of the interface."""
+        return self.strength_ratio * self.maugis_stress
+
+    @property
+    def maugis_range(self) -> float:
+        """Range [length] of the Maugis law of equal work of adhesion and strength."""
+        return self.range / self.strength_ratio
 
     @property
     def strength_gap(self) -> float:
@@ -89,10 +95,6 @@ class Maugis(TractionLaw):
 
     smooth: ClassVar[bool] = False
 
-    @property
-    def strength(self) -> float:
-        return self.maugis_stress
-
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         gap = np.asarray(gap, dtype=float)
         traction = np.where(gap <= self.range, self.maugis_stress, 0.0)
@@ -104,14 +106,28 @@ class Maugis(TractionLaw):
 class Exponential(TractionLaw):
     """Traction that decays exponentially, sigma = (adhesion_length/range) exp(-gap/range)."""
 
-    @property
-    def strength(self) -> float:
-        return self.maugis_stress
-
     def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         # In single precision if the gaps are.
         traction = self.maugis_stress * np.exp(np.asarray(gap) / -self.range)
         return traction, traction / -self.range, traction * -self.range
+
+
+@dataclass(frozen=True)
+class VanDerWaals(TractionLaw):
+    """Van der Waals attraction of half-spaces, cut off by a hard wall.
+
+    sigma = (2 adhesion_length/range) (range/g)^3 with g = gap + range: the range is the cut-off
+    distance D0, and A_H/(6 pi g^3) follows from w = A_H/(12 pi D0^2). Israelachvili, Intermolecular
+    and Surface Forces, 3rd ed. (2011), chapter 13, isbn:978-0-12-375182-9.
+    """
+
+    strength_ratio: ClassVar[float] = 2.0
+
+    def evaluate(self, gap: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+        # In single precision if the gaps are.
+        s = 1 / (1 + np.asarray(gap) / self.range)
+        traction = self.strength * s**3
+        return traction, traction * s * (-3 / self.range), s**2 * -self.adhesion_length
 
 
 @dataclass(frozen=True)
@@ -123,11 +139,7 @@ class LennardJones(TractionLaw):
     """
 
     hard_wall: ClassVar[bool] = False
-
-    @property
-    def strength(self) -> float:
-        """Return 16 adhesion_length/(9 sqrt(3) range) [E*], reached at `strength_gap`."""
-        return 16 * self.maugis_stress / (9 * np.sqrt(3.0))
+    strength_ratio: ClassVar[float] = 16 / 9 / 3.0**0.5  # reached at `strength_gap`
 
     @property
     def strength_gap(self) -> float:
@@ -145,8 +157,17 @@ class LennardJones(TractionLaw):
         return traction, derivative, -self.adhesion_length * (4 * s**2 - s**8) / 3
 
 
-#: Laws that a configuration may name.
-LAWS = {"maugis": Maugis, "exponential": Exponential}
+EXPONENTIAL = "exponential"  #: the law that simulations are made with
+#: Laws by the names that a configuration gives them.
+LAWS = {"maugis": Maugis, EXPONENTIAL: Exponential, "van_der_waals": VanDerWaals}
+
+
+def find_strength(names: ArrayLike) -> NDArray:
+    """Strength of laws, by their names in `LAWS`, over adhesion_length/range."""
+    known, place = np.unique(names, return_inverse=True)
+    if unknown := set(known.tolist()) - set(LAWS):
+        raise ValueError(f"law must be one of {', '.join(LAWS)}, got {unknown.pop()!r}")
+    return np.array([LAWS[name].strength_ratio for name in known])[place].reshape(np.shape(names))
 
 
 def check_law(law: TractionLaw) -> None:

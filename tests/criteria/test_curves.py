@@ -114,6 +114,25 @@ def test_curves_cross_the_wanted_share_at_the_threshold(drawn):
     assert (limits[0] < of_model[0] and limits[1] > of_model[1]) == drawn
 
 
+@pytest.mark.parametrize("drawn", [False, True])
+def test_every_material_has_its_own_law(drawn):
+    hard = TAPE | {"youngs_modulus": "100 GPa", "range": "30 nm"}
+    laws = ("exponential", "van_der_waals")
+    found = judge({law: hard | {"law": law} for law in laws} | {"none": hard}, drawn, FREQUENCIES)
+    for law in laws:
+        given = 0.07 / (100e9 / 0.75), 3e-8
+        expected = [predict(rough(h), *given, law=law).separation for h in HEIGHTS]
+        np.testing.assert_allclose(found.remaining.sel(material=law), expected, rtol=1e-9)
+    tail, short = (found.sel(material=law) for law in laws[::-1])
+    assert np.all(tail.remaining > 5 * short.remaining)
+    names = ["remaining", "remaining_by_modulus", "pull_off", "remaining_quantile"]
+    xr.testing.assert_equal(
+        found[names].sel(material="none", drop=True), short[names].drop_vars("material")
+    )
+    if drawn:
+        assert np.all(tail.remaining_quantile > 3 * short.remaining_quantile)
+
+
 def test_a_factor_on_the_heights_is_another_surface(curves):
     length, reach = 0.07 / (0.4e6 / 0.75), 3e-9
     for place in (0, 10, 20, 32):

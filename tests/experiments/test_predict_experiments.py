@@ -82,6 +82,14 @@ def test_flats_are_predicted_as_by_the_library(h_rms):
         np.testing.assert_allclose(found, works, rtol=1e-6)
 
 
+def test_the_law_of_an_experiment_counts():
+    given = {"h_rms": known("10 nm"), "plane_strain_modulus": known("1000 GPa")}
+    expected = predict(spectrum(1e-8), LENGTH / 1e6, RANGE, law="van_der_waals").separation
+    found = predict_quantity("sticks", True, **given, law="van_der_waals")[1]
+    assert found == pytest.approx(expected, rel=1e-6)
+    assert found > 5 * predict_quantity("sticks", True, **given)[1]
+
+
 @pytest.mark.parametrize(("radius", "rel"), [("100 m", 0.01), ("1 um", 0.34)])
 def test_pull_off_of_a_sphere_is_what_remains_of_the_work(radius, rel):
     """In JKR's limit; a smaller sphere goes towards DMT, 4/3 of it, since the law reaches far."""

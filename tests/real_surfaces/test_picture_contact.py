@@ -44,7 +44,7 @@ def separate(material=GEL, h_rms=2e-6):
     s = SelfAffine(hurst=0.8, q0=4.0, q1=16.0, h_rms=h_rms)
     h = surface.synthesise(s, n=64, length=2 * np.pi, seed=2)
     rough = picture_contact.prepare(Topography(h, SIDE / 64, SIDE / 64, "here"), Q1, 64)
-    return picture_contact.separate(rough, (Q0, Q1), material, "exponential", 0.1)
+    return picture_contact.separate(rough, (Q0, Q1), material, 0.1)
 
 
 @pytest.fixture(scope="module")

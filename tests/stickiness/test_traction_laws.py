@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from stickiness import adhesive
+from stickiness import adhesive, traction_laws
 
-LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
+LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones, adhesive.VanDerWaals)
 LENGTH, RANGE = 0.3, 0.7
 
 
@@ -50,6 +50,24 @@ def test_lennard_jones_strength_and_maugis_stress():
     assert law.traction(-0.1) < 0
     with pytest.raises(ValueError, match="gap must exceed"):
         law.traction([0.0, -RANGE])
+
+
+def test_van_der_waals_is_that_of_a_hamaker_constant():
+    work, cut_off, modulus = 0.05, 0.165e-9, 1e9  # J/m^2, m, Pa
+    hamaker = 12 * np.pi * cut_off**2 * work
+    law = adhesive.VanDerWaals(work / modulus, cut_off)
+    separations = np.array([0.165e-9, 1e-9, 10e-9])
+    expected = hamaker / (6 * np.pi * separations**3)
+    assert modulus * law.traction(separations - cut_off) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", traction_laws.LAWS)
+def test_strength_by_name_and_range_of_the_maugis_law_alike(name):
+    law = traction_laws.LAWS[name](LENGTH, RANGE)
+    strength = traction_laws.find_strength([[name, "maugis"]])
+    assert strength * LENGTH / RANGE == pytest.approx(np.array([[law.strength, LENGTH / RANGE]]))
+    alike = adhesive.Maugis(LENGTH, law.maugis_range)
+    assert alike.strength == pytest.approx(law.strength, rel=1e-14)
 
 
 def test_maugis_includes_its_range():

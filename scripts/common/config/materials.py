@@ -51,6 +51,7 @@ class Material(ElasticPair, f.Labelled):
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
     )
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
+    law: f.Law = optional("traction law; default exponential. The range of van_der_waals is D0")
 
     def _problems(self, context):
         frequencies = [frequency for frequency, _ in self.youngs_modulus_table or []]

@@ -11,7 +11,7 @@
 
 from stickiness.adhesive.path import PathPoint, path
 from stickiness.adhesive.solver import Adhesion, ConvergenceError, PullOffError, solve
-from stickiness.traction_laws import Exponential, LennardJones, Maugis, TractionLaw
+from stickiness.traction_laws import Exponential, LennardJones, Maugis, TractionLaw, VanDerWaals
 
 __all__ = [
     "Adhesion",
@@ -22,6 +22,7 @@ __all__ = [
     "PathPoint",
     "PullOffError",
     "TractionLaw",
+    "VanDerWaals",
     "path",
     "solve",
 ]

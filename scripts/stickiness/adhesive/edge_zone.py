@@ -17,7 +17,7 @@ COARSEST = 0.5
 
 
 def resolution(pixel: float, range: float, adhesion_length: float) -> float:
-    """Pixel over epsilon^2/l_a, all in one unit; the grid resolves the edge up to `COARSEST`."""
+    """Pixel over epsilon^2/l_a, fine enough up to `COARSEST`; epsilon is a law's `maugis_range`."""
     positive(pixel=pixel, range=range, adhesion_length=adhesion_length)
     return pixel * adhesion_length / np.square(range)
 

@@ -195,12 +195,13 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
 
 
 def _check_edges(pixel, law, scaled):
-    ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    ratio = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     text = (
         f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
         f"{law.range:.3g} and an adhesion length of {law.adhesion_length:.3g}: points snap in "
         "and out one by one. Take pixels of at most "
-        f"{edge_zone.COARSEST * pixel / ratio:.3g} (range^2/(2 adhesion_length)), or a longer range"
+        f"{edge_zone.COARSEST * pixel / ratio:.3g} (adhesion_length/(2 strength^2)), "
+        "or a longer range"
     )
     if edge_zone.is_lost(ratio, scaled.scaled.law.strength / scaled.flattening):
         raise ValueError(text)

@@ -23,6 +23,7 @@ from stickiness.remaining.prediction import (
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
+from stickiness.traction_laws import EXPONENTIAL
 
 
 @dataclass(frozen=True)
@@ -90,6 +91,7 @@ def verdict(
     a_v: tuple[float, float, float] | None = None,
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
+    law: str = EXPONENTIAL,
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
 
@@ -117,6 +119,8 @@ def verdict(
     solid : HalfSpace or Layer
         Of the material, thickness in m; see `stickiness.solids`. It changes what remains. Other
         criteria than that and Persson-Tosatti's take a half-space.
+    law : str
+        As of `predict`, for what remains. The other criteria know the range alone.
 
     Returns
     -------
@@ -167,7 +171,7 @@ def verdict(
         raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
-    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share)
+    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share, law=law)
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
     limits = {f"{name}_limits": (found[f"{name}_low"], found[f"{name}_high"]) for name in LIMITED}

@@ -120,7 +120,7 @@ def measure(
     squeeze, steps = number("squeeze", squeeze), number("steps", steps)
     check_law(law)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
-    resolution = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     if np.ptp(heights) == 0:
         return _part_flat(law, 1 / resolution)
     if resolution > COARSEST:

@@ -12,6 +12,7 @@ from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import ONSET, find_deepest_state, remaining_share
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
+from stickiness.traction_laws import EXPONENTIAL, find_strength
 
 # Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
 # absolute, which is all that is known of small ones. In simulations of two by two waves and more
@@ -22,6 +23,8 @@ from stickiness.spectrum.interface import Spectrum, check_spectrum
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
+# Relative error of a share by a law with a tail, far below the onset: 0.5 to 2.4 is simulated.
+TAIL_ERROR = 1.0
 # All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost,
 # times the distance of S of the longest waves from 1. LAYER_LESS is for films on a soft backing and
 # for S of about a half, LAYER_MORE for thin incompressible layers, whose long waves are stiffer
@@ -79,6 +82,7 @@ class Roughness:
     half_space_energy: ArrayLike | None = None
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
     rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
+    law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -90,10 +94,12 @@ class Roughness:
         reach = np.asarray(range) / self.h_rms
         onset = ONSET - sign * ONSET_ERROR
         compliance, load_scale = self.relative_compliance, self.load_scale
-        share = remaining_share(ratio, reach, zone, onset, compliance, load_scale)
+        share = remaining_share(ratio, reach, zone, onset, compliance, load_scale, self.law)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
-        share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * fades * lost
+        tail = np.where(np.equal(self.law, EXPONENTIAL), 0.0, 1 - fades)
+        error = (SHARE_ERROR + TAIL_ERROR * tail) * lost
+        share = share * (1 + error) ** sign + sign * LEAST_ERROR * (1 - tail) * fades * lost
         harder = 1 - np.asarray(self.relative_compliance)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
@@ -103,7 +109,7 @@ class Roughness:
             # and a softer one has none of more.
             known = np.isfinite(self.half_space_energy)
             energy = np.where(known, self.half_space_energy, self.elastic_energy)
-            deep = Roughness(self.h_rms, self.q0, energy, rms_slope=self.rms_slope)
+            deep = Roughness(self.h_rms, self.q0, energy, rms_slope=self.rms_slope, law=self.law)
             deep = deep.share(adhesion_length, range, sign)
             bound = np.where(harder >= 0, np.minimum(share, deep), np.maximum(share, deep))
             share = np.where(known, bound, share)
@@ -130,16 +136,16 @@ class Roughness:
     def _deepest_state(self, adhesion_length, range):
         ratio, reach = np.asarray(adhesion_length) / self.elastic_energy, range / self.h_rms
         zone = self.zone(adhesion_length, range)
-        return find_deepest_state(ratio, reach, zone, self.load_scale)
+        return find_deepest_state(ratio, reach, zone, self.load_scale, self.law)
 
     def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Width of the cohesive zone over the longest waves.
 
-        That is twice the stiffness q0/(2 S) of these waves over the slope w/range^2 of the law,
+        That is twice the stiffness q0/(2 S) of these waves over the strength^2/w of the law,
         so that attraction reaches over gaps the more, the stiffer a layer holds them.
         """
         softened = np.asarray(adhesion_length) * self.relative_compliance
-        return self.q0 * np.asarray(range) ** 2 / softened
+        return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
 
     def tension(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -160,7 +166,8 @@ class Roughness:
         beyond = np.clip(
             (np.log(length / self.elastic_energy) - known) / (unknown - known), 0.0, 1.0
         ) * np.clip(sign, 0.0, 1.0)
-        return plain(found ** (1 - beyond) * np.maximum(length / range, found) ** beyond)
+        strength = find_strength(self.law) * length / range
+        return plain(found ** (1 - beyond) * np.maximum(strength, found) ** beyond)
 
     def threshold(
         self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0
@@ -173,11 +180,11 @@ class Roughness:
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
-        at = np.broadcast_arrays(*values, half_space, sign, self.rms_slope)
+        at = np.broadcast_arrays(*values, half_space, sign, self.rms_slope, self.law)
         energy = at[2]
 
-        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, slope):
-            rough = Roughness(h, q0, energy, compliance, half_space, rms_slope=slope)
+        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, slope, law):
+            rough = Roughness(h, q0, energy, compliance, half_space, rms_slope=slope, law=law)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
@@ -207,6 +214,7 @@ def predict(
     range: float,
     q0: float | None = None,
     solid: Solid = HALF_SPACE,
+    law: str = EXPONENTIAL,
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
@@ -229,6 +237,8 @@ def predict(
         Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin
         incompressible layers the value is a third to nine tenths of what was simulated (the less,
         the weaker the adhesion); the limits hold that.
+    law : str
+        Name in `traction_laws.LAWS`. The range of "van_der_waals" is the cut-off distance.
 
     Examples
     --------
@@ -249,6 +259,7 @@ def predict(
         half_space_energy=find_half_space_energy(spectrum, solid),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
         rms_slope=spectrum.rms_slope,
+        law=law,
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio, softened = length / rough.elastic_energy, length * rough.relative_compliance

@@ -8,7 +8,8 @@ contact. Adhesion is then described by ``energy_ratio`` x = w/U, ``range_ratio``
 At a mean gap u the surfaces are in the deeper of two states, each of energy F(u) - x G(u):
 
 - weak: attraction leaves the contact without adhesion as it is. F is the elastic energy of that,
-  and G the mean of exp(-gap/range). This is exact to first order in w (Hellmann and Feynman).
+  and G the mean attraction over that of contact, such as exp(-gap/range). This is exact to first
+  order in w (Hellmann and Feynman).
 - tough: contact grows with w. G is the area in contact, and F follows from `tough_area`.
 
 What remains is the least energy, the pull-off its steepest rise with the gap. On thin layers
@@ -22,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.special import erf, erfcx, lambertw, ndtr
 
 from stickiness.arguments import plain, positive
+from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 # Of contact without adhesion, -ln F = a u^m + b u^n, with a, m, b, n. In simulations of H = 0.3 to
 # 0.9 and magnifications 4 to 128, in cells of 4 by 4 waves and more, -ln F scatters about it by 6 %
@@ -38,6 +40,13 @@ ONSET, ADVANCE = 0.4, 1.24
 LIFT = 1.4
 _GAPS = np.linspace(0.0, 10.0, 201)  # mean gaps over h_rms
 _GAPS[0] = 1e-9
+# Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.4 to 4.15
+# in cells of 16 to 256 of the longest waves. The largest of 10^6 independent heights is at 4.9.
+FIRST_TOUCH = 4.0
+# Gaps over h_rms, even in the logarithm, and their weights in Gaussian heights by mean gap.
+_OPENINGS = np.exp(np.linspace(-28.0, 3.0, 389))
+_OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
+_OPEN *= np.gradient(np.log(_OPENINGS))[:, None] * _OPENINGS[:, None]
 _FINE_GAPS = np.geomspace(_GAPS[0], _GAPS[-1], 1000)
 _PARTS = np.linspace(0.02, 1.0, 50)[:, None]  # of the way from the onset to zero load
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
@@ -55,6 +64,7 @@ def decay_energy(gap: ArrayLike) -> tuple[NDArray, NDArray]:
 
 
 _DECAY, _SLOPE = decay_energy(_GAPS)
+_ENERGY = np.where(_GAPS < FIRST_TOUCH, np.exp(-_DECAY), 0.0)
 _FINE_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
 
 
@@ -102,25 +112,41 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
 
 
 def weak_share(
-    energy_ratio: ArrayLike, range_ratio: ArrayLike, load_scale: ArrayLike = 0.0
+    energy_ratio: ArrayLike,
+    range_ratio: ArrayLike,
+    load_scale: ArrayLike = 0.0,
+    law: ArrayLike = EXPONENTIAL,
 ) -> float | NDArray:
-    """Share that remains where attraction leaves the contact without adhesion as it is."""
-    x, energy, _ = _weak_energy(energy_ratio, range_ratio, load_scale)
+    """Share that remains where attraction leaves the contact without adhesion as it is.
+
+    `law` is a name of `LAWS`, or an array of names.
+    """
+    x, energy, _ = _weak_energy(energy_ratio, range_ratio, load_scale, law)
     return plain(np.max(-energy / x, axis=-1, initial=0.0))
 
 
-def _weak_energy(energy_ratio, range_ratio, load_scale):
+def _weak_energy(energy_ratio, range_ratio, load_scale, law):
     """Energy ratios ``(..., 1)``; energies and contact areas at the mean gaps, ``(..., gap)``."""
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
-    energy = np.exp(-_DECAY)
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
-    area = erf(np.sqrt(np.pi) * np.asarray(load_scale)[..., None] * _SLOPE * energy)
+    area = erf(np.sqrt(np.pi) * np.asarray(load_scale)[..., None] * _SLOPE * _ENERGY)
     # What attraction gains is dear and knows the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
     gained = _mean_attraction(ranges)[place.reshape(e.shape)]
     open_overlap = 1 - np.minimum(area / ndtr(-_GAPS), 1.0)
     gained = gained * (1 - open_overlap * np.exp(-CLOSING * e[..., None]))
-    return x[..., None], energy - x[..., None] * np.maximum(gained, area), area
+    law = np.broadcast_to(law, e.shape)
+    for name in set(np.unique(law).tolist()) - {EXPONENTIAL}:
+        ranges, place = np.unique(e[law == name], return_inverse=True)
+        gained[law == name] += _mean_excess(ranges, name)[place]
+    return x[..., None], _ENERGY - x[..., None] * np.maximum(gained, area), area
+
+
+def _mean_excess(range_ratio: NDArray, law: str) -> NDArray:
+    """Mean over open gaps of what a law attracts beyond the exponential, ``(range, gap)``."""
+    gaps = _OPENINGS / range_ratio[:, None]
+    kinds = LAWS[EXPONENTIAL](1.0, 1.0), LAWS[law](1.0, 1.0)
+    return (kinds[0].potential(gaps) - kinds[1].potential(gaps)) @ _OPEN
 
 
 def _mean_attraction(range_ratio: NDArray) -> NDArray:
@@ -170,17 +196,20 @@ def remaining_share(
     onset: float = ONSET,
     relative_compliance: ArrayLike = 1.0,
     load_scale: ArrayLike = 0.0,
+    law: ArrayLike = EXPONENTIAL,
 ) -> float | NDArray:
     """Share that remains in the deeper of both states, weak and tough.
 
     `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
     independent: springs count by (1 - S)^2, which follows simulations of S = 0.1 to 0.5.
+    Springs have the exponential law of equal strength.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
-    share = np.maximum(tough, weak_share(energy_ratio, range_ratio, load_scale))
+    share = np.maximum(tough, weak_share(energy_ratio, range_ratio, load_scale, law))
     alone = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
     if np.any(alone > 0):
-        share = share + alone * np.maximum(spring_share(energy_ratio, range_ratio) - share, 0.0)
+        springs = spring_share(energy_ratio, np.asarray(range_ratio) / find_strength(law))
+        share = share + alone * np.maximum(springs - share, 0.0)
     return plain(np.minimum(share, 1.0))
 
 
@@ -189,10 +218,11 @@ def find_deepest_state(
     range_ratio: ArrayLike,
     zone: ArrayLike,
     load_scale: ArrayLike = 0.0,
+    law: ArrayLike = EXPONENTIAL,
 ) -> tuple[NDArray, NDArray, NDArray]:
     """Share that remains, largest tension [U/h], and area of contact at zero load."""
     onset = find_onset(zone)
-    x, energy, area = _weak_energy(energy_ratio, range_ratio, load_scale)
+    x, energy, area = _weak_energy(energy_ratio, range_ratio, load_scale, law)
     weak, lowest = np.max(-energy / x, axis=-1, initial=0.0), np.argmin(energy, axis=-1)
     beyond = np.arange(_GAPS.size - 1) >= lowest[..., None]
     rise = np.max(np.diff(energy) / np.diff(_GAPS), axis=-1, where=beyond, initial=0.0)

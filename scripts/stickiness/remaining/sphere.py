@@ -16,6 +16,7 @@ from scipy import optimize
 
 from stickiness.arguments import plain, positive
 from stickiness.remaining.prediction import HYSTERESIS, Roughness
+from stickiness.traction_laws import find_strength
 
 # Elastic energies that a pinned edge costs at most: the loss measured is within at the energy
 # ratios of 4 to 6 where it was.
@@ -50,7 +51,7 @@ def pull_off(
     held = np.maximum(work, _NOTHING) * length
     reach = np.asarray(rough.distance(length, range))
     force = work * length * _coefficient(radius, held, reach)
-    smooth = length * _coefficient(radius, length, range)
+    smooth = length * _coefficient(radius, length, range / find_strength(rough.law))
     zone = np.maximum(np.cbrt(9 * np.pi / 8 * held * radius**2), np.sqrt(2 * radius * reach))
     return SpherePullOff(
         plain(np.pi * radius * force), plain(force / smooth), plain(work), plain(zone)

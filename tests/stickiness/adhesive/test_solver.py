@@ -7,11 +7,11 @@ from references.contact import displacement, elastic_pressure
 from scipy import optimize
 
 from stickiness import adhesive, dmt, repulsive
-from stickiness.adhesive import Exponential, LennardJones, Maugis
+from stickiness.adhesive import Exponential, LennardJones, Maugis, VanDerWaals
 
 # Some of the laws under test are too short of range for these grids, on purpose.
 pytestmark = pytest.mark.filterwarnings("ignore:a pixel of")
-LAWS = (Exponential, Maugis, LennardJones)
+LAWS = (Exponential, Maugis, LennardJones, VanDerWaals)
 SIDES = (1.0, 1.0)
 SLOPE = 0.1  # q0 h_rms of the rough surfaces
 HEIGHT = SLOPE / (2 * np.pi)  # their h_rms, on a side of 1
@@ -97,8 +97,14 @@ def test_weak_attraction_is_the_repulsive_contact(kind):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", [Exponential, Maugis])
-@pytest.mark.parametrize(("eps", "la"), [(1.0, 0.05), (0.1, 0.1)])
+@pytest.mark.parametrize(
+    ("kind", "eps", "la"),
+    [
+        *((kind, *at) for kind in (Exponential, Maugis) for at in ((1.0, 0.05), (0.1, 0.1))),
+        # softens six times as fast at the wall: single points are stable up to a sixth of the work
+        *((VanDerWaals, *at) for at in ((1.0, 0.05), (0.1, 0.016))),
+    ],
+)
 def test_branch_of_approach_is_the_first_of_monotone_rounds(kind, eps, la):
     """Against repulsive contacts with the attraction of the round before as a given load.
 
@@ -230,7 +236,7 @@ def test_full_contact_opens_at_the_strength_less_the_flattening_pressure():
         assert (a.repulsive_area_fraction == 1.0) == (share < 1)
 
 
-@pytest.mark.parametrize("kind", [Exponential, LennardJones])
+@pytest.mark.parametrize("kind", [Exponential, LennardJones, VanDerWaals])
 def test_flats_at_a_mean_gap_break_up_where_they_must(kind):
     """A uniform gap is stable while its softening stays below the stiffness of the longest wave."""
     heights = np.zeros((16, 16))
@@ -244,6 +250,44 @@ def test_flats_at_a_mean_gap_break_up_where_they_must(kind):
         assert (np.ptp(a.gap) < 1e-9) == uniform
         if not uniform:
             assert a.energy < float(law.potential(gap))
+
+
+def test_far_apart_lennard_jones_is_van_der_waals():
+    """Of equal A_H: the repulsion falls with the ninth power of the separation."""
+    heights = rough(32)
+    eps = 0.1 * HEIGHT
+    mean_gap = heights.max() + 5 * eps
+    one = adhesive.solve(heights, 1.0, VanDerWaals(0.02 * eps, eps), mean_gap=mean_gap)
+    other = adhesive.solve(heights, 1.0, LennardJones(0.015 * eps, eps), mean_gap=mean_gap)
+    # the repulsion at the closest point, where the separation is 6 ranges: 6^-6 of the traction
+    assert one.mean_pressure == pytest.approx(other.mean_pressure, rel=6.0**-6)
+    np.testing.assert_allclose(one.gap, other.gap, atol=1e-6 * HEIGHT)
+
+
+def test_a_hard_sphere_pulls_off_at_the_dmt_force():
+    """2 pi R l_a whatever the law; the cell cuts off what acts at gaps above 60 ranges."""
+    radius, eps = 1000.0, 1.0
+    side = 2 * np.sqrt(2 * radius * 60 * eps)
+    x = (np.arange(128) - 64) / 128 * side
+    heights = -(x[:, None] ** 2 + x**2) / (2 * radius)
+    law = VanDerWaals(np.sqrt(0.03**3 * eps**3 / radius), eps)  # Tabor's parameter 0.03
+    most = 2 * np.pi * radius * law.adhesion_length / side**2
+    held = adhesive.solve(heights, side, law, pressure=-0.97 * most)
+    assert 0 < held.repulsive_area_fraction < 0.01
+    with pytest.raises(adhesive.PullOffError):
+        adhesive.solve(heights, side, law, pressure=-1.03 * most, start=held)
+
+
+def test_weak_attraction_adds_the_slope_of_the_mean_potential():
+    """To first order in the attraction at a given mean gap, by Hellmann and Feynman."""
+    heights, law = rough(64), law_of(VanDerWaals, 0.3, 1e-5)
+    states = [repulsive.solve(heights, 1.0, load * LOAD, tol=1e-11) for load in (0.98, 1.02)]
+    gaps = [state.gap.mean() for state in states]
+    potentials = [law.potential(state.gap).mean() for state in states]
+    between = repulsive.solve(heights, 1.0, LOAD, tol=1e-11)
+    a = adhesive.solve(heights, 1.0, law, mean_gap=between.gap.mean(), tol=1e-11)
+    expected = np.diff(potentials)[0] / np.diff(gaps)[0]
+    assert LOAD - a.mean_pressure == pytest.approx(expected, rel=0.01)
 
 
 def controls(law, shape):

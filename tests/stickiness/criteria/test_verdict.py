@@ -34,6 +34,19 @@ def test_soft_sticks_and_stiff_does_not():
         np.testing.assert_allclose(limits, [low, high])
 
 
+def test_hard_pairs_keep_the_tail_of_van_der_waals_attraction():
+    silicon = SelfAffine(hurst=0.8, q0=6e6, q1=6e8, h_rms=5e-9)
+    given = {"modulus": 86e9, "work_of_adhesion": 0.05, "range": 0.165e-9}
+    none, found = (verdict(silicon, **given, law=law) for law in ("exponential", "van_der_waals"))
+    assert found.word == none.word
+    assert 5e-5 < found.remaining < 1e-3
+    assert found.remaining_limits[0] > 2 * none.remaining
+    others = [name for name in CRITERIA if name != REMAINING]
+    assert [found.margins[name] for name in others] == [none.margins[name] for name in others]
+    with pytest.raises(ValueError, match="law must be one of"):
+        verdict(silicon, **given, law="none")
+
+
 @pytest.mark.slow
 def test_verdict_depends_within_the_limits_of_the_threshold():
     found = verdict(ROUGH, **GEL)

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
+from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
-from stickiness.remaining.prediction import UNLIKE
+from stickiness.remaining.prediction import HYSTERESIS, UNLIKE
 from stickiness.spectrum import SelfAffine, combine
+from stickiness.surface import realised_spectrum, synthesise
 
 TOUGH = {"adhesion_length": 1.0, "range": 1e-3}
 
@@ -22,6 +24,42 @@ def test_threshold_is_the_inverse_of_the_share(share, sign, layer):
     ranges = np.array([1e-4, 0.1, 0.5, 1.0])
     length = surface.threshold(ranges, share, sign)
     assert surface.share(length, ranges, sign) == pytest.approx(share, rel=1e-6)
+
+
+def test_laws_are_told_apart_by_element():
+    laws = np.array(["exponential", "van_der_waals"])
+    both = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6, law=laws)
+    for place, law in enumerate(laws):
+        alone = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6, law=law)
+        for ask in ("share", "tension", "distance", "zone"):
+            found = getattr(both, ask)(np.full(2, 0.01), 0.1)
+            assert found[place] == pytest.approx(getattr(alone, ask)(0.01, 0.1), rel=1e-12)
+        lengths = both.threshold(0.1, sign=1)
+        assert lengths[place] == pytest.approx(alone.threshold(0.1, sign=1), rel=1e-9)
+        assert alone.share(lengths[place], 0.1, 1) == pytest.approx(0.1, rel=1e-6)
+
+
+@pytest.mark.parametrize("reach", [0.1, 0.3])
+@pytest.mark.parametrize("ratio", [0.01, 0.1])
+def test_simulated_hard_pairs_keep_what_is_predicted(reach, ratio):
+    """In a cell of four by four waves, which touch first at a gap of 3.4 rms heights."""
+    length = 8 * np.pi
+    heights = synthesise(rough(q1=16.0), n=256, length=length, seed=1)
+    spectrum = realised_spectrum(heights, length)
+    work = ratio * spectrum.elastic_energy()
+    found = adhesive.solve(
+        heights, length, adhesive.VanDerWaals(work, reach), pressure=0.0, tol=1e-9
+    )
+    expected = predict(spectrum, work, reach, law="van_der_waals")
+    low, high = expected.separation_limits
+    assert low < -found.energy / work < high / HYSTERESIS
+    assert 0.4 < expected.separation * work / -found.energy < 2
+    assert predict(spectrum, work, reach).separation < 0.6 * expected.separation
+
+
+def test_unknown_laws_are_refused():
+    with pytest.raises(ValueError, match="law must be one of maugis, exponential, van_der_waals"):
+        predict(rough(), **TOUGH, law="lennard_jones")
 
 
 def test_the_share_grows_with_the_work_of_adhesion():

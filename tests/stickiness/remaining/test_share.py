@@ -2,10 +2,14 @@
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.special import ndtr
 
 from common import remaining_table
 from stickiness import repulsive, surface
+from stickiness.remaining import share as module
 from stickiness.remaining.share import (
+    FIRST_TOUCH,
     LIFT,
     ONSET,
     decay_energy,
@@ -18,6 +22,7 @@ from stickiness.remaining.share import (
     weak_share,
 )
 from stickiness.spectrum import SelfAffine
+from stickiness.traction_laws import LAWS
 
 TABLE = "config/remaining.csv"
 
@@ -33,6 +38,48 @@ def test_attraction_of_long_range_needs_no_contact():
     # The mean gap at first touch is that of the heights' tail, far below the range.
     assert weak_share(1e-3, 100.0) == pytest.approx(1, abs=0.06)
     assert weak_share(1e-3, 0.04) < 1e-4
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("reach", [1e-6, 1e-3, 0.03, 1.0, 10.0])
+def test_mean_attraction_is_that_of_gaussian_heights(law, reach):
+    """Against adaptive quadrature over the gaps, decade by decade."""
+    potential, ranges = LAWS[law](1.0, reach).potential, np.array([reach])
+    ends = np.array([0, *np.geomspace(1e-9, 10, 11), 30])
+    ends = np.unique([*ends, reach])  # where the law of Maugis ends
+    found = module._mean_attraction(ranges)[0] - ndtr(-module._GAPS)
+    if law != "exponential":
+        found = found + module._mean_excess(ranges, law)[0]
+    for place in (0, 20, 80):
+        mean_gap = module._GAPS[place]
+
+        def density(gap, mean_gap=mean_gap):
+            return -potential(gap) * np.exp(-((mean_gap - gap) ** 2) / 2) / np.sqrt(2 * np.pi)
+
+        parts = [quad(density, *each, epsrel=1e-9) for each in zip(ends, ends[1:], strict=False)]
+        expected = sum(value for value, _ in parts)
+        # The first part is overlap, too. Even points see the kink of Maugis' law to second order.
+        assert found[place] == pytest.approx(
+            expected, rel=5e-3 if law == "maugis" else 1e-5, abs=1e-15
+        )
+
+
+def test_hard_surfaces_keep_the_attraction_of_their_gaps_at_first_touch():
+    """Nothing is deformed: range^2 times the mean inverse square of the gap, and summits near."""
+    reach = np.array([0.01, 0.03, 0.1])
+    share = weak_share(1e-8, reach, law="van_der_waals")
+    away = share / reach**2 * FIRST_TOUCH**2
+    assert np.all((away > 1) & (away < 2))
+    # an exponential law has next to nothing there
+    assert weak_share(1e-8, 0.1) < 0.1 * share[2]
+
+
+def test_tension_of_a_tail_is_the_slope_of_its_energy():
+    """Twice the attraction over the separation, if the range is long."""
+    x, far = 1e-8, 30.0
+    share, tension, area = find_deepest_state(x, far, 1.0, law="van_der_waals")
+    assert x * share / tension == pytest.approx((far + FIRST_TOUCH) / 2, rel=0.02)
+    assert area == 0
 
 
 def test_tough_contact_has_the_least_energy_of_its_areas():
