@@ -24,7 +24,7 @@ from stickiness.criteria.registry import CRITERIA
 from stickiness.criteria.verdict import describe_surface
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
-from stickiness.remaining.prediction import DEFAULT_SHARE, HYSTERESIS, LATE
+from stickiness.remaining.prediction import DEFAULT_SHARE, LATE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 from stickiness.units import si
@@ -237,7 +237,7 @@ def predict(observation):
     elif quantity == "work_of_separation" and spheres:
         found = np.array([one.work for one in spheres])
     elif quantity == "work_of_separation":
-        found[2] = np.minimum(found[2] * HYSTERESIS, 1.0)
+        found = np.array([pair.separation(length, reach, sign) for sign in SIGNS])
     if quantity.startswith("work_of"):
         found = found * pair.work_of_adhesion
     waves = 2 * spheres[1].zone_radius * pair.q0 / (2 * np.pi) if spheres else pair.q0 * np.nan

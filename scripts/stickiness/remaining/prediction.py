@@ -37,6 +37,14 @@ PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
 # Jumps at a given mean gap: what the energy gained over the work of approach, and the work of
 # separation over the energy gained, reach in simulations. Both grow as the range falls further.
 LATE, HYSTERESIS = 1.3, 1.6
+# Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
+# at the energy ratios of 4 to 6 where it was.
+PINNING = 6.0
+# Pressed to more than E* times the rms slope, contact is full. It lasts up to the strength of the
+# law where that is more than so many times the rms tension of full contact, E* rms slope/2: above
+# 3.2 the preload changed simulations, below 2.5 it did not.
+LASTING = 3.0
+MOST_RATIO = 1e30  #: of adhesion length to the energy of full contact
 _NOTHING = 1e-12  # of tensions that act at all, over elastic_energy/h_rms
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
@@ -147,13 +155,32 @@ class Roughness:
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
 
-    def tension(
+    def separation(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
+    ) -> float | NDArray:
+        """Work of separation over the work of adhesion; `sign` as of `share`.
+
+        The high limit allows for jumps and for a pinned edge, which may cost the work of adhesion
+        times the area of contact, as Dalvi et al. (doi:10.1073/pnas.1913126116) measured it. Full
+        contact that lasts up to the strength of the law is within this limit, too.
+        """
+        share = np.asarray(self.share(adhesion_length, range, sign))
+        ratio = np.asarray(adhesion_length) / self.elastic_energy
+        pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / ratio)
+        most = np.maximum(np.minimum(HYSTERESIS * share, 1.0), pinned)
+        return plain(np.where(np.asarray(sign) > 0, most, share))
+
+    def tension(
+        self,
+        adhesion_length: ArrayLike,
+        range: ArrayLike,
+        sign: ArrayLike = 0,
+        pressed: ArrayLike = 0.0,
     ) -> float | NDArray:
         """Largest mean tension on separation over E*; `sign` as of `share`.
 
-        Towards full contact, beyond what was simulated, the high limit goes over to the strength
-        of the law.
+        The high limit goes over to the strength of the law towards full contact, which was not
+        simulated, and takes it where full contact, `pressed` with that pressure over E*, lasts.
         """
         length = np.asarray(adhesion_length)
         found = np.asarray(
@@ -163,10 +190,11 @@ class Roughness:
             * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
         )
         known, unknown = np.log(PULL_OFF_KNOWN), np.log(PULL_OFF_UNKNOWN)
-        beyond = np.clip(
-            (np.log(length / self.elastic_energy) - known) / (unknown - known), 0.0, 1.0
-        ) * np.clip(sign, 0.0, 1.0)
+        beyond = np.clip((np.log(length / self.elastic_energy) - known) / (unknown - known), 0, 1)
         strength = find_strength(self.law) * length / range
+        slope = np.asarray(self.rms_slope)
+        lasts = (np.asarray(pressed) > slope) & (strength > LASTING * slope / 2)
+        beyond = np.where(lasts, 1.0, beyond) * np.clip(sign, 0.0, 1.0)
         return plain(found ** (1 - beyond) * np.maximum(strength, found) ** beyond)
 
     def threshold(
@@ -215,6 +243,7 @@ def predict(
     q0: float | None = None,
     solid: Solid = HALF_SPACE,
     law: str = EXPONENTIAL,
+    pressed: float = 0.0,
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
@@ -239,6 +268,9 @@ def predict(
         the weaker the adhesion); the limits hold that.
     law : str
         Name in `traction_laws.LAWS`. The range of "van_der_waals" is the cut-off distance.
+    pressed : float
+        Mean pressure [E*] before separation. Only a pressure that makes contact full matters, and
+        only to the high limit of the pull-off.
 
     Examples
     --------
@@ -261,16 +293,24 @@ def predict(
         rms_slope=spectrum.rms_slope,
         law=law,
     )
+    if not length <= MOST_RATIO * rough.elastic_energy:
+        raise ValueError(
+            f"adhesion_length = {length:.3g} is more than {MOST_RATIO:g} times the elastic energy "
+            f"of full contact over E*, {rough.elastic_energy:.3g}: give the work of adhesion over "
+            "E*, in the unit of the heights"
+        )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio, softened = length / rough.elastic_energy, length * rough.relative_compliance
-    least, pull_off, most = (float(rough.tension(length, range, sign)) for sign in (-1, 0, 1))
+    least, pull_off, most = (
+        float(rough.tension(length, range, sign, pressed)) for sign in (-1, 0, 1)
+    )
     return Prediction(
         approach=share,
         separation=share,
         pull_off=pull_off,
         area_at_zero_load=float(rough.area(length, range)),
         approach_limits=(low / LATE, high),
-        separation_limits=(low, min(HYSTERESIS * high, 1.0)),
+        separation_limits=(low, float(rough.separation(length, range, 1))),
         pull_off_limits=(least, most),
         energy_ratio=ratio,
         tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * range**3))),

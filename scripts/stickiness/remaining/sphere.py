@@ -2,7 +2,7 @@
 
 Where the contact holds many of the longest waves, roughness changes only the work of adhesion and
 the distance over which it acts. Both come from `Roughness`. The sphere is then smooth, and Maugis'
-solution goes from JKR to DMT. Its edge may be pinned, see `work_of_separation`.
+solution goes from JKR to DMT. Its edge may be pinned, see `Roughness.separation`.
 """
 
 from __future__ import annotations
@@ -15,12 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import optimize
 
 from stickiness.arguments import plain, positive
-from stickiness.remaining.prediction import HYSTERESIS, Roughness
+from stickiness.remaining.prediction import Roughness
 from stickiness.traction_laws import find_strength
 
-# Elastic energies that a pinned edge costs at most: the loss measured is within at the energy
-# ratios of 4 to 6 where it was.
-PINNING = 6.0
 _LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
 _NOTHING = 1e-200
 _POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
@@ -47,7 +44,7 @@ def pull_off(
 ) -> SpherePullOff:
     """Pull-off after a contact formed by load; `sign` is -1 or +1 for the low or high limit."""
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
-    work = work_of_separation(rough, length, range, sign)
+    work = np.asarray(rough.separation(length, range, sign))
     held = np.maximum(work, _NOTHING) * length
     reach = np.asarray(rough.distance(length, range))
     force = work * length * _coefficient(radius, held, reach)
@@ -56,22 +53,6 @@ def pull_off(
     return SpherePullOff(
         plain(np.pi * radius * force), plain(force / smooth), plain(work), plain(zone)
     )
-
-
-def work_of_separation(
-    rough: Roughness, adhesion_length: ArrayLike, range: ArrayLike, sign: int = 0
-) -> NDArray:
-    """Work of separation of a sphere's edge over the work of adhesion; the high limit is pinned.
-
-    Dalvi et al. (doi:10.1073/pnas.1913126116) measured what a cycle of contact and removal loses:
-    the work of adhesion times the true area of contact.
-    """
-    share = np.asarray(rough.share(adhesion_length, range, sign))
-    if sign <= 0:
-        return share
-    ratio = np.asarray(adhesion_length) / rough.elastic_energy
-    pinned = np.minimum(share + rough.area(adhesion_length, range), 1 + PINNING / ratio)
-    return np.maximum(np.minimum(HYSTERESIS * share, 1.0), pinned)
 
 
 def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:
