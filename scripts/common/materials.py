@@ -2,8 +2,17 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
-from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+from stickiness.solids.moduli import (
+    NO_FACTOR,
+    REFERENCE_FREQUENCY,
+    Constant,
+    Modulus,
+    Prony,
+    Table,
+)
 from stickiness.units import si
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
@@ -19,11 +28,22 @@ class Material:
     depends_on_rate: bool  # whether the modulus is more than a constant
     solid: Solid = HALF_SPACE  # or a layer, thickness in m
     surface: str | None = None  # name of the rough surface of the material
+    dwell: float = np.nan  # time for which contact is made, s
+    broken_at: float = REFERENCE_FREQUENCY  # Hz, after a dwell
 
     @property
     def modulus(self):
-        """E* at the reference frequency of 1 Hz [Pa]."""
-        return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+        """E* after the dwell, or without one at the reference frequency of 1 Hz [Pa]."""
+        if np.isnan(self.dwell):
+            return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+        return float(self.plane_strain.relaxation(self.dwell))
+
+    @property
+    def separation_factor(self):
+        """Factor on the work of separation (value, low, high); 1 without a dwell."""
+        if np.isnan(self.dwell):
+            return NO_FACTOR
+        return self.plane_strain.separation_factor(self.dwell, self.broken_at)
 
     @property
     def is_scalable(self):
@@ -40,6 +60,8 @@ def read_material(entry):
         depends_on_rate=any(key in entry for key in RATE_KEYS),
         solid=read_solid(entry),
         surface=entry.get("surface"),
+        dwell=si(entry["dwell"], "s") if "dwell" in entry else np.nan,
+        broken_at=si(entry.get("broken_at", "1 Hz"), "Hz"),
     )
 
 

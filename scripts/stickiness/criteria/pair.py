@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.solids.moduli import NO_FACTOR, choose_factor
 
 WORDS = (
     *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
@@ -67,6 +68,8 @@ class Pair(Roughness):
     a_v: ArrayLike  #: at this range on this surface
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
+    #: On the work of separation (value, low, high), see `Prony.separation_factor`
+    separation_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = NO_FACTOR
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -74,16 +77,22 @@ class Pair(Roughness):
         return self.work_of_adhesion / self.modulus
 
     def remaining(self, sign: int = 0) -> float | NDArray:
-        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
-        return self.share(self.adhesion_length, self.range, sign)
+        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
+
+        It includes the separation factor, and exceeds 1 if that is large.
+        """
+        factor = choose_factor(self.separation_factor, sign)
+        return self.share(self.adhesion_length, self.range, sign) * factor
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
-        return self.tension(self.adhesion_length, self.range, sign) * self.modulus
+        factor = choose_factor(self.separation_factor, sign)
+        return self.tension(self.adhesion_length, self.range, sign, factor) * self.modulus
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
         """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""
-        return self.threshold(self.range, self.wanted_share, sign)
+        factor = choose_factor(self.separation_factor, sign)
+        return self.threshold(self.range, self.wanted_share / factor, sign)
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:

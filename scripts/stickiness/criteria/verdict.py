@@ -21,6 +21,7 @@ from stickiness.remaining.prediction import (
     find_half_space_energy,
 )
 from stickiness.solids import HALF_SPACE, Layer, Solid
+from stickiness.solids.moduli import NO_FACTOR
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
 
@@ -64,6 +65,9 @@ class StickinessVerdict:
             f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
             "few surfaces with a direction were simulated\n"
         )
+        separation = "with the factor {:.3g} ({:.3g} to {:.3g}) on the work of separation\n".format(
+            *pair.separation_factor
+        )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
@@ -73,6 +77,7 @@ class StickinessVerdict:
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {'; '.join(others)}\n"
             f"{direction if pair.anisotropy_error_factor > 1 else ''}"
+            f"{separation if pair.separation_factor != NO_FACTOR else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
@@ -90,6 +95,7 @@ def verdict(
     a_v: tuple[float, float, float] | None = None,
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
+    separation_factor: tuple[float, float, float] = NO_FACTOR,
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
 
@@ -117,6 +123,9 @@ def verdict(
     solid : HalfSpace or Layer
         Of the material, thickness in m; see `stickiness.solids`. It changes what remains. Other
         criteria than that and Persson-Tosatti's take a half-space.
+    separation_factor : (value, low, high), optional
+        On the work of separation, so that more than 1 may remain. After a dwell, `modulus` is the
+        relaxation modulus; see `solids.moduli.Prony.separation_factor`.
 
     Returns
     -------
@@ -162,12 +171,16 @@ def verdict(
         )
     if a_v is None:
         a_v = surface_a_v(spectrum, known).at(range / known["h_rms"])
-    value, low, high = map(float, positive(a_v=a_v)[0])
-    if not low <= value <= high:
-        raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
+    for name, given in (("separation_factor", separation_factor), ("a_v", a_v)):
+        value, low, high = map(float, positive(**{name: given})[0])
+        if not low <= value <= high:
+            raise ValueError(
+                f"{name} must be (value, low, high) with low <= value <= high, got {given!r}"
+            )
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
-    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share)
+    known |= {"wanted_share": wanted_share, "separation_factor": separation_factor}
+    pair = Pair(**known, **material, a_v=value)
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
     limits = {f"{name}_limits": (found[f"{name}_low"], found[f"{name}_high"]) for name in LIMITED}

@@ -125,12 +125,16 @@ class Roughness:
         return self.q0 * np.asarray(range) ** 2 / softened
 
     def tension(
-        self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
+        self,
+        adhesion_length: ArrayLike,
+        range: ArrayLike,
+        sign: ArrayLike = 0,
+        separation_factor: ArrayLike = 1.0,
     ) -> float | NDArray:
         """Largest mean tension on separation over E*; `sign` as of `share`.
 
         Towards full contact, beyond what was simulated, the high limit goes over to the strength
-        of the law.
+        of the law. A factor on the work of separation multiplies the tension up to that strength.
         """
         length = np.asarray(adhesion_length)
         found = np.asarray(
@@ -143,10 +147,11 @@ class Roughness:
         beyond = np.clip(
             (np.log(length / self.elastic_energy) - known) / (unknown - known), 0.0, 1.0
         ) * np.clip(sign, 0.0, 1.0)
-        return plain(found ** (1 - beyond) * np.maximum(length / range, found) ** beyond)
+        found = found ** (1 - beyond) * np.maximum(length / range, found) ** beyond
+        return plain(np.minimum(separation_factor * found, np.maximum(length / range, found)))
 
     def threshold(
-        self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0
+        self, range: ArrayLike, share: ArrayLike = DEFAULT_SHARE, sign: ArrayLike = 0
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
@@ -156,10 +161,10 @@ class Roughness:
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
-        at = np.broadcast_arrays(*values, half_space, sign)
+        at = np.broadcast_arrays(*values, half_space, sign, share)
         energy = at[2]
 
-        def excess(log_length, h, q0, energy, compliance, range, half_space, sign):
+        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, share):
             rough = Roughness(h, q0, energy, compliance, half_space)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
