@@ -33,8 +33,7 @@ from stickiness.statistics import COVERS
 DIMS = ("material", "surface", "end")
 QUANTILES = (0.05, 0.5, 0.95)  # of the draws of a measured surface
 SEED = 2
-# Factors on E*, on the heights at an unchanged shape of the spectrum, and on the dwell; 1 is among
-# them.
+# Factors on E*, on heights at an unchanged shape of the spectrum, and on the dwell, 1 among them.
 MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
 ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
 DWELL_FACTORS = 10.0 ** (np.arange(-16, 17) / 4)
@@ -95,10 +94,6 @@ VARIABLES = {
     "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
     "dwell": ("s", "time for which contact is made", "judged at one frequency"),
     "broken_at": ("Hz", "frequency of the modulus, or after a dwell the rate of breaking"),
-    **{
-        f"separation_factor{end}": ("1", f"factor on the work of separation{end.replace('_', ', ')}")
-        for end in SIGNS
-    },
     "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
     "verdict": ("1", "verdict: " + ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
     "disagrees": ("1", "1 where a criterion says the opposite of the verdict"),
@@ -161,10 +156,8 @@ def judge_pairs(solids, roughness, frequencies):
     rough = rough.broadcast_like(rough.h_rms).transpose(*DIMS)
     names = [field.name for field in fields(Pair) if field.name in rough]
     factors = np.array([solid.separation_factor for solid in solids])
-    pair = Pair(
-        **{name: rough[name].values for name in names},
-        separation_factor=tuple(factors.T[..., None, None]),
-    )
+    of_pair = {name: rough[name].values for name in names}
+    pair = Pair(**of_pair, separation_factor=tuple(factors.T[..., None, None]))
     dataset = xr.Dataset({name: (DIMS, values) for name, values in judge(pair).items()})
     # There is no threshold of E* with a film: the modulus of the layer alone cannot change without
     # changing what the layer does.
@@ -193,7 +186,6 @@ def judge_pairs(solids, roughness, frequencies):
         modulus_quoted=known["modulus"],
         dwell=("material", [solid.dwell for solid in solids]),
         broken_at=("material", [solid.broken_at for solid in solids]),
-        **{f"separation_factor{n}": ("material", x) for n, x in zip(SIGNS, factors.T, strict=True)},
         depends_on_rate=("material", [int(solid.depends_on_rate) for solid in solids]),
     ).assign_coords(
         end=list(ENDS), criterion=list(CRITERIA), quantile=list(QUANTILES), frequency=frequencies

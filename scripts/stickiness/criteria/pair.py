@@ -31,6 +31,7 @@ LIMITED = {  #: units and descriptions of the quantities that have limits by the
     "pull_off": ("Pa", "largest mean tension on separation"),
     "margin": ("1", "adhesion length over the one at which the wanted share remains"),
     "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
+    "separation_factor": ("1", "factor on the work of separation by dissipation at the edge"),
 }
 QUANTITIES = {
     f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
@@ -134,6 +135,8 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         found[f"pull_off{ending}"] = pair.pull_off(sign)
         found[f"margin{ending}"] = length / threshold
         found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
+        factor = choose_factor(pair.separation_factor, sign)
+        found[f"separation_factor{ending}"] = np.broadcast_to(factor, np.shape(threshold))
     found |= {
         "range_over_h_rms": pair.range / pair.h_rms,
         "energy_ratio": length / pair.elastic_energy,

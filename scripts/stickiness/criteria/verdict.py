@@ -44,6 +44,8 @@ class StickinessVerdict:
     margin_limits: tuple[float, float]
     modulus_threshold: float  #: plane-strain modulus below which the wanted share remains [Pa]
     modulus_threshold_limits: tuple[float, float]
+    separation_factor: float  #: on the work of separation, included in what remains
+    separation_factor_limits: tuple[float, float]
     regime: str  #: one of `REGIMES`, by the Tabor parameter of the contact edges
     simulated: bool  #: whether full simulation covers the state of the edges
     a_v: float  #: a_V of the pair
@@ -65,8 +67,10 @@ class StickinessVerdict:
             f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
             "few surfaces with a direction were simulated\n"
         )
-        separation = "with the factor {:.3g} ({:.3g} to {:.3g}) on the work of separation\n".format(
-            *pair.separation_factor
+        least, most = self.separation_factor_limits
+        separation = (
+            f"the factor {self.separation_factor:.3g} ({least:.3g} to {most:.3g}) on the work of "
+            "separation is included\n"
         )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
@@ -77,7 +81,7 @@ class StickinessVerdict:
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {'; '.join(others)}\n"
             f"{direction if pair.anisotropy_error_factor > 1 else ''}"
-            f"{separation if pair.separation_factor != NO_FACTOR else ''}"
+            f"{separation if most > 1 else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
