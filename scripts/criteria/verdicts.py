@@ -59,8 +59,8 @@ VARIABLES = {
     **QUANTITIES,
     **{name: (*QUANTITIES[name], FILM) for name in THRESHOLDS},
     **{
-        f"{name}_quantile": (units, f"quantiles of the {text}", UNMEASURED)
-        for name, (units, text) in LIMITED.items()
+        f"{name}_quantile": (LIMITED[name][0], f"quantiles of the {LIMITED[name][1]}", UNMEASURED)
+        for name in DRAWN
     },
     **ERRORS,
     "modulus_factor": ("1", "factor on the plane-strain modulus"),

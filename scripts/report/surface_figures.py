@@ -146,7 +146,8 @@ def find_scale(curves):
 
 def draw_still(found, output):
     """Write the curves of the first materials for print; say so if nothing is judged."""
-    with plotting.open_figure([output], "ABC"[: max(len(found), 1)], 2.9) as panels:
+    rows, height = ("A", "AB", "ABC", "AB;CD")[max(len(found), 1) - 1], 2.9
+    with plotting.open_figure([output], rows, height * len(rows.split(";"))) as panels:
         if not found:
             panels["A"].set_axis_off()
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
