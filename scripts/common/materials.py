@@ -5,14 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
-from stickiness.solids.moduli import (
-    NO_FACTOR,
-    REFERENCE_FREQUENCY,
-    Constant,
-    Modulus,
-    Prony,
-    Table,
-)
+from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.units import si
 
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
@@ -42,7 +35,7 @@ class Material:
     def separation_factor(self):
         """Factor on the work of separation (value, low, high); 1 without a dwell."""
         if np.isnan(self.dwell):
-            return NO_FACTOR
+            return 1.0, 1.0, 1.0
         return self.plane_strain.separation_factor(self.dwell, self.broken_at)
 
     @property

@@ -156,6 +156,20 @@ def test_the_dwell_counts_by_the_relaxed_modulus_and_the_factor(curves, factor):
     assert (expected.separation_factor_high == pytest.approx(high)).all()
 
 
+def test_the_curve_of_a_table_ends_where_the_table_does():
+    pairs = [["0.01 Hz", "0.1 MPa"], ["1 Hz", "0.2 MPa"], ["100 Hz", "0.6 MPa"]]
+    tape = {key: value for key, value in RESTED.items() if key != "youngs_modulus_prony"}
+    tape |= {"youngs_modulus_table": pairs, "dwell": "1 s", "broken_at": "10 Hz"}
+    found = judge({"tape": tape}, False, np.ones(1)).sel(material="tape")
+    known = np.isfinite(found.remaining_by_dwell_low)
+    covered = abs(np.log10(DWELL_FACTORS * np.pi**2)) <= 2  # 0.01 to 100 Hz are 10 s to 1 ms
+    np.testing.assert_array_equal(known, covered)
+    value, low, high = read_material(tape).separation_factor
+    # E' goes as powers log10(2)/2 and log10(3)/2 of the frequency below and above 1 Hz.
+    relaxed = 0.2 / np.pi ** np.log10(2)
+    assert (value, low, high) == pytest.approx((0.2 * 3**0.5 / relaxed, 1.0, 0.6 / relaxed))
+
+
 def test_limits_of_a_dwell_are_those_of_the_factor():
     elastic = {"label": "a", "plane_strain_modulus": f"{read_material(RESTED).modulus!r} Pa"}
     elastic |= {"work_of_adhesion": "70 mJ/m^2", "range": "3 nm"}

@@ -296,7 +296,7 @@ def test_the_report_shows_what_is_in_the_files(page):
         "E = 1 kPa, ν = 0.5",
         "multilevel: 32 coarse seeds, 100 long-wave controls",
         # The sentences of the verdicts.
-        "Jelly & cream on glass pane sticks at 1 Hz: 50 … 70 % (40 to 84 %) of the work of adhesion",
+        "Jelly & cream on glass pane sticks at 1 Hz: 50 … 70 % (40 to 84 %) of the work",
         "For jelly & cream on sand < 1 mm it depends at 1 Hz: 2 … 30 % (1.6 to 36 %)",
         f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
         "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains.",

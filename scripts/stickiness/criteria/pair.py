@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
-from stickiness.solids.moduli import NO_FACTOR, choose_factor
+from stickiness.solids.moduli import choose_factor
 
 WORDS = (
     *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
@@ -70,7 +70,7 @@ class Pair(Roughness):
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
     #: On the work of separation (value, low, high), see `Prony.separation_factor`
-    separation_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = NO_FACTOR
+    separation_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = (1.0, 1.0, 1.0)
 
     @property
     def adhesion_length(self) -> float | NDArray:

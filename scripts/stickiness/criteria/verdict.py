@@ -21,7 +21,6 @@ from stickiness.remaining.prediction import (
     find_half_space_energy,
 )
 from stickiness.solids import HALF_SPACE, Layer, Solid
-from stickiness.solids.moduli import NO_FACTOR
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
 
@@ -67,11 +66,6 @@ class StickinessVerdict:
             f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
             "few surfaces with a direction were simulated\n"
         )
-        least, most = self.separation_factor_limits
-        separation = (
-            f"the factor {self.separation_factor:.3g} ({least:.3g} to {most:.3g}) on the work of "
-            "separation is included\n"
-        )
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
@@ -81,10 +75,10 @@ class StickinessVerdict:
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {'; '.join(others)}\n"
             f"{direction if pair.anisotropy_error_factor > 1 else ''}"
-            f"{separation if most > 1 else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
-            f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
+            f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m, "
+            f"separation factor {self.separation_factor:.3g}"
         )
 
 
@@ -99,7 +93,7 @@ def verdict(
     a_v: tuple[float, float, float] | None = None,
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
-    separation_factor: tuple[float, float, float] = NO_FACTOR,
+    separation_factor: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
 

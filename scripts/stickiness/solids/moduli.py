@@ -16,7 +16,6 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import number, plain, positive
 
 REFERENCE_FREQUENCY = 1.0  #: Hz, Dahlquist's
-NO_FACTOR = (1.0, 1.0, 1.0)  #: on the work of separation of an elastic solid, with limits
 _GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow
 # Steps of t, up to REACH beyond the slowest time, in a sum that converges as exp(-pi^2/STEP).
 _STEP, _REACH = 0.25, 40.0
