@@ -1,5 +1,5 @@
-# Adhesion in the DMT limit, summed over the gaps of the contact without adhesion, and in full, by
-# boundary elements with a traction law, where the DMT limit is not known to be good enough.
+# Adhesion from the gaps of contact without adhesion, by the DMT sum and in the weak limit, and in full,
+# by boundary elements with a traction law, where the DMT sum is not known to be good enough.
 
 from functools import cache
 
@@ -27,7 +27,7 @@ def parameters_in_full(wildcards):
 
 
 def seeds_in_full(adhesion):
-    """Seeds that are solved in full; none if the DMT limit is good enough everywhere."""
+    """Seeds that are solved in full; none if the DMT sum is good enough everywhere."""
     if not model_of(adhesion).full.any():
         return []
     asked = ADHESION[adhesion]

@@ -1,5 +1,5 @@
 # The paper's six figures with what was measured added, and five on what the models are good for:
-# 7 the DMT limit, 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much
+# 7 the DMT sum, 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much
 # adhesion remains.
 
 

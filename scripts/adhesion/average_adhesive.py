@@ -1,9 +1,9 @@
-"""Adhesion of a set of parameters: in the DMT limit, and at every point by the chosen model.
+"""Adhesion of a set of parameters: by the DMT sum, and at every point by the chosen model.
 
 Full simulations are averaged over the realisations: slopes of the area-load relation, and their
-ratio to the DMT limit. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
+ratio to the DMT sum. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
 half the relative reduction by adhesion of the pressure that belongs to an area. The sum of the
-tractions gives it directly, as in the DMT limit, but misses the area that the tractions pull into
+tractions gives it directly, as the DMT sum does, but misses the area that the tractions pull into
 contact. Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more
 slowly.
 """
@@ -15,9 +15,10 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion.dmt_limit import find_linear, fit_slope, linearity_error, quantities_of, write_limit
+from adhesion import dmt_limit
+from adhesion.dmt_limit import fit_slope, linearity_error, quantities_of, weak_attraction
 from common import conventions
-from common.adhesion_sets import AXES, MISSING, OUTSIDE, solver_error
+from common.adhesion_sets import AXES, MISSING, OUTSIDE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
@@ -33,7 +34,7 @@ STATES = {
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
     "attractive_area": "area within the range, not in contact, over nominal area",
 }
-# Slopes and fits have as their control the quantity of the DMT limit of the same name.
+# Slopes and fits have as their control the quantity of the DMT sum of the same name.
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",
@@ -46,8 +47,9 @@ FITS = {
     "inverse_kappa_ad_fit": "1/kappa_ad from fitted 1/kappa",
 }
 RATIOS = {
-    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT limit",
-    "dmt_ratio_net": "1/kappa_ad with the net repulsive area over that of the DMT limit",
+    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT sum",
+    "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
+    "weak_ratio": "fall of the pressure by adhesion at equal mean gap over its weak limit",
 }
 CONTROLS = {n: n.removesuffix("_net").removesuffix("_direct") for n in SLOPES | FITS}
 ALL = STATES | SLOPES | FITS | RATIOS
@@ -58,18 +60,18 @@ NET = [name for name in ALL if "net" in name.split("_")]
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 # Pixels across the zone of attraction below which an attraction is a statement about the grid.
 NARROWEST = 1.5
-AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT limit that without adhesion
+AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT sum that without adhesion
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
-    "discretisation": "change from half the resolution, or in the DMT limit what is left of it",
+    "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
     "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
     "sampling": "Student's t of the standard error; of full simulation not less than what the "
     "count of turned pixels leaves open",
     "bandwidth": SIMULATED["bandwidth"].text,
-    "model": "of the DMT limit as measured, of areas not known; of full simulation what comparing "
+    "model": "of the DMT sum as measured, of areas not known; of full simulation what comparing "
     "at equal area instead of equal mean gap changes, or what a straight line leaves out",
 }
-FEW = f"DMT limit, {MISSING}, a single seed, or fewer than two loads to fit"
+FEW = f"DMT sum, {MISSING}, a single seed, or too few loads"
 OTHERS = {
     "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
     "residual": "largest residual of all realisations",
@@ -78,22 +80,21 @@ OTHERS = {
 }
 VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
 VARIABLES |= {name: (*text[:2], FEW) for name, text in describe_errors(ALL, plain=True).items()}
-VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT limit in 1/kappa_ad", OUTSIDE)
+VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT sum in 1/kappa_ad", OUTSIDE)
 
 
 def main(job):
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
     errors = {"dmt_valid": job.params.jtb, "dmt_error": job.params.dmt_error}
-    write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
+    dmt_limit.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    adhesion = datasets.parameters(limit)
     made, seeds = datasets.parameters(ensemble), []
     dataset = take_dmt_limit(limit)
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
         made, seeds = datasets.parameters(states), states.seed.values.tolist()
-        solved = average(states, full, ensemble, adhesion, made)
+        solved = average(states, full, ensemble, limit, made)
         for name in dataset.keys() & solved.keys():
             chosen = full if "pressure" in dataset[name].dims else full.any("pressure")
             solved[name] = solved[name].where(chosen, dataset[name])
@@ -109,12 +110,12 @@ def main(job):
         dataset,
         job.output.averages,
         title="adhesive contact averaged over realisations, by the model chosen",
-        parameters={**made, **adhesion, "seeds": seeds},
+        parameters={**made, **datasets.parameters(limit), "seeds": seeds},
     )
 
 
 def take_dmt_limit(limit):
-    """The averages in the DMT limit, in which all areas are that without adhesion."""
+    """The averages by the DMT sum, in which all areas are that without adhesion."""
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
     dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
@@ -128,22 +129,28 @@ def take_dmt_limit(limit):
     return dataset
 
 
-def average(states, full, ensemble, adhesion, made):
-    """Means over the realisations: full simulations, or their DMT limit where there are none."""
+def average(states, full, ensemble, limit, made):
+    """Means over the realisations: full simulations, or the DMT sum where there are none."""
+    adhesion = datasets.parameters(limit)
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
     states = add_dmt(states, full)
-    in_limit = find_linear(adhesion, ensemble)
+    in_limit = dmt_limit.find_linear(adhesion, ensemble)
     linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
     states = add_slopes(states, ensemble, linear)
+    alone = ensemble.sel(seed=states.seed).isel(resolution=[-2, -1])
+    alone = alone.assign_coords(resolution=states.resolution)  # the grids may be finer
+    weak, fall = weak_attraction(adhesion, alone), states.pressure - states.external_pressure
+    states["weak_ratio"] = ratio_of_means(fall, weak.sel(pressure=states.pressure))
+    states["dmt_ratio_at_gap"] = ratio_of_means(fall, states.attraction_dmt)
     # A mean over the seeds that happen to be solved would leave out the stickiest ones.
     reported = whole & (wide | ~full)
     resolved = dict.fromkeys(STATES | SLOPES, reported) | dict.fromkeys(RATIOS, reported & full)
     resolved |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
-    # The DMT limit of the coarsest solutions: of these seeds, and of many more.
-    limit = partial(quantities_of, adhesion, in_limit)
-    controls = coarse(ensemble, limit)
-    twins = controls and limit(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
+    # The DMT sum of the coarsest solutions: of these seeds, and of many more.
+    quantities = partial(quantities_of, adhesion, in_limit)
+    controls = coarse(ensemble, quantities)
+    twins = controls and quantities(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
     solver = solver_error(states)
     fuller = add_slopes(add_pixels(states, made), ensemble, linear)
     dataset, source = xr.Dataset(), xr.DataArray(list(SOURCES), dims="source", name="source")
@@ -163,6 +170,9 @@ def average(states, full, ensemble, adhesion, made):
         model = 0.0
         if f"{name}_equal_area" in states:
             model = fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
+        elif name == "weak_ratio":
+            error = limit.attraction_weak_error.sel(source="model", drop=True)
+            model = error / limit.attraction_weak * value
         elif name in FITS:
             model = linearity_error(dataset[name.removesuffix("_fit")], linear)
         parts = {
@@ -192,7 +202,7 @@ def add_pixels(states, made):
 
 
 def add_dmt(states, full):
-    """States, in the DMT limit where no full simulation is wanted."""
+    """States, by the DMT sum where no full simulation is wanted."""
     limit = {
         "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,
@@ -205,6 +215,7 @@ def add_dmt(states, full):
 
 def add_slopes(states, ensemble, linear):
     """Add what compares area and load with and without adhesion."""
+    curve = fine(ensemble.area_fraction).sel(seed=states.seed)
     alone = states.pressure / states.area_alone
     external, area = states.external_pressure, states.repulsive_area
     held, net = external / area, external / states.net_repulsive_area
@@ -214,35 +225,23 @@ def add_slopes(states, ensemble, linear):
         "inverse_kappa_ad": (1 - held / alone) / 2,
         "inverse_kappa_ad_net": (1 - net / alone) / 2,
         "inverse_kappa_ad_direct": states.attraction / states.repulsive_pressure / 2,
-        "inverse_kappa_ad_equal_area": (1 - external / pressure_at(states, ensemble)) / 2,
+        "inverse_kappa_ad_equal_area": (1 - external / pressure_at(states, curve)) / 2,
     }
     fit = fit_slope(external, area, linear)
     fit_alone = fit_slope(states.pressure, states.area_alone, linear)
     slopes["inverse_kappa_fit"] = fit / states.rms_slope
     slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
     limit = states.attraction_dmt / states.pressure / 2
-    mean_limit = limit.mean("seed", skipna=False)
-    for ending in ("", "_net", "_equal_area"):
-        # Ratio of the means over seeds, as samples that scatter about it to first order.
-        values = slopes[f"inverse_kappa_ad{ending}"]
-        best = values.mean("seed", skipna=False) / mean_limit
-        slopes[f"dmt_ratio{ending}"] = best + (values - best * limit) / mean_limit
+    for ending in ("", "_equal_area"):
+        slopes[f"dmt_ratio{ending}"] = ratio_of_means(slopes[f"inverse_kappa_ad{ending}"], limit)
     return states.assign(slopes)
 
 
-def pressure_at(states, ensemble):
-    """Pressure without adhesion at the area of adhesive contact, NaN beyond the largest load."""
-    # The curve has edges between the pixels: it is scaled to the area in pixels at the same gap.
-    curve = fine(ensemble.area_fraction).sel(seed=states.seed)
-    area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
-    loads = np.log(curve.pressure.values)
-
-    def invert(wanted, known):
-        logs = np.interp(np.log(wanted), np.log(known), loads, left=np.nan, right=np.nan)
-        return np.exp(logs)
-
-    curve, dims = curve.rename(pressure="load"), [[], ["load"]]
-    return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)
+def ratio_of_means(values, limit):
+    """Ratio of the means over seeds, as samples that scatter about it to first order."""
+    mean_limit = limit.mean("seed", skipna=False)
+    best = values.mean("seed", skipna=False) / mean_limit
+    return best + (values - best * limit) / mean_limit
 
 
 def zone_width(ensemble, at):

@@ -1,16 +1,16 @@
 """Full simulation against the model of the edges of contact, at equal area of contact.
 
 Adhesive states are compared, seed by seed, with the contact without adhesion that has the same
-area. The reduction of the load by adhesion, over the attraction in the DMT limit, is the effect
+area. The reduction of the load by adhesion, over the attraction by the DMT sum, is the effect
 that the equivalent sphere models.
 """
 
 import numpy as np
 import xarray as xr
 
-from adhesion.dmt_limit import integrate_areas
+from adhesion.dmt_limit import integrate_law
 from common import conventions
-from common.adhesion_sets import solver_error
+from common.adhesion_sets import pressure_at, roughness, solver_error
 from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import read_all
@@ -18,7 +18,6 @@ from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
 from stickiness.error_budget import ErrorComponent, with_budget
 from stickiness.statistics import students_t
-from stickiness.traction_laws import LAWS
 
 MISSING = (
     "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
@@ -26,7 +25,7 @@ MISSING = (
 )
 # Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
 FEWEST_POINTS = 100
-EFFECT = "attraction at equal area of contact over the DMT limit"
+EFFECT = "attraction at equal area of contact over the DMT sum"
 VARIABLES = {
     "attractive_over_contact": ("1", "attractive over contact area without adhesion", MISSING),
     "edge_strength": ("1", "Tabor's parameter of the edges", MISSING),
@@ -40,15 +39,15 @@ NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
 
 def main(job):
     averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
-    q0_h_rms = float(averages.q0_h_rms)
+    adhesion = datasets.parameters(averages)
     adhesive = read_all(job.input.realisations, NEEDED)
     alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
     pairs = [[each.sel(seed=seed) for each in (adhesive, alone)] for seed in adhesive.seed]
     coarse, states = (
-        xr.concat([compare(*pair, q0_h_rms, grid) for pair in pairs], "seed") for grid in (0, -1)
+        xr.concat([compare(*pair, adhesion, grid) for pair in pairs], "seed") for grid in (0, -1)
     )
     resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
-    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=q0_h_rms)
+    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=averages.q0_h_rms)
     dataset = conventions.annotate(dataset, **VARIABLES)
     seeds = states.sizes["seed"]
     for name in QUOTED:
@@ -68,15 +67,24 @@ def main(job):
         dataset,
         job.output[0],
         title="attraction at equal area of contact, simulation and model of the edges",
-        parameters=datasets.parameters(averages),
+        parameters=adhesion,
     )
 
 
-def compare(adhesive, alone, q0_h_rms, grid):
+def compare(adhesive, alone, adhesion, grid):
     """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
     adhesive = adhesive.isel(resolution=grid, drop=True)
-    strength = adhesive.adhesion_length_over_range / q0_h_rms
-    load, growth = at_equal_area(adhesive, alone.isel(resolution=-1, drop=True))
+    strength = adhesive.adhesion_length_over_range / roughness(adhesion)
+    alone = alone.isel(resolution=-1, drop=True)
+    load, pressure = pressure_at(adhesive, alone.pixel_area_fraction), adhesive.pressure
+    areas = integrate_law(adhesion, alone.attractive_area)
+    # In proportion to the adhesion length: all have the same growth.
+    areas = np.log(areas.isel(adhesion_length_over_range=0, drop=True))
+    of_loads = areas.assign_coords(pressure=np.log(areas.pressure))
+    # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
+    reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
+    growth = reached - of_loads.interp(pressure=np.log(pressure))
+    growth = np.exp(growth.drop_vars("pressure", errors="ignore"))
     attractive = adhesive.attraction_dmt / strength * growth
     t = attractive / adhesive.repulsive_area
     known = (t * load).notnull() & (t > 0)
@@ -86,8 +94,7 @@ def compare(adhesive, alone, q0_h_rms, grid):
     tau = xr.apply_ufunc(equivalent_sphere.edge_strength, place, over_mean_pressure)
     model = xr.apply_ufunc(equivalent_sphere.effect, place, tau).where(known)
     effect = (load - adhesive.external_pressure) / (strength * attractive)
-    made = datasets.parameters(adhesive)
-    points = (made["grid_points"] * made["refine"]) ** 2
+    points = (adhesion["grid_points"] * adhesion["refine"]) ** 2
     drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
     reported = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
     return xr.Dataset(
@@ -99,38 +106,6 @@ def compare(adhesive, alone, q0_h_rms, grid):
             "over_model": (effect / model).where(reported),
         }
     )
-
-
-def at_equal_area(adhesive, alone):
-    """Load without adhesion at the area with it, and growth of the attractive area to there."""
-    # The grids are not the same: relative changes of areas in pixels are compared.
-    logs = np.log(alone.pressure.values), np.log(alone.pixel_area_fraction.values)
-    pressure = adhesive.pressure
-
-    def moved(pressure, ratio):
-        begin = np.interp(np.log(pressure), *logs)
-        return np.exp(np.interp(begin + np.log(ratio), *logs[::-1], right=np.nan))
-
-    ratio = adhesive.repulsive_area / adhesive.area_alone
-    ratio = ratio.where(ratio > 0)
-    load = xr.apply_ufunc(moved, *xr.broadcast(pressure, ratio))
-    load = load / xr.apply_ufunc(moved, pressure, 1.0) * pressure
-    law = datasets.parameters(adhesive)["law"]
-    areas = np.log(attractive_area(alone.attractive_area, adhesive.range_over_h_rms, law))
-    areas = areas.drop_vars("range", errors="ignore")
-    of_loads = areas.assign_coords(pressure=np.log(areas.pressure))
-    # Where the load is unknown, any will do: xarray warns of coordinates that are all missing.
-    reached = of_loads.interp(pressure=np.log(load.fillna(pressure))).where(load.notnull())
-    growth = reached - of_loads.interp(pressure=np.log(pressure))
-    return load, np.exp(growth.drop_vars("pressure", errors="ignore"))
-
-
-def attractive_area(areas, ranges, law):
-    """Attraction over its strength, for a law: an area weighted by the traction."""
-    if law == "maugis":
-        return areas.interp(range=ranges)
-    laws = [LAWS[law](adhesion_length=range_, range=range_) for range_ in ranges.values]
-    return xr.concat([integrate_areas(areas, law) for law in laws], ranges)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Adhesion in the DMT limit, from the attractive areas of contact without adhesion."""
+"""DMT sum and weak limit of adhesion, from the attractive areas of contact without adhesion."""
 
 from dataclasses import replace
 from functools import partial
@@ -20,16 +20,19 @@ SMALLEST = 1e-300  # area: none at ranges that a coarse grid does not see
 
 QUANTITIES = {
     "attraction": "attractive pressure over E* q0 h_rms",
+    "attraction_weak": "fall of the pressure at equal mean gap in the weak limit over E* q0 h_rms",
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_ad": "1/kappa_ad = p_ad/(2 p_rep)",
     "inverse_kappa_fit": "1/kappa fitted through the origin over the loads up to 30 % area",
     "inverse_kappa_ad_fit": "1/kappa_ad, from the fall of the fitted 1/kappa",
 }
-FEW = "fewer than two loads, or a single seed"
+FEW = "fewer than two loads to fit, fewer than three in all, or a single seed"
 VARIABLES = describe_errors(QUANTITIES, plain=True, discretisation=grid_limits.INHERITED)
-VARIABLES |= {n: (*text[:2], FEW) for n, text in VARIABLES.items() if "fit" in n}
+VARIABLES |= {n: (*t[:2], FEW) for n, t in VARIABLES.items() if "fit" in n or "weak" in n}
 VARIABLES["dmt_error"] = ("1", "measured relative error of this 1/kappa_ad", OUTSIDE)
-MODEL = "of the DMT limit against full simulation, as measured"
+MODEL = "of the DMT sum against full simulation, as measured"
+# Relative error of a slope between loads over the logarithm of their step, see `weak_attraction`.
+SLOPE = 0.05
 
 
 def find_linear(adhesion, ensemble):
@@ -40,13 +43,14 @@ def find_linear(adhesion, ensemble):
 
 def quantities_of(adhesion, linear, solved):
     """`QUANTITIES` of a set, of an ensemble, of its coarse solutions or of its means."""
-    solved = solved.sel(pressure=axes(adhesion)[0])
+    weak, solved = weak_attraction(adhesion, solved), solved.sel(pressure=axes(adhesion)[0])
     attraction = integrate_law(adhesion, solved.attractive_area)
     external, area = solved.pressure - attraction, solved.area_fraction * solved.rms_slope
     fall = fit_slope(attraction, area, linear)
     return xr.Dataset(
         {
             "attraction": attraction,
+            "attraction_weak": weak.sel(pressure=solved.pressure),
             "inverse_kappa": external / area,
             "inverse_kappa_ad": attraction / attraction.pressure / 2,
             "inverse_kappa_fit": fit_slope(external, area, linear),
@@ -55,8 +59,21 @@ def quantities_of(adhesion, linear, solved):
     )
 
 
-def integrate_law(adhesion, areas):
-    """Mean attraction, the integral of the law over the gaps."""
+def weak_attraction(adhesion, solved):
+    """Attraction at equal mean gap in the weak limit, at all loads; NaN for fewer than three."""
+    _, lengths, ranges = axes(adhesion)
+    potential = integrate_law(adhesion, solved.attractive_area, "potential")
+    # Where surfaces touch it is the work of adhesion.
+    potential = potential - lengths * ranges / roughness(adhesion) * solved.area_fraction
+    if solved.sizes["pressure"] < 3:
+        return potential * np.nan
+    given, load = (solved.pressure, solved.mean_gap, potential), ["pressure"]
+    loads = {"input_core_dims": [load] * 3, "output_core_dims": [load]}
+    return xr.apply_ufunc(dmt.weak_attraction, *given, **loads)
+
+
+def integrate_law(adhesion, areas, name="traction"):
+    """Mean traction, or what else the law has, over the gaps."""
     _, lengths, ranges = axes(adhesion)
     logs = np.log(np.maximum(areas, SMALLEST))
     known = logs["range"].values
@@ -68,16 +85,9 @@ def integrate_law(adhesion, areas):
         law = scaled_law(adhesion, adhesion["law"], float(lengths[0]), range_)
         nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
         area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
-        parts.append(integrate_areas(area.assign_coords(range=nodes), law))
+        given, along = (area, nodes, getattr(law, name)), [["range"], [], []]
+        parts.append(xr.apply_ufunc(dmt.sum_over_gaps, *given, input_core_dims=along))
     return xr.concat(parts, ranges) * (lengths / lengths[0])
-
-
-def integrate_areas(areas, law):
-    """Mean attraction by attractive areas along `range`."""
-    ranges = areas["range"].values
-    return xr.apply_ufunc(
-        lambda area: dmt.attraction_of_areas(area, ranges, law), areas, input_core_dims=[["range"]]
-    )
 
 
 def fit_slope(external, area, linear):
@@ -96,7 +106,7 @@ def linearity_error(values, linear):
 
 
 def write_limit(adhesion, ensemble, laws, errors, output):
-    """Write a set in the DMT limit; `errors` are ``dmt_valid`` and ``dmt_error`` by point."""
+    """Write sum and weak limit of a set; `errors` are ``dmt_valid`` and ``dmt_error`` by point."""
     pressures, lengths, ranges = axes(adhesion)
     dataset = xr.Dataset(
         {
@@ -109,26 +119,29 @@ def write_limit(adhesion, ensemble, laws, errors, output):
     )
     linear = find_linear(adhesion, ensemble)
     quantities = partial(quantities_of, adhesion, linear)
-    left = grid_limits.inherit(ensemble, quantities, ["area_fraction", "attractive_area"])
+    known = ["area_fraction", "attractive_area", "mean_gap"]
+    left = grid_limits.inherit(ensemble, quantities, known)
     values, more = quantities(ensemble), coarse(ensemble, quantities)
     for name in QUANTITIES:
         controls = more and replace(more, values=more.values[name])
         limit = grid_limits.Limit(left.shift[name], left.error[name])
         dataset = add_errors(dataset, name, values[name], controls, plain=True, limit=limit)
     simulation = Simulation(read_models(laws), datasets.parameters(ensemble))
-    dataset = add_budgets(conventions.annotate(dataset, **VARIABLES), simulation, linear)
+    steps = np.diff(np.log(ensemble.pressure), prepend=np.nan, append=np.nan)
+    slope = SLOPE * ensemble.pressure.copy(data=np.fmax(steps[:-1], steps[1:]))
+    dataset = add_budgets(conventions.annotate(dataset, **VARIABLES), simulation, linear, slope)
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]
         dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
     datasets.write(
         dataset,
         output,
-        title=f"adhesion in the DMT limit, {adhesion['law']} traction",
+        title=f"DMT sum and weak limit of adhesion, {adhesion['law']} traction",
         parameters={**datasets.parameters(ensemble), **adhesion},
     )
 
 
-def add_budgets(dataset, simulation, linear):
+def add_budgets(dataset, simulation, linear, slope):
     """Add the errors of every quantity, for fits those at the least certain of their loads."""
     like = dataset.attraction.rename(range_over_h_rms="range")
     area = simulation.solver("area_fraction", dataset.area_fraction)
@@ -139,6 +152,8 @@ def add_budgets(dataset, simulation, linear):
     for name in QUANTITIES:
         solver, factor, model = of_fits if "fit" in name else at_loads
         pull, text = dataset[name], MODEL
+        if name == "attraction_weak":
+            model, text = slope.sel(pressure=pull.pressure), "of slopes between loads, as measured"
         if name.startswith("inverse_kappa") and "ad" not in name.split("_"):
             # The fall by attraction from what is left without.
             fall = dataset[name.replace("kappa", "kappa_ad")]

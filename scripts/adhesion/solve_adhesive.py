@@ -3,7 +3,7 @@
 At a prescribed mean gap the whole attraction shows; a press would jump where the pressure falls on
 closing. Every state is solved on the grid of the surface and on every second point of it, but
 for what the grid does not resolve, attraction so strong that the window closes altogether, and
-where the DMT limit is good enough.
+where the DMT sum is good enough.
 """
 
 import itertools
@@ -56,7 +56,7 @@ ALONE = {
 }
 VARIABLES = {
     **ALONE,
-    **{name: ("1", text, f"DMT limit, or {MISSING}") for name, text in STATE.items()},
+    **{name: ("1", text, f"DMT sum, or {MISSING}") for name, text in STATE.items()},
     "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
     "rms_slope": conventions.RMS_SLOPE,
     "attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
@@ -108,7 +108,7 @@ def combinations(adhesion, pixel, full):
 
 
 def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
-    """Adhesive states on one grid, NaN where there is none, and the attraction in the DMT limit."""
+    """Adhesive states on one grid, NaN where there is none, and the attraction by the DMT sum."""
     pressures, lengths, ranges = axes(adhesion)
     values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
     alone = []

@@ -1,4 +1,4 @@
-"""Tabulate how far the DMT limit is from the full solution, for the choice between them."""
+"""Tabulate how far the DMT sum is from the full solution, for the choice between them."""
 
 import csv
 

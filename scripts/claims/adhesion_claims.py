@@ -153,7 +153,7 @@ def find_ends(values):
 
 
 def list_points(full, limit):
-    """Points of one set of the full simulation, with the formula, the DMT limit and the errors."""
+    """Points of one set of the full simulation, with the formula, the DMT sum and the errors."""
     full, limit = at_load(full), at_load(limit)
     q0_h_rms = float(full.q0_h_rms)
     range_ = (full.range_over_h_rms * full.q0_h_rms).values

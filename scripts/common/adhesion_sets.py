@@ -23,8 +23,8 @@ OUTSIDE = "outside the table of measured errors"
 # with attraction above 1.5 times the load. The mean over four seeds moves less than the error here.
 SOLVER = 1e-6
 BRANCH, BRANCHING = 0.03, 1.5  # relative error where the attraction is that many times the load
-STRONGEST = 8.0  # attraction over repulsion, in the DMT limit, that is still looked at
-# Attraction over repulsion, in the DMT limit, up to which the answer is nearly linear in it.
+STRONGEST = 8.0  # attraction over repulsion, by the DMT sum, that is still looked at
+# Attraction over repulsion, by the DMT sum, up to which the answer is nearly linear in it.
 NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
 
@@ -63,6 +63,19 @@ def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
         f"residual {state.residual:.1e}, {state.iterations} iterations"
     )
     return state
+
+
+def pressure_at(states, curve):
+    """Pressure without adhesion at the area of adhesive contact, NaN beyond the curve of areas."""
+    # The curve may be on another grid, or without its pixels: it is scaled to the area at this gap.
+    area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
+    loads = np.log(curve.pressure.values)
+
+    def invert(wanted, known):
+        return np.exp(np.interp(np.log(wanted), np.log(known), loads, np.nan, np.nan))
+
+    curve, dims = curve.rename(pressure="load"), [[], ["load"]]
+    return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)
 
 
 def solver_error(states):

@@ -98,7 +98,8 @@ def describe_modulus(entry):
         text = f"E′ = {low} at {first} … {high} at {last}"
     elif "youngs_modulus_prony" in entry:
         series = entry["youngs_modulus_prony"]
-        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
+        plural = "s" if len(series["terms"]) > 1 else ""
+        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony term{plural}"
     else:
         text = f"E = {entry['youngs_modulus']}"
     if "plane_strain_modulus" not in entry:

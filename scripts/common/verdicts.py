@@ -29,10 +29,7 @@ def find_limits(dataset, name="remaining"):
 
 
 def describe_share(pair):
-    """Share of the work of adhesion that remains, with the limits that decide the verdict.
-
-    After a dwell it may exceed 1: then as a multiple.
-    """
+    """Share of the work of adhesion that remains, or a multiple, with the limits that decide."""
     low, high = (round_share(limit) for limit in find_limits(pair))
     show = percent if high <= 1 else lambda share: number(share, 2)
     value = show_shares(*sorted(map(round_share, pair.remaining.values)), show=show)

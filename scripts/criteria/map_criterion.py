@@ -19,7 +19,7 @@ from stickiness.spectrum.kinds import SelfAffine
 
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
-DMT = f"{LIMIT} in the DMT limit"
+DMT = f"{LIMIT} by the DMT sum"
 MISSING = "none for which a_V is tabulated, or none above 1"
 VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
@@ -109,7 +109,7 @@ class Roughness:
         return self.attraction(h, q0, length, "value").strength / equivalent_sphere.WEAK
 
     def by_dmt(self, h, q0, length, which):
-        """Attraction over repulsion in the DMT limit."""
+        """Attraction over repulsion by the DMT sum."""
         return criteria.traction_ratio(h, q0, length, 1.0, self.a_v(h, q0, which))
 
     def by_edges(self, h, q0, length, which, sign):

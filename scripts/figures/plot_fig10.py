@@ -34,7 +34,7 @@ def draw_weak(ax, points):
     at_approach = equivalent_sphere.weak_effect_at_approach(wide)
     plotting.draw_guide(ax, wide, at_approach, "at equal approach", (3, 0.4))
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
-    ax.text(0.06, 1.04, "DMT limit", color=GREY, fontsize=8)
+    ax.text(0.06, 1.04, "DMT sum", color=GREY, fontsize=8)
     surfaces = points.groupby(["magnification", "roughness"], sort=False)
     for index, ((magnification, roughness), found) in enumerate(surfaces):
         weak = found[found.edge_strength < equivalent_sphere.WEAK]
@@ -44,7 +44,7 @@ def draw_weak(ax, points):
         ax.errorbar(weak.attractive_over_contact, weak.effect, bars, **look)
     ax.set(xscale="log", yscale="log")
     ax.set_xlabel(r"attractive over contact area $A_\mathrm{ad}/A_\mathrm{rep}$")
-    ax.set_ylabel("attraction at equal area over DMT's")
+    ax.set_ylabel("attraction at equal area over DMT sum")
     plotting.write_ticks(ax.yaxis, [0.4, 0.6, 1, 1.5, 2, 3, 4, 5])
     ax.set_title(rf"weak edges, $\tau$ < {equivalent_sphere.WEAK:g}")
     ax.legend()

@@ -53,7 +53,7 @@ def draw_slopes(ax, kappas, lattices):
 
 
 def draw_threshold(ax, limit, adhesive):
-    """1/kappa at one load, fitted over all, by the net area, and in the DMT limit (dotted)."""
+    """1/kappa at one load, fitted over all, by the net area, and by the DMT sum (dotted)."""
     load = float(adhesive.pressure[-1])
     for index, range_ in enumerate(adhesive.range_over_h_rms.values):
         full = adhesive.sel(pressure=load, range_over_h_rms=range_)
@@ -65,7 +65,7 @@ def draw_threshold(ax, limit, adhesive):
         plotting.draw_hollow(ax, lengths, full.inverse_kappa_net, **look)
         plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=state(range=range_))
     compressed = make_dot("compressed", markersize=SIZE, mfc="white")
-    fit, dmt = make_key("fit over loads", linewidth=0.9), make_key("DMT limit", linestyle=":")
+    fit, dmt = make_key("fit over loads", linewidth=0.9), make_key("DMT sum", linestyle=":")
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     ax.axhspan(-0.35, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)

@@ -91,7 +91,7 @@ def draw_lengths(ax, surfaces, a_v):
     keys += [
         make_dot("by fitted slopes", **small),
         make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
-        make_dot("DMT limit chosen", marker="x", color=RED),
+        make_dot("DMT sum chosen", marker="x", color=RED),
         make_key(f"formula, {state(a_v=PAPER_A_V)}"),
         make_key("formula, $a_V$ measured", linestyle="--"),
     ]
@@ -111,7 +111,7 @@ def draw_slopes(ax, x, data, name, scale=1.0, **look):
 
 
 def draw_ranges(ax, surfaces, a_v):
-    """Slopes, tractions and DMT limit over the formula, against the range."""
+    """Slopes, tractions and DMT sum over the formula, against the range."""
     for index, (data, measured) in enumerate(zip(surfaces, a_v, strict=True)):
         length = largest_weak_length(data)
         data = data.sel(adhesion_length_over_range=length)

@@ -11,9 +11,9 @@ CLAIMED = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit
 EDGES = "h_rms_limit_edges"
 LOOKS = {  # line, colour, width and label
     EDGES: ("-", RED, 2, f"edges, {state(adhesion_length=EMPHASISED)}, with error"),
-    "h_rms_limit": ("-", BLACK, 1.0, "DMT limit, $a_V$ as tabulated"),
-    "h_rms_limit_constant": ("-.", RED, 1.2, "DMT limit, constant $a_V$ = {a_v:.1f}"),
-    "h_rms_limit_printed": ("--", RED, 1.2, "DMT limit, 9/4 as printed"),
+    "h_rms_limit": ("-", BLACK, 1.0, "DMT sum, $a_V$ as tabulated"),
+    "h_rms_limit_constant": ("-.", RED, 1.2, "DMT sum, constant $a_V$ = {a_v:.1f}"),
+    "h_rms_limit_printed": ("--", RED, 1.2, "DMT sum, 9/4 as printed"),
     "jtb_limit": ("-.", BLACK, 1.0, "JTB: DMT valid above"),
     "weak_limit": (":", BLACK, 1.2, "edges weak above, stronger below"),
 }

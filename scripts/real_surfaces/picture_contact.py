@@ -43,7 +43,7 @@ CONTACT_TOLERANCE = 1e-4
 PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
-PULL_OFF_TOLERANCE = 1e-3
+PULL_OFF_TOLERANCE, PULL_OFF_STEPS = 1e-3, 20
 OPEN, ATTRACTED, TOUCHING = range(3)
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
@@ -220,6 +220,7 @@ def separate(rough, band, material, law, squeeze):
         )
     squeeze, law = squeeze * q0 * h_rms, LAWS[law](length, range_)
     settings = {"squeeze": squeeze, "tol": PULL_OFF_TOLERANCE, "solid": material.solid}
+    settings["steps"] = PULL_OFF_STEPS
     try:
         with warnings.catch_warnings():
             # What a coarse grid does to the result is in the limits.

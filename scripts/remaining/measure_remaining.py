@@ -39,13 +39,13 @@ VARIABLES = {
     **{n: ("1", OTHERS[n], f"never attracted, or {COARSE}") for n in OTHERS if "zero_load" in n},
     "zone": "q0 range^2 over adhesion length",
     "energy": "work of adhesion over elastic energy of full contact of this surface",
+    "squeeze": "pressure before separation over E* q0 h_rms",
     "adhesion_length": "adhesion length over q0 h_rms^2",
     "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2",
     "shell_q": "wave number over q0",
     "shell_variance": "variance of the heights on a shell over h_rms^2",
     "seconds": ("s", "processor time"),
 }
-RESOLVED = 2.0  # pixels in the cohesive zone
 FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path is endless
 
 
@@ -58,15 +58,17 @@ def main(job):
     along, values = "zone", made.get("zones")
     if values is None:
         along, values = "range_over_h_rms", made["ranges"]
+    squeezes = made.get("squeezes", [job.params.squeeze])
+    axes = {"energy": made["energies"], along: values, "squeeze": squeezes}
     rows = []
-    for ratio, value in product(made["energies"], values):
+    for ratio, value, squeeze in product(*axes.values()):
         began, adhesion_length = time.process_time(), ratio * energy
         range_ = np.sqrt(value * adhesion_length) if along == "zone" else value
         law = LAWS[job.params.law](adhesion_length, range_)
-        row = measure(heights, length, law, job.params.squeeze)
+        row = measure(heights, length, law, squeeze)
         rows.append(row | {"seconds": time.process_time() - began})
-        logging.info("w/U %g, %s %g: %s", ratio, along, value, rows[-1])
-    dims, shape = ("energy", along), (len(made["energies"]), len(values))
+        logging.info("w/U %g, %s %g, squeeze %g: %s", ratio, along, value, squeeze, rows[-1])
+    dims, shape = tuple(axes), [len(axis) for axis in axes.values()]
     dataset = xr.Dataset(
         {
             **{key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
@@ -76,13 +78,13 @@ def main(job):
             "shell_q": ("shell", spectrum.q),
             "shell_variance": ("shell", spectrum.variance),
         },
-        coords={"energy": made["energies"], along: values},
+        coords=axes,
     )
     datasets.write(
         annotate(dataset, **VARIABLES),
         job.output[0],
         title="adhesion that remains on one rough surface",
-        parameters={**made, "seed": seed, "law": job.params.law, "squeeze": job.params.squeeze},
+        parameters={**made, "seed": seed, "law": job.params.law},
     )
 
 
@@ -96,7 +98,7 @@ def measure(heights, length, law, squeeze):
     with warnings.catch_warnings():
         # What a coarse grid does to the result is in the limits.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        half_grid = pixels >= 2 * RESOLVED
+        half_grid = pixels >= 2 * measurement.RESOLVED
         found = measurement.measure(heights, length, law, squeeze, half_grid=half_grid)
     row |= {key: getattr(found, key) for key in (*QUOTED, *OTHERS)}
     for key in QUOTED:

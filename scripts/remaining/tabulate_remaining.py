@@ -42,9 +42,10 @@ def list_rows(path):
     data = datasets.read(path, SIMULATED)
     made = datasets.parameters(data)
     energy = float(data.full_contact_energy)
-    rough = Roughness(h_rms=1.0, q0=made.get("rolloff", 1.0), elastic_energy=energy)
+    slope = float(data.rms_slope)
+    rough = Roughness(1.0, made.get("rolloff", 1.0), energy, rms_slope=slope)
     along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
-    points = data.stack(point=("energy", along)).dropna("point", subset=["bound"])
+    points = data.stack(point=("energy", along, "squeeze")).dropna("point", subset=["bound"])
     for index in range(points.sizes["point"]):  # where the grid was fine enough
         point = points.isel(point=index)
         ratio, length, range_ = (float(point[n]) for n in ("energy", "adhesion_length", "range"))
@@ -53,7 +54,9 @@ def list_rows(path):
             "set": Path(path).parent.name,
             **{name: made[name] for name in MADE},
             "full_contact_energy": energy,
+            "rms_slope": slope,
             "energy_ratio": ratio,
+            "squeeze": float(point.squeeze),
             "zone": rough.q0 * range_**2 / length,
             "range": range_,
             "adhesion_length": length,

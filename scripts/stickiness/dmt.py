@@ -1,13 +1,14 @@
-"""Adhesion in the DMT limit, from the gaps of a repulsive solution, and the fit of a_V to it.
+"""Adhesion from the gaps of contact without it: DMT sum, weak limit, and the fit of a_V.
 
-The attraction does not deform the surfaces: every quantity is an integral over the gap distribution
-P(u) of the contact without adhesion. Gaps and ranges share one unit of length, pressures are in
-units of E*, areas are fractions of the nominal area. Malformed arguments, negative gaps among them,
-raise a ValueError.
+Every quantity is an integral over the gap distribution P(u) of the contact without adhesion. Weak
+adhesion tends to `weak_attraction` and not to the sum of tractions (DMT sum). Gaps and ranges share
+one unit of length, pressures are in units of E*, areas are fractions of the nominal area. Malformed
+arguments, negative gaps among them, raise a ValueError.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 
 import numpy as np
@@ -23,10 +24,11 @@ _FIT = ("AvFit", "fit_a_v", "local_exponent")
 __all__ = [  # noqa: PLE0604
     "STRIP_WIDTH",
     "adhesive_pressure",
-    "attraction_of_areas",
     "attractive_area",
     "boundary_strip",
     "edge_gap",
+    "sum_over_gaps",
+    "weak_attraction",
     *_FIT,
 ]
 
@@ -83,10 +85,10 @@ def adhesive_pressure(gap: ArrayLike, law: TractionLaw, contact: ArrayLike | Non
     return float(np.sum(law.traction(gap[~contact]))) / gap.size
 
 
-def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) -> NDArray:
-    """Mean attraction p_ad [E*] from attractive areas, the integral of sigma over them.
+def sum_over_gaps(area: ArrayLike, ranges: ArrayLike, function: Callable) -> NDArray:
+    """Mean of a function of the gap over the open gaps, from attractive areas.
 
-    Gaps up to the smallest range count with the traction at half of it, those beyond the largest
+    Gaps up to the smallest range count with the function at half of it, those beyond the largest
     not at all. NaN where an area is.
 
     Parameters
@@ -94,9 +96,10 @@ def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) ->
     area : (..., k) array
         A_ad/A_nom within each of the ranges.
     ranges : (k,) array
-        Ranges [length] in increasing order, close to each other on a log scale; where the law is
-        discontinuous one of them.
-    law : TractionLaw
+        Ranges [length] in increasing order, close to each other on a log scale; where the function
+        is discontinuous one of them.
+    function : callable
+        ``law.traction`` gives the mean attraction p_ad [E*], ``law.potential`` the mean potential.
     """
     area, (ranges,) = numbers("area", area), positive(ranges=ranges)
     if ranges.ndim != 1 or not np.all(np.diff(ranges) > 0) or area.shape[-1:] != ranges.shape:
@@ -105,8 +108,42 @@ def attraction_of_areas(area: ArrayLike, ranges: ArrayLike, law: TractionLaw) ->
             f"got shapes {ranges.shape} and {area.shape}"
         )
     middle = np.sqrt(ranges[1:] * ranges[:-1])
-    within = law.traction(ranges[0] / 2) * area[..., 0]
-    return within + np.diff(area) @ law.traction(middle)
+    return function(ranges[0] / 2) * area[..., 0] + np.diff(area) @ function(middle)
+
+
+def weak_attraction(pressure: ArrayLike, mean_gap: ArrayLike, potential: ArrayLike) -> NDArray:
+    """Attraction [E*] to first order in the work of adhesion, at given mean gaps.
+
+    That is the pressure without adhesion less the pressure with it. The energy of contact is
+    stationary: to first order it changes by the mean potential of the gaps without adhesion, and
+    the pressure by the slope of this potential against the mean gap (Feynman 1939,
+    doi:10.1103/PhysRev.56.340). At a given pressure the mean gap falls by the slope of the same
+    potential against the pressure. What adhesion adds to the area does not follow from these gaps.
+
+    Parameters
+    ----------
+    pressure : (k,) array
+        Mean pressures [E*] of three or more contacts without adhesion, increasing.
+    mean_gap, potential : (..., k) arrays
+        Their mean gaps [length] and their means of ``law.potential`` [length], contact points at
+        gap 0 included. The law must have a hard wall.
+
+    Returns
+    -------
+    array of the shape of `potential`, NaN where an argument is
+        From logarithmic slopes between neighbours. Means over four surfaces have errors of 3 % if
+        loads differ by a factor of 2, 6 % for 5 and 10 % for 9; one surface has 10 % for 2.
+    """
+    (pressure,) = positive(pressure=pressure)
+    gap, potential = numbers("mean_gap", mean_gap), numbers("potential", potential)
+    if pressure.ndim != 1 or pressure.size < 3 or not np.all(np.diff(pressure) > 0):
+        raise ValueError(f"pressure must be three or more increasing numbers, got {pressure!r}")
+    if not gap.shape[-1:] == potential.shape[-1:] == pressure.shape or np.any(potential >= 0):
+        message = "mean_gap and potential must have a value, potential a negative one, for each of"
+        raise ValueError(f"{message} {pressure.size} pressures, got {mean_gap!r} and {potential!r}")
+    logs, along = np.log(pressure), {"axis": -1, "edge_order": 2}
+    growth = np.gradient(np.log(-potential), logs, **along)
+    return potential * growth / np.gradient(gap, logs, **along)
 
 
 def __getattr__(name: str):

@@ -61,7 +61,7 @@ def find_threshold(external):
 
 
 def tabulate_adhesion(measured, records):
-    """Add rows of every setting, the DMT limit and numbers of seeds, and points."""
+    """Add rows of every setting, the DMT sum and numbers of seeds, and points."""
     made, unit = datasets.parameters(measured), float(measured.pair_time)
     measured = measured.set_index(solution=list(SETTINGS)).unstack("solution")
     usual = {"pixels": made["at_pixels"], "tolerance": made["tolerance"]}
@@ -81,7 +81,7 @@ def tabulate_adhesion(measured, records):
                 records.add(label, f"{value:g}", split_loads(name, error), cost)
                 if modelled and value != COARSE:
                     add_points(name, knob, value, error, records)
-        # The DMT limit costs nothing once the contact without adhesion is solved.
+        # The DMT sum costs nothing once the contact without adhesion is solved.
         error = one.limit.sel(usual) / one.full.sel(usual) - 1
         records.add("model", "DMT", split_loads(name, error), 0.0)
         if of_states:
@@ -108,7 +108,7 @@ def add_points(name, knob, value, error, records):
 
 
 def tabulate_seeds(name, one, modelled, usual, unit, records):
-    """Add means, plain and with the DMT limit of the coarsest grid as control variate."""
+    """Add means, plain and with the DMT sum of the coarsest grid as control variate."""
     twin = one.limit.sel(usual | {"pixels": one.pixels.min()})
     scatter, share = measure_scatter(one.full.sel(usual), twin)
     seconds = one.seconds.sel(usual).mean("seed")

@@ -17,7 +17,7 @@ from stickiness.repulsive import solver
 from tradeoff import measuring
 
 FINEST_TOLERANCE = 1e-10  # the reference of the other tolerances
-DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the pull-off in the DMT limit
+DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the pull-off by the DMT sum
 POINT = ("range_over_h_rms", "adhesion_length_over_range")
 CLOSED = "a window closes"
 STATES = {
@@ -30,7 +30,7 @@ STATES = {
 }
 PULL_OFFS = {
     "pull_off": "lowest mean pressure over E* q0 h_rms",
-    "pull_off_dmt": ("1", "the same in the DMT limit", "not with the usual grid and tolerance"),
+    "pull_off_dmt": ("1", "the same by the DMT sum", "not with the usual grid and tolerance"),
     "seconds": ("s", "processor time of the separation"),
 }
 

@@ -102,7 +102,7 @@ def draw_models(ax, found, styles):
             ax.axhline(one.error, color=colour, linestyle=":", linewidth=1)
     if (found.cost > 0).any():
         return [make_key("theory", linestyle="", marker="*")]
-    return [make_key("DMT limit", linestyle=":")]
+    return [make_key("DMT sum", linestyle=":")]
 
 
 def finish(ax, label):

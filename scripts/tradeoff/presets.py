@@ -1,7 +1,7 @@
 """Presets: the cheapest settings for an error in every quantity, those of full adhesion too.
 
 Full adhesion is solved on the realisations of a case and on their grid, to a tolerance of its own.
-From `FEWEST` seeds on, its means use the DMT limit of the coarse seeds as their control; with fewer
+From `FEWEST` seeds on, its means use the DMT sum of the coarse seeds as their control; with fewer
 they are plain. A pull-off is a result of one realisation, not a mean: only its grid matters.
 """
 

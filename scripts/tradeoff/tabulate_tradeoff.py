@@ -50,7 +50,7 @@ def main(job):
             tabulate(measured, records)
     found, models = pd.DataFrame(records.rows), fit_models(records.points)
     models |= {
-        # The control of full adhesion is its DMT limit, in proportion to an attractive area.
+        # The control of full adhesion is its DMT sum, in proportion to an attractive area.
         ("coarse_share", column): models["coarse_share", "attractive_area_0.1"]
         for part, column in [*models]
         if part == "fine_share" and ("coarse_share", column) not in models

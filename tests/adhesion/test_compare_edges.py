@@ -36,10 +36,11 @@ def test_simulation_of_spheres_is_the_model_of_the_edges():
             "area_alone": ("pressure", 0.9 * at),
         },
         coords=dict(zip(dims, (at, lengths, ranges), strict=True)),
-        attrs={"parameters": '{"law": "maugis", "grid_points": 512, "refine": 1}'},
     ).expand_dims(resolution=[8.0])
-    found = compare_edges.compare(adhesive, alone, q0_h_rms, -1)
+    made = {"law": "maugis", "grid_points": 512, "refine": 1, "q0_h_rms": q0_h_rms}
+    made |= {dims[1]: lengths, dims[2]: ranges, "pressures": at}
+    found = compare_edges.compare(adhesive, alone, made, -1)
     np.testing.assert_allclose(found.effect, found.effect_model, rtol=1e-3)
-    few = adhesive.assign_attrs(parameters='{"law": "maugis", "grid_points": 64, "refine": 1}')
-    assert compare_edges.compare(few, alone, q0_h_rms, -1).effect.isnull().all()
+    few = compare_edges.compare(adhesive, alone, made | {"grid_points": 64}, -1)
+    assert few.effect.isnull().all()
     np.testing.assert_allclose(found.edge_strength.transpose(*dims)[0], tau, rtol=1e-3)

@@ -310,7 +310,8 @@ def ratios():
     coords = {"pressure": [0.065], "adhesion_length_over_range": [0.001, 0.01]}
     coords |= {"range_over_h_rms": [0.1, 1.0]}
     value = np.array([[[1.0, 1.5], [3.0, np.nan]]])
-    variables = {"dmt_ratio*": value, "dmt_ratio_net": value - 0.2, "q0_h_rms": 0.1}
+    variables = {"dmt_ratio*": value, "dmt_ratio_at_gap": value - 0.2, "q0_h_rms": 0.1}
+    variables |= {"weak_ratio": value + 0.1}
     variables |= {"zone_strength": [[[0.1, 0.2], [5.0, 6.0]]]}
     return dataset(coords, variables, magnification=32)
 
@@ -328,11 +329,12 @@ def test_figure_7a_writes_ratios_bold_where_the_dmt_limit_holds(ax, ratios):
     np.testing.assert_allclose(error, [np.expm1(TOTAL), 1.5 * np.exp(TOTAL) - 1])
 
 
-def test_figure_7b_has_the_weakest_adhesion_with_its_compressed_area(ax, ratios):
+def test_figure_7b_has_the_weakest_adhesion_at_equal_area_and_at_equal_mean_gap(ax, ratios):
     plot_fig7.draw_weak(ax, ratios)
     x = np.array([0.1, 1.0]) / 1.06
     drawn(ax, x, [1.0, 1.5], marker="o", color=plotting.BLUE, markerfacecolor=plotting.BLUE)
     drawn(ax, x, [0.8, 1.3], markerfacecolor="white")
+    drawn(ax, x, [0.8 / 1.1, 1.3 / 1.6], linestyle="-", marker="None")
     assert_bars(ax, [1.0, 1.5])
 
 

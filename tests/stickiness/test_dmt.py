@@ -1,9 +1,10 @@
-"""Areas, densities and attraction over gaps against closed forms and finer grids; fit of a_V."""
+"""Areas and attraction over gaps, weak limit, against closed forms and finer grids; fit of a_V."""
 
 import numpy as np
 import pytest
 
-from stickiness import adhesive, dmt
+from stickiness import adhesive, dmt, repulsive, spectrum, surface
+from stickiness.criteria import equivalent_sphere
 
 LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
 
@@ -40,7 +41,7 @@ def test_maugis_attraction_is_stress_times_attractive_area():
     ranges = np.geomspace(1e-6, 1.0, 385) * law.range
     for subpixel in (False, True):
         area = dmt.attractive_area(gap, ranges, subpixel=subpixel)
-        attraction = dmt.attraction_of_areas(area, ranges, law)
+        attraction = dmt.sum_over_gaps(area, ranges, law.traction)
         assert attraction == pytest.approx(0.2 * area[-1], rel=1e-12)
 
 
@@ -53,7 +54,8 @@ def test_attraction_of_hertz_gap_against_radial_integral(kind):
     near = np.hypot(*np.meshgrid(x, x, indexing="ij")) < side / 2
     ranges = np.union1d(np.geomspace(1e-6, 1.0, 385) * gap.max(), [law.range])
     gap = np.where(near, gap, 0.0)
-    attraction = dmt.attraction_of_areas(dmt.attractive_area(gap, ranges), ranges, law)
+    area = dmt.attractive_area(gap, ranges)
+    attraction = dmt.sum_over_gaps(area, ranges, law.traction)
     # The midpoint of many thin rings: immune to the jump of the Maugis law but for one ring.
     r = 1 + (np.arange(200000) + 0.5) * (side / 2 - 1) / 200000
     ring = 2 * np.pi * r * (side / 2 - 1) / 200000
@@ -61,6 +63,10 @@ def test_attraction_of_hertz_gap_against_radial_integral(kind):
     # Pixels on the circles at contact edge and range: see the area test; 0.3 % of this area.
     assert attraction == pytest.approx(exact, rel=3e-3)
     assert dmt.adhesive_pressure(gap, law) == pytest.approx(exact, rel=3e-3)
+    # The potential counts the near gaps most; contact points are left out.
+    exact = np.sum(law.potential(_hertz(r)) * ring) / side**2
+    potential = dmt.sum_over_gaps(area, ranges, law.potential)
+    assert potential == pytest.approx(exact, rel=3e-3)
 
 
 @pytest.mark.slow
@@ -75,6 +81,58 @@ def test_local_exponent_of_edge_gaps_is_two_thirds():
     np.testing.assert_allclose(
         dmt.local_exponent(eps, dmt.attractive_area(gap, eps)), 2 / 3, rtol=0.04
     )
+
+
+# --- weak limit ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("range_", [0.003, 0.1, 3.0])
+def test_weak_limit_of_a_sphere_is_what_reciprocity_gives(range_):
+    """Hertzian contacts of a sphere of radius 1 at three approaches, and a constant traction."""
+    law = adhesive.Maugis(adhesion_length=1.0, range=range_)
+
+    def contact(approach):
+        radius = np.sqrt(approach)
+        ends = np.geomspace(1e-7, 30, 200_001)
+        r, width = 1 + (ends[1:] + ends[:-1]) / 2, np.diff(ends)
+        gap = approach * _hertz(r)
+        within = np.pi * radius**2
+        open_gaps = np.sum(law.potential(gap) * 2 * np.pi * r * width) * radius**2
+        attractive = np.sum((gap <= range_) * 2 * np.pi * r * width) * radius**2
+        return 4 / 3 * radius**3, 7 - approach, open_gaps - within, attractive / within
+
+    states = [contact(approach) for approach in (0.99, 1.0, 1.01)]
+    *given, (_, t, _) = np.transpose(states)
+    found = dmt.weak_attraction(*given)[1] / (law.maugis_stress * np.pi * t)
+    assert found == pytest.approx(equivalent_sphere.weak_effect_at_approach(t), rel=3e-4)
+
+
+@pytest.mark.parametrize("range_", [0.1, 0.3])
+@pytest.mark.parametrize(("kind", "error"), [(adhesive.Exponential, 1e-4), (adhesive.Maugis, 3e-3)])
+def test_weak_adhesion_tends_to_its_limit_and_not_to_the_sum(kind, error, range_):
+    """Full solutions at the same mean gap and at the same load; Maugis' traction counts pixels."""
+    law = kind(adhesion_length=1e-5 * range_, range=range_)
+    band, side = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0), 2 * np.pi
+    heights = surface.synthesise(band, 64, side, seed=3)
+    loads = 0.1 * np.exp([-3e-4, 0, 3e-4])
+    path = list(repulsive.load_path(heights, side, loads, tol=1e-11))
+    gaps, potential = np.transpose([(c.mean_gap, law.potential(c.gap).mean()) for c in path])
+    limit, alone = dmt.weak_attraction(loads, gaps, potential)[1], path[1]
+
+    held = adhesive.solve(heights, side, law, mean_gap=gaps[1], start=alone.gap, tol=1e-11)
+    assert loads[1] - held.mean_pressure == pytest.approx(limit, rel=error)
+    assert limit < 0.75 * dmt.adhesive_pressure(alone.gap, law)
+    pressed = adhesive.solve(heights, side, law, loads[1], start=alone.gap, tol=1e-11)
+    slope = (potential[2] - potential[0]) / (loads[2] - loads[0])
+    assert pressed.mean_gap - gaps[1] == pytest.approx(slope, rel=error)
+
+
+def test_weak_limit_of_a_power_of_the_gap_is_exact_between_any_loads():
+    loads = np.array([0.01, 0.05, 0.2, 0.9])
+    gaps = np.stack([2 - np.log(loads), 3 - 2 * np.log(loads)])
+    found = dmt.weak_attraction(loads, gaps, -0.3 * loads**0.7)
+    # d potential/d ln(load) over d gap/d ln(load)
+    np.testing.assert_allclose(found, 0.21 * loads**0.7 / [[1], [2]], rtol=1e-12)
 
 
 # --- strip of the boundary -----------------------------------------------------------------
@@ -138,6 +196,10 @@ def test_standard_error_matches_the_scatter_of_fits():
         (lambda: dmt.attractive_area([[0.0, 1.0]], 1.0, [[1, 0]]), "contact must be a boolean"),
         (lambda: dmt.attractive_area([0.0, 1.0], 1.0, subpixel=True), "two-dimensional"),
         (lambda: dmt.edge_gap([0.0, 1.0]), "two-dimensional"),
+        (lambda: dmt.weak_attraction([1, 2], [2, 1], [-1, -2]), "three or more increasing"),
+        (lambda: dmt.weak_attraction([3, 2, 1], [1, 2, 3], [-3, -2, -1]), "three or more incr"),
+        (lambda: dmt.weak_attraction([1, 2, 3], [3, 2], [-1, -2, -3]), "each of 3 pressures"),
+        (lambda: dmt.weak_attraction([1, 2, 3], [3, 2, 1], [1, 2, 3]), "potential a negative one"),
         (lambda: dmt.local_exponent([1.0, 2.0], [1.0, 2.0]), "eps must be an increasing"),
         (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(0.1, 0.01)), "window must be two"),
         (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(2.0, 3.0)), "must hold at least two"),

@@ -63,10 +63,10 @@ MISUSES = [
     (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
     (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),
     (
-        lambda: dmt.attraction_of_areas([0.3, 0.2, 0.1], [3, 2, 1], LAW),
+        lambda: dmt.sum_over_gaps([0.3, 0.2, 0.1], [3, 2, 1], LAW.traction),
         "ranges must be an increasing sequence",
     ),
-    (lambda: dmt.attraction_of_areas([0.1, 0.2], [1, 2, 3], LAW), "with one area each"),
+    (lambda: dmt.sum_over_gaps([0.1, 0.2], [1, 2, 3], LAW.traction), "with one area each"),
     (lambda: a_v_table.local_a_v(0.1, 0.0, 0.1), "pressure must be positive"),
     (
         lambda: a_v_table.edge_range([1, 2], [np.nan, 1], [1, 1]),

@@ -134,7 +134,7 @@ def test_adhesion_is_solved_in_full_only_where_the_dmt_limit_is_not_good_enough(
         "limit": "model: dmt",
         "full": "model: full",
     }
-    # The least rough of the surfaces on which the error of the DMT limit was measured.
+    # The least rough of the surfaces on which the error of the DMT sum was measured.
     fresh.edit(
         "config/tiny.yaml", "{hurst: 0.8, magnification: 4}", "{hurst: 0.8, magnification: 32}"
     )

@@ -299,7 +299,7 @@ class Configuration(Section):
         if self.adhesion["fig2"].maps is None:
             yield "adhesion.fig2.maps is missing; Figure 2 needs it: {pressures, ...}"
         if self.adhesion["dmt_error"].model != "full":
-            yield "adhesion.dmt_error.model must be full; the error of the DMT limit is measured"
+            yield "adhesion.dmt_error.model must be full; the error of the DMT sum is measured"
         for key, name, known in self._references():
             if name not in known:
                 yield f.unknown(key, name, known)
@@ -467,6 +467,7 @@ class RemainingSet(ModelSurface):
     energies: f.Values
     zones: f.Values = optional("q0 range^2/adhesion_length")
     ranges: f.Values = optional("ranges over h_rms")
+    squeezes: f.Values = optional("pressures before separation, over E* q0 h_rms; by default 0.1")
 
     def _problems(self, context):
         yield from super()._problems(context)

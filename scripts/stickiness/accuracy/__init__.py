@@ -5,5 +5,5 @@
 - `settings`: error and cost of settings by these models, and the cheapest for an accuracy
 - `plan`: the settings of each case of the configuration, and which cases share solutions
 - `multilevel`: means over random surfaces, with control variates on two levels
-- `model_choice`: whether the DMT limit is accurate enough, or full adhesion is needed
+- `model_choice`: whether the DMT sum is accurate enough, or full adhesion is needed
 """

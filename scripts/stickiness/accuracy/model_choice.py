@@ -1,6 +1,6 @@
-"""Which adhesive model a set of parameters gets: the DMT limit where it is good enough, or full.
+"""Which adhesive model a set of parameters gets: the DMT sum where it is good enough, or full.
 
-The DMT limit costs nothing once the contact without adhesion is solved. A table of its measured
+The DMT sum costs nothing once the contact without adhesion is solved. A table of its measured
 error says where it holds within an accuracy, by law, Hurst exponent and magnification of the
 surface (Gaussian, a window of one longest wavelength), pressure p/(E* q0 h_rms), range/h_rms and
 strength (l_a/range)/(q0 h_rms). Beyond the table nothing is known, and the full model is chosen.
@@ -32,7 +32,7 @@ ErrorTable = Mapping[tuple[str, float], tuple[tuple[NDArray, ...], NDArray, NDAr
 
 
 def relative_error(table: ErrorTable, law: str, hurst: float, *values: float) -> float:
-    """Largest relative error of the DMT limit in 1/kappa_ad, NaN outside the table.
+    """Largest relative error of the DMT sum in 1/kappa_ad, NaN outside the table.
 
     It is ``|DMT/full - 1|`` with the ratio as far from 1 as its error allows. The values are in the
     order of `AXES`; between the lattice's points, logarithms are linear.
@@ -98,8 +98,8 @@ def read_table(path: str | Path) -> ErrorTable:
 class Choice:
     """Model of every point, arrays (pressures, adhesion lengths, ranges), each in rising order."""
 
-    full: NDArray  #: bool: whether the full model is to be solved, else the DMT limit
-    dmt_error: NDArray  #: relative error of the DMT limit by the table, NaN outside it
+    full: NDArray  #: bool: whether the full model is to be solved, else the DMT sum
+    dmt_error: NDArray  #: relative error of the DMT sum by the table, NaN outside it
     jtb: NDArray  #: bool: whether the condition of Joe, Thouless and Barber for that limit holds
 
 

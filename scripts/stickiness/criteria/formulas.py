@@ -59,7 +59,7 @@ def _verdict(name: str, margin: ArrayLike) -> Verdict:
     return Verdict(name, plain(margin > 1), plain(margin))
 
 
-# --- Area-load relation of an adhesive contact in the DMT limit ------------------------------
+# --- Area-load relation of an adhesive contact by the DMT sum --------------------------------
 # Attraction is proportional to repulsion whatever the load; all that follows rearranges the ratio.
 # Source: Violano, Afferrante, Papangelo & Ciavarella, J. Adhesion (2019).
 
@@ -68,7 +68,7 @@ def _verdict(name: str, margin: ArrayLike) -> Verdict:
 def traction_ratio(
     h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike, a_v: ArrayLike
 ) -> float | NDArray:
-    """Ratio p_ad/p_rep of attraction to repulsion in the DMT limit, independent of the load.
+    """Ratio p_ad/p_rep of attraction to repulsion by the DMT sum, independent of the load.
 
     (3 a_V/2) (l_a/range) (range/h_rms)^(2/3)/(q0 h_rms); the contact is sticky above 1.
 

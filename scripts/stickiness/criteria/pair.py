@@ -47,7 +47,7 @@ QUANTITIES = {
     "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
     "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
     "attractive_over_contact": ("1", "area within the range over area of contact"),
-    "over_dmt": ("1", "attraction over its DMT limit, at equal area of contact"),
+    "over_dmt": ("1", "attraction over its DMT sum, at equal area of contact"),
     "regime": ("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
     "simulated": ("1", "1 where full simulation agrees with the model"),
     "jtb_margin": ("1", "rms height over the smallest at which the DMT limit holds (JTB)"),

@@ -90,12 +90,12 @@ _TABLE = (
         reason="Above 1 contact grows by itself at the finest wave, which is not to say that it "
         "holds. The attractive area is {attractive_over_contact} of the contact area. The "
         "Tabor parameter of the edges is {edge_strength} ({regime}). The attraction is "
-        "{over_dmt} times its DMT limit at equal area of contact.",
+        "{over_dmt} times its DMT sum at equal area of contact.",
         line=Line("red", "--", 1.2, filled=False),
     ),
     Criterion(
         "violano",
-        "derived (DMT limit)",
+        "derived (DMT sum)",
         margin=_margin_of(formulas.violano, *_HEIGHTS, "a_v"),
         power=3 / 5,
         reason="h_rms = {h_rms}, q0 = {q0}/m and a_V = {a_v}. Long waves set the repulsion; "

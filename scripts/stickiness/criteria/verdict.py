@@ -169,12 +169,13 @@ def verdict(
         )
     if a_v is None:
         a_v = surface_a_v(spectrum, known).at(range / known["h_rms"])
-    for name, given in (("separation_factor", separation_factor), ("a_v", a_v)):
-        value, low, high = map(float, positive(**{name: given})[0])
+    limited = {"a_v": a_v, "separation_factor": separation_factor}
+    for (name, given), (value, low, high) in zip(limited.items(), positive(**limited), strict=True):
         if not low <= value <= high:
             raise ValueError(
                 f"{name} must be (value, low, high) with low <= value <= high, got {given!r}"
             )
+    value, low, high = map(float, a_v)
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
     known |= {"wanted_share": wanted_share, "separation_factor": separation_factor}

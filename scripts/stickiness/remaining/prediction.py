@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import number, plain, positive
-from stickiness.remaining.share import ONSET, find_onset, remaining_share, tough_area
+from stickiness.remaining.share import ONSET, find_deepest_state, remaining_share
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 
@@ -28,14 +28,13 @@ LEAST_ERROR = 0.015
 # than springs. Both were set so that limits hold all simulations on layers (H = 0.6 and 0.8, no
 # roll-off); no others were kept back.
 LAYER_LESS, LAYER_MORE = 0.06, 0.2
-# The largest tension on separation is what remains over a distance, the range plus
-# DISTANCE x^DISTANCE_POWER rms heights.
-DISTANCE, DISTANCE_POWER, PULL_OFF_ERROR = 1.25, 0.25, 0.3
+PULL_OFF_ERROR = 0.3  # of the largest tension, beside the error of the share
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
 PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
 # Jumps at a given mean gap: what the energy gained over the work of approach, and the work of
 # separation over the energy gained, reach in simulations. Both grow as the range falls further.
 LATE, HYSTERESIS = 1.3, 1.6
+_NOTHING = 1e-12  # of tensions that act at all, over elastic_energy/h_rms
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
@@ -56,9 +55,7 @@ class Prediction:
     approach: float  #: work at given mean gaps
     separation: float
     pull_off: float  #: largest mean tension on separation [E*]
-    #: Share of the nominal area in contact, 0 where attraction acts over gaps; an upper estimate,
-    #: see `share.tough_area`.
-    area_at_zero_load: float
+    area_at_zero_load: float  #: share of the nominal area; an upper estimate, `share.tough_area`
     approach_limits: tuple[float, float]
     separation_limits: tuple[float, float]
     pull_off_limits: tuple[float, float]
@@ -81,6 +78,7 @@ class Roughness:
     #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     half_space_energy: ArrayLike | None = None
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
+    rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
 
     def share(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
@@ -91,7 +89,8 @@ class Roughness:
         zone = self.zone(adhesion_length, range)
         reach = np.asarray(range) / self.h_rms
         onset = ONSET - sign * ONSET_ERROR
-        share = remaining_share(ratio, reach, zone, onset, self.relative_compliance)
+        compliance, load_scale = self.relative_compliance, self.load_scale
+        share = remaining_share(ratio, reach, zone, onset, compliance, load_scale)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
         share = share * (1 + SHARE_ERROR * lost) ** sign + sign * LEAST_ERROR * fades * lost
@@ -104,16 +103,34 @@ class Roughness:
             # and a softer one has none of more.
             known = np.isfinite(self.half_space_energy)
             energy = np.where(known, self.half_space_energy, self.elastic_energy)
-            deep = Roughness(self.h_rms, self.q0, energy).share(adhesion_length, range, sign)
+            deep = Roughness(self.h_rms, self.q0, energy, rms_slope=self.rms_slope)
+            deep = deep.share(adhesion_length, range, sign)
             bound = np.where(harder >= 0, np.minimum(share, deep), np.maximum(share, deep))
             share = np.where(known, bound, share)
         # Full contact is a state that the surfaces may take.
         return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
 
+    @property
+    def load_scale(self) -> float | NDArray:
+        """Elastic energy of full contact over rms height and rms slope, see `share`."""
+        return np.asarray(self.elastic_energy) / (np.asarray(self.h_rms) * self.rms_slope)
+
+    def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Share of the nominal area that is in contact at zero load."""
+        return plain(self._deepest_state(adhesion_length, range)[2])
+
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-        """Distance over which what remains acts, the range plus part of the rms height [length]."""
+        """Distance over which what remains acts: its work over the largest tension [length]."""
+        share, tension, _ = self._deepest_state(adhesion_length, range)
         ratio = np.asarray(adhesion_length) / self.elastic_energy
-        return plain(np.asarray(range) + DISTANCE * ratio**DISTANCE_POWER * self.h_rms)
+        acts = tension > _NOTHING
+        found = self.h_rms * ratio * share / np.where(acts, tension, 1.0)
+        return plain(np.where(acts, found, np.asarray(range) + self.h_rms))
+
+    def _deepest_state(self, adhesion_length, range):
+        ratio, reach = np.asarray(adhesion_length) / self.elastic_energy, range / self.h_rms
+        zone = self.zone(adhesion_length, range)
+        return find_deepest_state(ratio, reach, zone, self.load_scale)
 
     def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Width of the cohesive zone over the longest waves.
@@ -161,11 +178,11 @@ class Roughness:
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
-        at = np.broadcast_arrays(*values, half_space, sign, share)
+        at = np.broadcast_arrays(*values, half_space, sign, self.rms_slope, share)
         energy = at[2]
 
-        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, share):
-            rough = Roughness(h, q0, energy, compliance, half_space)
+        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, slope, share):
+            rough = Roughness(h, q0, energy, compliance, half_space, rms_slope=slope)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
@@ -236,6 +253,7 @@ def predict(
         relative_compliance=check_solid(solid).factor(q0),
         half_space_energy=find_half_space_energy(spectrum, solid),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
+        rms_slope=spectrum.rms_slope,
     )
     low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
     ratio, softened = length / rough.elastic_energy, length * rough.relative_compliance
@@ -244,7 +262,7 @@ def predict(
         approach=share,
         separation=share,
         pull_off=pull_off,
-        area_at_zero_load=float(tough_area(ratio, find_onset(rough.zone(length, range)))),
+        area_at_zero_load=float(rough.area(length, range)),
         approach_limits=(low / LATE, high),
         separation_limits=(low, min(HYSTERESIS * high, 1.0)),
         pull_off_limits=(least, most),

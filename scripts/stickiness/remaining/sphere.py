@@ -16,7 +16,6 @@ from scipy import optimize
 
 from stickiness.arguments import plain, positive
 from stickiness.remaining.prediction import HYSTERESIS, Roughness
-from stickiness.remaining.share import find_onset, tough_area
 
 # Elastic energies that a pinned edge costs at most: the loss measured is within at the energy
 # ratios of 4 to 6 where it was.
@@ -70,8 +69,7 @@ def work_of_separation(
     if sign <= 0:
         return share
     ratio = np.asarray(adhesion_length) / rough.elastic_energy
-    area = np.asarray(tough_area(ratio, find_onset(rough.zone(adhesion_length, range))))
-    pinned = np.minimum(share + area, 1 + PINNING / ratio)
+    pinned = np.minimum(share + rough.area(adhesion_length, range), 1 + PINNING / ratio)
     return np.maximum(np.minimum(HYSTERESIS * share, 1.0), pinned)
 
 

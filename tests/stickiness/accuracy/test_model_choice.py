@@ -1,4 +1,4 @@
-"""Where the DMT limit is taken: the table of its error, and the choice by it."""
+"""Where the DMT sum is taken: the table of its error, and the choice by it."""
 
 from pathlib import Path
 

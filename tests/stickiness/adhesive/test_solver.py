@@ -74,7 +74,7 @@ def test_states_are_in_equilibrium(kind, eps, la, start):
 
 @pytest.mark.parametrize("kind", LAWS)
 def test_weak_attraction_is_the_repulsive_contact(kind):
-    """DMT limit: gaps of the repulsive solution, attraction its integral over them."""
+    """DMT sum: gaps of the repulsive solution, attraction its integral over them."""
     heights = rough(64)
     contact = repulsive.solve(heights, 1.0, LOAD, tol=1e-10)
     law = law_of(kind, 0.1, 1e-7)

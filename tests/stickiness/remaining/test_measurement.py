@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from references.gradient_flow import follow
 
 from stickiness import adhesive, surface
 from stickiness.remaining import measure
@@ -17,9 +18,12 @@ def random_heights(n=64, magnification=4.0):
 
 
 def test_flat_surfaces_part_at_the_full_work():
-    found = measure(np.zeros((16, 16)), 1.0, adhesive.Exponential(1e-3, 0.1), squeeze=0.01)
-    assert found.separation == pytest.approx(1, rel=0.02)
-    assert found.approach == pytest.approx(1, rel=0.02)
+    for size in (16, 64):
+        law = adhesive.Exponential(1e-3, 0.1)
+        found = measure(np.full((size, size), 3.0), 1.0, law, squeeze=0.01)
+        assert (found.approach, found.bound, found.separation) == (1, 1, 1)
+        assert found.pull_off == law.strength
+        assert found.separation_limits == (1, 1)
 
 
 @pytest.mark.slow
@@ -43,6 +47,32 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.pixels_in_zone > 2
     assert [point.state.mean_gap for point in found.points] == list(found.gap)
     assert found.points[0].state.gap.shape == (64, 64)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("ratio", "seed"), [(0.7, 1), (1.0, 3)])
+def test_paths_with_jumps_against_a_gradient_flow(ratio, seed):
+    """Four pixels in the cohesive zone and default steps, on a profile of eight waves."""
+    n, q = 128, np.arange(1, 9)
+    x, phases = np.arange(n) * 2 * np.pi / n, np.random.default_rng(seed).uniform(0, 2 * np.pi, 8)
+    profile = np.sum(q[:, None] ** -1.3 * np.cos(q[:, None] * x + phases[:, None]), axis=0)
+    profile = (profile - profile.mean()) / profile.std()
+    work = ratio * np.sum(q * np.abs(np.fft.rfft(profile)[1:9] / n) ** 2) / 2
+    reach = np.sqrt(4 * 2 * np.pi / n * work)
+    heights, sides = np.tile(profile[:, None], (1, 4)), (2 * np.pi, 8 * np.pi / n)
+    law = adhesive.Exponential(work, reach)
+    found = measure(heights, sides, law, squeeze=0.1, half_grid=False)
+    gaps = np.linspace(found.gap[0], found.gap[~found.separating].min(), 200)
+    one, pressure, last = follow(profile, work, reach, gaps, np.full(n, gaps[0]))
+    other, back, _ = follow(profile, work, reach, gaps[::-1], last)
+    approach = np.trapezoid(np.maximum(-pressure, 0), -gaps) - one[0]
+    separation = np.trapezoid(np.maximum(-back, 0), gaps[::-1]) - other[-1]
+    assert found.jumps > 0
+    assert found.separation > 1.05 * found.approach
+    assert found.bound * work == pytest.approx(-min(one.min(), other.min()), rel=2e-3)
+    assert found.approach * work == pytest.approx(approach, rel=0.01)
+    assert found.separation * work == pytest.approx(separation, rel=0.01)
+    assert found.pull_off == pytest.approx(-back.min(), rel=0.025)
 
 
 @pytest.mark.slow

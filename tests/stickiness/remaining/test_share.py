@@ -4,14 +4,20 @@ import numpy as np
 import pytest
 
 from common import remaining_table
+from stickiness import repulsive, surface
 from stickiness.remaining.share import (
+    LIFT,
     ONSET,
+    decay_energy,
+    find_deepest_state,
     find_onset,
     remaining_share,
     tough_area,
     tough_share,
+    tough_tension,
     weak_share,
 )
+from stickiness.spectrum import SelfAffine
 
 TABLE = "config/remaining.csv"
 
@@ -29,13 +35,49 @@ def test_attraction_of_long_range_needs_no_contact():
     assert weak_share(1e-3, 0.04) < 1e-4
 
 
-def test_the_larger_of_both_with_a_rounded_corner():
+def test_tough_contact_has_the_least_energy_of_its_areas():
+    """The least F - x A over areas, with F of `tough_tension`, is what remains at every x."""
+    x, t = np.array([0.5, 0.8, 1.5, 3.0]), np.linspace(0, 12, 20001)[:, None]
+    area = -np.expm1(-t)
+    energy = 1 - (1 + (1 - ONSET) * t) * np.exp(-t) - x * area
+    assert -energy.min(axis=0) / x == pytest.approx(tough_share(x), abs=1e-6)
+    assert np.take_along_axis(area, energy.argmin(axis=0)[None], 0)[0] == pytest.approx(
+        tough_area(x), abs=1e-3
+    )
+
+
+@pytest.mark.parametrize("x", [0.6, 1.0, 2.0])
+def test_the_tension_is_the_steepest_rise_of_the_energy(x):
+    """By finite differences of energy over mean gap, from the energies of `tough_tension`."""
+    t = np.linspace(1e-4, (x - ONSET) / (1 - ONSET), 4001)
+    stored = 1 - (1 + (1 - ONSET) * t) * np.exp(-t)
+    gaps = np.geomspace(1e-6, 10, 20001)
+    gap = LIFT * np.interp(-stored, -np.exp(-decay_energy(gaps)[0]), gaps)
+    slope = np.diff(stored + x * np.expm1(-t)) / np.diff(gap)
+    assert tough_tension(x) == pytest.approx(slope.max(), rel=0.01)
+
+
+def test_the_deeper_state_counts():
     x, e = np.geomspace(0.05, 3, 30)[:, None], np.geomspace(0.05, 3, 30)
     zone = e**2 / x
-    larger = np.maximum(tough_share(x, find_onset(zone)), weak_share(x, e))
-    share = remaining_share(x, e, zone)
-    assert np.all(share >= larger)
-    assert np.all(share <= 2 ** (1 / 8) * larger + 1e-15)
+    share, tension, area = find_deepest_state(x, e, zone, 0.2)
+    assert share == pytest.approx(remaining_share(x, e, zone, load_scale=0.2))
+    assert np.all(share >= tough_share(x, find_onset(zone)))
+    assert np.all(share >= weak_share(x, e, 0.2))
+    assert np.all((area >= 0) & (area <= 1) & (tension >= 0))
+
+
+def test_energy_of_contact_without_adhesion():
+    """`ENERGY_DECAY` against the boundary element method, on a surface of many waves."""
+    rough = SelfAffine(hurst=0.7, q0=1.0, q1=8.0, h_rms=1.0)
+    heights = surface.synthesise(rough, n=128, length=8 * np.pi, seed=5)
+    full = surface.realised_spectrum(heights, 8 * np.pi).elastic_energy()
+    for pressure in (0.3, 0.1, 0.03):
+        state = repulsive.solve(heights, 8 * np.pi, pressure)
+        deflection = state.gap + heights
+        stored = np.mean(state.pressure * (deflection - deflection.mean())) / 2
+        decay, _ = decay_energy(state.gap.mean())
+        assert decay == pytest.approx(-np.log(abs(stored) / full), rel=0.05)
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])

@@ -137,7 +137,7 @@ def test_attraction_of_a_short_range(kind):
         exact.append(np.sum(law.traction(closed.gap(x[outside]))) / x.size)
         ranges = np.union1d(np.geomspace(1e-6, 1.0, 385) * gap.max(), [law.range])
         area = subpixel.attractive_area(gap, ranges)
-        found.append(dmt.attraction_of_areas(area, ranges, law))
+        found.append(dmt.sum_over_gaps(area, ranges, law.traction))
         counted.append(dmt.adhesive_pressure(gap, law))
     # 20 pixels per wavelength: the edge law's next term is worth some per cent of an area.
     assert np.mean(found) == pytest.approx(np.mean(exact), rel=0.1)
