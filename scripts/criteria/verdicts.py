@@ -234,7 +234,8 @@ def follow_remaining(pair, solids, draws, strain, rates):
     scalable = np.array([solid.is_scalable for solid in solids])
     dwelt = np.isfinite([solid.dwell for solid in solids])
     quoted = np.array([solid.modulus for solid in solids])
-    dwells = [[replace(one, dwell=x * one.dwell) for one in solids] for x in DWELL_FACTORS]
+    times = DWELL_FACTORS if dwelt.any() else np.ones(1)
+    dwells = [[replace(one, dwell=x * one.dwell) for one in solids] for x in times]
     along = {
         "modulus": np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan),
         "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
@@ -242,7 +243,7 @@ def follow_remaining(pair, solids, draws, strain, rates):
         "dwell": np.where(dwelt, [[one.modulus for one in row] for row in dwells], np.nan),
     }
     found = {"modulus_factor": MODULUS_FACTORS, "roughness_factor": ROUGHNESS_FACTORS}
-    found["dwell_factor"] = DWELL_FACTORS
+    found["dwell_factor"] = times
     for axis, moduli in along.items():
         heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
         at = dwells if axis == "dwell" else [solids] * len(moduli)
