@@ -67,6 +67,7 @@ rule judge:
     input:
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         template=project_file("report/verdicts.md.j2"),
+        part=project_file("report/left_out.j2"),
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(

@@ -1,6 +1,9 @@
 # The report of all results, and a page for every real surface.
 
-PAGE_PARTS = [project_file(f"report/{part}") for part in ("macros.html.j2", "page.css", "page.js")]
+PAGE_PARTS = [
+    project_file(f"report/{part}")
+    for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")
+]
 
 
 def figure_sources(wildcards, output):
@@ -101,6 +104,7 @@ rule write_surface:
 rule write_findings:
     input:
         template=project_file("report/findings.md.j2"),
+        part=project_file("report/left_out.j2"),
         claims=f"{RESULTS}/claims/claims.nc",
         a_v=several("fits/a_v/ensembles/{case}.nc", case=COMPLETE),
         lattices=several("fits/a_v/lattice/{case}.nc", case=COMPLETE),
@@ -109,6 +113,7 @@ rule write_findings:
         edges=several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL),
         remaining=REMAINING_TABLE,
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
+        criterion=f"{RESULTS}/criteria/map.nc",
         experiments=f"{RESULTS}/experiments/experiments.nc",
         tradeoff=TRADE_SUMMARY,
     output:

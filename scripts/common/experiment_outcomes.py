@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.config.entries import CONDITIONS, OBSERVED
+from common.config.entries import CONDITIONS, OBSERVED, conditions_of
 from common.formatting import number, percent, quantity
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
@@ -23,16 +23,12 @@ def describe(dataset, experiments=None):
     """All that a page shows of the experiments; by default, those that the dataset was made of."""
     experiments = experiments or datasets.parameters(dataset)["experiments"]
     tested = dataset.isel(case=dataset.tests.values == 1)  # published, and no mere relations
-    missed = {name.split("/")[0] for name in dataset.case.values[dataset.outcome.values == MISSED]}
+    cases = [describe_case(dataset.sel(case=c), experiments) for c in dataset.case.values]
     return {
-        "cases": [describe_case(dataset.sel(case=c), experiments) for c in dataset.case.values],
+        "cases": cases,
         "counts": np.bincount(tested.outcome.values, minlength=len(OUTCOMES)).tolist(),
         "values_inside": int(tested.value_inside.sum()),
-        "missed": {
-            entry.get("short", entry["label"]): entry.get("missed", "no reason was found")
-            for name, entry in experiments.items()
-            if name in missed
-        },
+        "missed": {case["label"]: case["reason"] for case in cases if case["reason"]},
         "sources": list(experiments.values()),
     }
 
@@ -53,9 +49,18 @@ def describe_case(case, experiments):
     if label == "sticks":
         observed = "sticks" if low else "does not stick"
     predicted = percent(value) if unit is None else show_interval(value, value, unit, highest)
+    short, given = entry.get("short", entry["label"]), entry["cases"][name]
+    # An experiment says why it is missed, a case also why its value differs.
+    reason = "" if case.value_inside else given.get("missed", "")
+    if outcome == MISSED:
+        reason = reason or entry.get("missed", "no reason was found")
     return {
-        "experiment": entry.get("short", entry["label"]),
-        "case": entry["cases"][name]["label"],
+        "experiment": short,
+        "case": given["label"],
+        "label": f"{short}: {given['label']}" if "missed" in given else short,
+        "reason": reason,
+        "of": experiment,
+        "inputs": conditions_of(entry, given),
         "quantity": label,
         "observed": observed,
         "known": GRADES[int(case.observed_known)],

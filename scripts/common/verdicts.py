@@ -9,6 +9,7 @@ LEAST_SHOWN = 1e-3  # share below which a text says 0 %
 KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
 LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
 MOST_STRAIN = 0.3  # up to which a layer is taken for linear
+SHARES = (0.01, 0.1, 0.3)  # of the work of adhesion, that may be wanted
 
 
 def find_limits(dataset, name="remaining"):
@@ -26,6 +27,12 @@ def find_limits(dataset, name="remaining"):
         # Heights that a linear layer cannot take stiffen it: nothing may remain.
         low = low.where(dataset.layer_strain.max("end") <= MOST_STRAIN, 0.0)
     return low, high
+
+
+def count_pairs(dataset):
+    """Numbers of pairs that keep each of `SHARES` by their low and by their high limit."""
+    limits = find_limits(dataset)
+    return {share: [int((limit >= share).sum()) for limit in limits] for share in SHARES}
 
 
 def describe_share(pair):

@@ -9,9 +9,10 @@ from scipy.optimize import elementwise
 
 from common.conventions import logarithmic_grid
 from common.job import start
+from common.verdicts import SHARES
 from criteria.budgets import CLOSED, between_limits
 from criteria.simulated_a_v import measure_a_v
-from stickiness import criteria, datasets
+from stickiness import criteria, datasets, remaining
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.error_budget import with_budget
@@ -20,6 +21,9 @@ from stickiness.spectrum.kinds import SelfAffine
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
 DMT = f"{LIMIT} by the DMT sum"
+RULE = "c in h_rms^2 < c lambda_L w/E*, for many waves and a short range"
+HURSTS = (0.5, 0.6, 0.7, 0.8, 0.9)
+BROAD, SHORT = 1e4, 1e-6  # magnification, and range over h_rms, of this rule
 MISSING = "none for which a_V is tabulated, or none above 1"
 VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
@@ -40,7 +44,14 @@ VARIABLES = {  # units, description, and what NaN means
     "slope_parameter": ("1", "range q0/(adhesion length/range)"),
     "h_rms_over_range": ("1", "rms height over range"),
     "slope_angle": ("degree", "angle of the area-load line against the load axis"),
+    "hurst": ("1", "Hurst exponent"),
+    "share": ("1", "share of the work of adhesion that is to remain"),
+    "rule": ("1", RULE),
+    **{f"rule_{end}": ("1", f"{RULE}, {end} limit of the model") for end in ("low", "high")},
+    "rule_full_contact": ("1", f"{RULE}, by Persson and Tosatti"),
+    "rule_bearing_area": ("1", f"{RULE}, by Ciavarella's bearing area"),
 }
+BAM_REPULSION = 0.75  # factor in later forms of the bearing-area model, see `bearing_area`
 ENDS = {"": ("value", 0), "_low": ("low", -1), "_high": ("high", 1)}  # of a_V, and of the model
 
 
@@ -51,9 +62,10 @@ def main(job):
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
     dataset = find_limits(asked, a_v, Roughness(table, asked, pressure))
     dataset = dataset.assign(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
+    dataset = dataset.assign(find_rule())
     dataset = dataset.assign(a_v=a_v, a_v_low=max(a_v - error, 0.01 * a_v), a_v_high=a_v + error)
     dataset = datasets.annotate(dataset, **VARIABLES)
-    for name in ("h_rms_limit", "h_rms_limit_edges"):
+    for name in ("h_rms_limit", "h_rms_limit_edges", "rule"):
         dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
     dataset = with_budget(dataset, "a_v", **parts)
     # In proportion to a_V^(3/5).
@@ -156,6 +168,22 @@ def find_slopes(parameters, a_v):
         "h_rms_over_range": h,
         "slope_angle": (("slope_parameter", "h_rms_over_range"), angles),
     }
+
+
+def find_rule():
+    """Constants c of h_rms^2 < c lambda_L w/E*, by what remains and by two other criteria."""
+    unit = {"q0": 1.0, "q1": BROAD, "h_rms": 1.0}
+    energy = np.array([SelfAffine(hurst=hurst, **unit).elastic_energy() for hurst in HURSTS])
+    rough = remaining.Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
+    dims = ("share", "hurst")
+    lengths = {
+        f"rule{ending}": (dims, [rough.threshold(SHORT, share, sign) for share in SHARES])
+        for ending, (_, sign) in ENDS.items()
+    }
+    lengths["rule_full_contact"] = "hurst", energy
+    lengths["rule_bearing_area"] = BAM_REPULSION / criteria.bearing_area(1, 1, 1, SHORT).margin
+    found = xr.Dataset(lengths, coords={"share": list(SHARES), "hurst": list(HURSTS)})
+    return 1 / (2 * np.pi * found)  # lambda_L = 2 pi/q0, with h_rms = q0 = 1
 
 
 if __name__ == "__main__":

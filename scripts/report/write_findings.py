@@ -6,9 +6,10 @@ from common import remaining_table
 from common import tradeoff_table as summary
 from common.conventions import VARIANT, at_load
 from common.edge_points import select_certain
-from common.experiment_outcomes import OUTCOMES
+from common.experiment_outcomes import OUTCOMES, describe
 from common.job import start
 from common.templates import write_page
+from common.verdicts import count_pairs
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
@@ -23,7 +24,8 @@ SHOWN_SETTINGS = ("points per wavelength", "seeds", "model")  # without adhesion
 def main(job):
     read, inputs = datasets.read, job.input
     weakest = at_load(read(inputs.dmt_error)).isel(adhesion_length_over_range=0)
-    verdicts = read(inputs.verdicts).verdict.transpose("material", "surface").to_pandas()
+    judged = read(inputs.verdicts)
+    verdicts = judged.verdict.transpose("material", "surface").to_pandas()
     experiments, trade = read(inputs.experiments), summary.read(inputs.tradeoff)
     of_contact = trade.problem == "contact"
     edges = select_certain(map(read, inputs.edges))
@@ -42,6 +44,9 @@ def main(job):
         within=WELL_KNOWN,
         least_share=LEAST_SHARE,
         verdicts=verdicts.map(WORDS.__getitem__),
+        counts=count_pairs(judged),
+        rule=read(inputs.criterion),
+        known=[case for case in describe(experiments)["cases"] if case["of"] == "everyday"],
         outcomes=pd.Series(experiments.outcome.values[experiments.tests.values == 1]),
         outcome_words=OUTCOMES,
         settings=summary.tables(trade[of_contact & trade.setting.isin(SHOWN_SETTINGS)]),

@@ -12,6 +12,7 @@ from common.conventions import at_load
 from common.job import start
 from common.materials import describe_modulus
 from common.templates import write_page
+from common.verdicts import count_pairs
 from report import interactive, pages
 from report.table_rows import TONES, describe_pair, describe_surface
 from stickiness import datasets, error_budget
@@ -61,6 +62,7 @@ def main(job):
         recomputed=datasets.parameters(claims)["errata"],
         wanted=DEFAULT_SHARE,
         full=FULL_SHARE,
+        kept=count_pairs(verdicts),
         words=count((pair["word"] for pair in pairs), WORD_TONES),
         local_word=WORDS[TOUCHES],
         pairs=pairs,

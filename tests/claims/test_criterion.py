@@ -5,7 +5,7 @@ import pytest
 from helpers.claim_files import generated, real_surface, verdicts
 
 from claims import criterion_claims as criterion
-from claims.ledger import NOT, QUALIFIED, REPRODUCED
+from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
 from stickiness import criteria
 
 
@@ -55,12 +55,18 @@ def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
 
 def test_measured_surfaces_test_the_line(files):
     found = criterion.real_surfaces(files)
-    assert found.verdict == QUALIFIED
+    assert (found.verdict, found.facts["line"]) == (REPRODUCED, NOT)
     assert found.facts["measured"] == [("terrain", pytest.approx(70))]
     files["measured_surfaces"] = [real_surface("steel", kind="measured", c0=1e-4)]
-    assert criterion.real_surfaces(files).verdict == REPRODUCED
+    assert criterion.real_surfaces(files).facts["line"] == REPRODUCED
     files["measured_surfaces"] = []
-    assert criterion.real_surfaces(files).facts["measured"] == []
+    found = criterion.real_surfaces(files)
+    assert (found.facts["measured"], found.facts["line"]) == ([], OPEN)
+
+
+def test_arithmetic_is_exact_or_wrong(files, monkeypatch):
+    monkeypatch.setattr(criterion, "PRINTED_MODULUS", 0.3)
+    assert criterion.real_surfaces(files).verdict == NOT
 
 
 def test_moment_ratios_of_two_crossed_waves():

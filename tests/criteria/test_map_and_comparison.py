@@ -8,6 +8,7 @@ import pytest
 from criteria import compare_criteria, map_criterion
 from stickiness import criteria
 from stickiness.criteria import equivalent_sphere
+from stickiness.remaining import Roughness
 from stickiness.spectrum import SelfAffine
 
 LENGTHS = {"minimum": 1e-3, "maximum": 10, "per_decade": 2}
@@ -44,6 +45,35 @@ def test_map_with_constant_a_v_has_the_closed_form():
         ratio = made[f"h_rms_limit_{end}"] / made.h_rms_limit
         there = ratio.notnull().values
         np.testing.assert_allclose(ratio.values[there], share**0.6, rtol=1e-5)
+
+
+def test_the_rule_of_thumb_is_where_the_share_remains():
+    """On a surface of another size, at w/E* = h_rms^2/(c lambda_L)."""
+    rule = map_criterion.find_rule()
+    assert rule.sizes == {"share": 3, "hurst": 5}
+    assert (rule.rule.diff("share") < 0).all()
+    for hurst, share in ((0.5, 0.1), (0.8, 0.01), (0.9, 0.3)):
+        spectrum = SelfAffine(hurst=hurst, q0=0.5, q1=0.5e4, h_rms=3.0)
+        rough = Roughness(h_rms=3.0, q0=0.5, elastic_energy=spectrum.elastic_energy())
+        for name, sign in (("rule", 0), ("rule_low", -1), ("rule_high", 1)):
+            c = float(rule[name].sel(hurst=hurst, share=share))
+            remains = rough.share(3.0**2 / (c * 2 * np.pi / 0.5), 3e-6, sign)
+            assert remains == pytest.approx(share, rel=1e-3), (hurst, name)
+
+
+def test_the_rule_of_others_has_closed_forms():
+    rule = map_criterion.find_rule()
+    # U_full = H/(2 (2H - 1)) q0 h_rms^2 of all waves, and its power law up to those of the rule.
+    for hurst in (0.7, 0.8, 0.9):
+        all_waves = 2 * (2 * hurst - 1) / hurst / (2 * np.pi)
+        cut = (1 - 1e4 ** (-2 * hurst)) / (1 - 1e4 ** (1 - 2 * hurst))
+        found = float(rule.rule_full_contact.sel(hurst=hurst))
+        assert found == pytest.approx(all_waves * cut, rel=1e-9)
+    # Attraction w exp(-u^2/2)/sqrt(2 pi) over repulsion 3/4 q0 h_rms^2 E* exp(-2u) is largest at
+    # u = 2; Ciavarella rounds it to 0.6.
+    bearing = 4 / 3 * np.exp(2) / (2 * np.pi) ** 1.5
+    assert float(rule.rule_bearing_area) == pytest.approx(bearing, rel=1e-4)
+    assert bearing == pytest.approx(0.6, abs=0.05)
 
 
 @pytest.mark.slow

@@ -8,6 +8,7 @@ import pytest
 from helpers.experiments import EXPERIMENTS, known, make_dataset, observe, seen
 
 from common import experiment_outcomes as outcomes
+from common.config import load
 from common.experiment_outcomes import COMPATIBLE, MISSED, SILENT, SOME
 from experiments import plot_experiments
 from experiments import predict_experiments as experiments
@@ -231,6 +232,7 @@ def test_the_dataset_has_predictions_limits_and_outcomes(dataset):
 
 LIMIT_ROW = {"quantity": "limiting_roughness", "observed": (1e-6, 4e-6), "waves_in_contact": 4.04}
 WORK_ROW = {"quantity": "work_of_separation", "observed": (0.03, 0.03), "by_relation": 1}
+PLATE_CASE = EXPERIMENTS["plate"]["cases"]["steel"]
 FLAT_ROW = {"quantity": "sticks", "observed": (0.0, 0.0), "most_effective_input": "range"}
 
 
@@ -257,6 +259,39 @@ def test_a_case_in_words(row, predicted, expected):
     (case,) = described["cases"]
     assert {key: case[key] for key in expected} == expected
     assert described["missed"] == ({"Ball 1999": "the ball was wet"} if "tone" in expected else {})
+
+
+def test_a_case_says_why_its_value_differs():
+    plate = EXPERIMENTS["plate"] | {"cases": {"steel": PLATE_CASE | {"missed": "it was wet"}}}
+    for inside, outcome, reason in ((0, SOME, "it was wet"), (0, MISSED, "it was wet"), (1, 2, "")):
+        row = FLAT_ROW | {"predicted": (0.3, 0.01, 0.5), "value_inside": inside, "outcome": outcome}
+        found = outcomes.describe(make_dataset({"plate/steel": row}, {"plate": plate}))
+        assert found["cases"][0]["reason"] == reason
+        assert found["missed"] == ({"hard plate: steel on steel": reason} if reason else {})
+
+
+def test_a_share_is_compared_with_the_share_that_remains():
+    found = predict_quantity("share", [0.01, 0.3], h_rms=known("0.2 um"))
+    np.testing.assert_allclose(found, predict_quantity("sticks", True, h_rms=known("0.2 um")))
+    observed = seen("share", [0.01, 0.3])
+    assert judge(observed)["persson_tosatti"] == SILENT  # it decides nothing at a tenth
+
+
+@pytest.mark.slow
+def test_every_pair_that_people_know_agrees_or_has_an_explanation():
+    """The committed ones: tapes, skin, geckos, wafers, tyres, rulers and machines."""
+    everyday = load.load("config/experiments.yaml")["experiments"]["everyday"]
+    dataset = experiments.predict_all({"everyday": everyday})
+    cases = outcomes.describe(dataset, {"everyday": everyday})["cases"]
+    differ = [case for case in cases if "value too" not in case["outcome"]]
+    assert len(cases) == len(everyday["cases"]) >= 12
+    assert differ
+    for case in differ:
+        assert len(case["reason"]) > 40, case["case"]
+        assert case["reason"] != "no reason was found", case["case"]
+    for case in cases:
+        assert bool(case["reason"]) == (case in differ), case["case"]
+    assert not (dataset.tests == 1).any()  # none of them counts as published
 
 
 def test_the_page_has_every_case_and_source(made, dataset):

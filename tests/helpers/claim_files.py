@@ -68,11 +68,11 @@ def ensemble(zeta, separation=1.0, power=1.0, **more):
         },
         coords={"pressure": LOADS, "range": RANGES},
     )
-    return made_by(data, **case(zeta, **more))
+    return made_by(with_errors(data, "mean_gap_mean"), **case(zeta, **more))
 
 
 def lattice():
-    data = ensemble(32)
+    data = ensemble(32)[["mean_gap_mean", "attractive_area_mean"]]
     data = data.rename(mean_gap_mean="mean_gap", attractive_area_mean="attractive_area")
     data["kappa"] = "pressure", 0 * LOADS + 2.4
     return data.expand_dims(variant=[conventions.VARIANT])
@@ -216,15 +216,22 @@ def fig3c():
     return sweep((10.0, 100.0, 1e4, 1e5, 1e6), hursts=(0.7, 0.8, 0.9))
 
 
-def remaining(growth=0.0):
-    """Energy gained by two surfaces; finer waves raise the energy of full contact by `growth`."""
+def remaining(growth=0.0, late=0.0):
+    """Energy gained by two surfaces; finer waves raise the energy of full contact.
+
+    By `growth` up to a magnification of 32, and of one surface by `late` from there to 320. A wider
+    zone with fewer magnifications gains twice as much.
+    """
     rows = []
-    for hurst, seed, magnification in itertools.product((0.5, 0.8), (1, 2), (4, 32)):
-        energy = 0.4 * (1 + growth * (magnification == 32))
+    made = (1, 4, 0), (1, 32, growth), (2, 4, 0), (2, 32, growth), (1, 320, growth + late)
+    for hurst, (seed, magnification, more) in itertools.product((0.5, 0.8), made):
+        energy = 0.4 * (1 + more)
         same = {"hurst": hurst, "seed": seed, "magnification": magnification, "window": 2}
-        same |= {"zone": 0.1, "full_contact_energy": energy}
-        for ratio in (0.5, 1.0, 2.0):
-            rows.append(same | {"adhesion_length": ratio * energy, "bound": 0.25 * ratio})
+        same |= {"full_contact_energy": energy}
+        for ratio, zone in itertools.product((0.5, 1.0, 2.0), (0.1, 0.2)):
+            row = {"adhesion_length": ratio * energy, "bound": 2.5 * zone * ratio, "zone": zone}
+            if zone == 0.1 or magnification == 4:
+                rows.append(same | row)
     return pd.DataFrame(rows)
 
 

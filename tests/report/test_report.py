@@ -283,6 +283,8 @@ def test_the_report_shows_what_is_in_the_files(page):
         *(f"1 {word}" for word in (*GRADES, *WORDS[:4])),
         NASTY,
         "1 of 4 pairs stick",
+        "1 % remains for 2 within all limits and for 3 by the high limit; 10 % remains for 1 ",
+        "Verdicts leave out plastic deformation, capillary bridges, and creep of a material",
         "3.2 Between 2.8 and 4.4",
         "with 2 realisations",
         "1.891 ± 0.033 by sampling : sampling 0.032 discretisation 0.01",  # largest first

@@ -154,6 +154,7 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
         "E* = 230 GPa",
         f"Hurst exponent H {with_error(single.hurst, single.hurst_total_error)}",
         "Persson–Tosatti",
+        "Verdicts leave out plastic deformation",
         "Steel does not stick: nothing of the work of adhesion remains.",
     )
     assert {link for link in page.links if not link.startswith(("#", "https://doi.org/"))} == {

@@ -25,6 +25,7 @@ OBSERVED = {
     "limiting_roughness": ("m", "limiting rms height"),
     "work_of_approach": ("J/m^2", "work of approach"),
     "work_of_separation": ("J/m^2", "work of separation"),
+    "share": (None, "remaining share"),
     "sticks": (None, "sticks"),
 }
 

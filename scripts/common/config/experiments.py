@@ -79,8 +79,8 @@ class Observed(KnownValue[Any]):
     """What was observed.
 
     The quantity is the pull-off force over that from a smooth surface, the rms height at which it
-    falls to a level, the apparent work of adhesion on approach or separation, or whether the pair
-    sticks (a value of true or false).
+    falls to a level, the apparent work of adhesion on approach or separation, the share of the work
+    of adhesion that remains, or whether the pair sticks (a value of true or false).
 
     Relations are evaluated with the inputs of the case. `conformal_contact`: the work of approach
     is the work of adhesion on the true area less the elastic energy of full contact. `cycle_loss`:
@@ -134,6 +134,7 @@ class ObservedCase(Conditions):
 
     label: f.Text = needed("name for readers")
     observed: Observed = needed("what was observed")
+    missed: f.Text = optional("as of an experiment, for this case alone")
 
 
 class Experiment(Conditions):
