@@ -12,18 +12,18 @@ _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flatte
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
 LONGEST_SIDE = 0.5  #: [m]; the longest travel of profilometers is 0.3 m
 SHORTEST_SIDE = 1e-9  #: [m]; a few atoms
-LARGEST_SLOPE = 20.0  #: rms gradient of surfaces
+LARGEST_SLOPE = 20.0  #: rms gradient of real surfaces, above the 1 that theory can treat
 REFUSED_SIDE = (
     f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
     "(2 mm, not 2 m?), or give plausibility: ignore if it is so"
 )
-# Lowest and highest values of real solids and surfaces in SI units, with room to spare.
+# Lowest and highest values of real solids and surfaces in SI units, most with room to spare.
 _SI_LIMITS = {
     "length": (SHORTEST_SIDE, LONGEST_SIDE, "give the side of the heights in m (2e-3 for 2 mm)"),
     "modulus": (10.0, 1e13, "give it in Pa"),
     "work_of_adhesion": (1e-6, 10.0, "give it in J/m^2"),
     "range": (1e-11, 1e-5, "give it in m"),
-    "rms_slope": (1e-7, LARGEST_SLOPE, "give heights and lengths both in m"),
+    "rms_slope": (1e-7, 1.0, "give heights and lengths both in m; small slopes are assumed"),
 }
 
 
@@ -54,5 +54,5 @@ def warn_of_si(stacklevel: int = 3, **values: float) -> None:
     for name, value in values.items():
         low, high, remedy = _SI_LIMITS[name]
         if not low <= value <= high:
-            text = f"{name} = {value:.3g} is outside {low:g} to {high:g} of real pairs: {remedy}"
+            text = f"{name} = {value:.3g} is outside {low:g} to {high:g}: {remedy}"
             warnings.warn(text, PlausibilityWarning, stacklevel=stacklevel)

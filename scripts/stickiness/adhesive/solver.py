@@ -121,10 +121,13 @@ def solve(
 
     Raises
     ------
+    ValueError
+        If an argument is out of range, or the grid would set the edges (`edge_zone.is_lost`).
     PullOffError
         If the tension tears the surfaces apart; it carries the last iterate.
     ConvergenceError
-        If `max_iterations` do not suffice; it carries the last iterate.
+        If `max_iterations` do not suffice, or `tol` leaves a tenth of the largest pressure out of
+        balance; it carries the last iterate.
 
     Examples
     --------
@@ -147,7 +150,7 @@ def solve(
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     if scaled.rms_height > 0:
-        _warn_of_edges(lengths[0] / heights.shape[0], law)
+        _check_edges(lengths[0] / heights.shape[0], law, scaled)
     gap, branch, unloaded = None, APPROACH, None
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
@@ -183,21 +186,26 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
             f"{effort[0]:.2e}: raise max_iterations, or tol if it is near rounding",
             result,
         )
+    imbalance = state.residual * problem.unit * scaled.stress
+    largest = max(np.abs(result.pressure).max(), scaled.flattening * scaled.stress)
+    if imbalance > 0.1 * largest > 0:
+        text = f"{imbalance:.2g} E* is out of balance, the largest pressure is {largest:.2g} E*: "
+        raise ConvergenceError(f"{text}lower tol = {effort[0]:.2e}, or take a longer range", result)
     return result
 
 
-def _warn_of_edges(pixel, law):
+def _check_edges(pixel, law, scaled):
     ratio = edge_zone.resolution(pixel, law.range, law.adhesion_length)
+    text = (
+        f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
+        f"{law.range:.3g} and an adhesion length of {law.adhesion_length:.3g}: points snap in "
+        "and out one by one. Take pixels of at most "
+        f"{edge_zone.COARSEST * pixel / ratio:.3g} (range^2/(2 adhesion_length)), or a longer range"
+    )
+    if edge_zone.is_lost(ratio, scaled.scaled.law.strength / scaled.flattening):
+        raise ValueError(text)
     if ratio > _UNRESOLVED_PIXEL:
-        warnings.warn(
-            f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
-            f"{law.range:.3g} and an adhesion length of {law.adhesion_length:.3g}: points snap in "
-            "and out one by one, and pull-off is too strong. Take pixels of at most "
-            f"{edge_zone.COARSEST * pixel / ratio:.3g} (range^2/(2 adhesion_length)), "
-            "or a longer range",
-            PlausibilityWarning,
-            stacklevel=3,
-        )
+        warnings.warn(text, PlausibilityWarning, stacklevel=3)
 
 
 def _check_control(pressure, mean_gap, law):
@@ -244,6 +252,7 @@ class Scaled:
     lengths: tuple
     height: float  #: unit of heights and gaps
     rms_height: float
+    flattening: float  #: rms pressure of full contact, scaled
 
     @classmethod
     def of(cls, heights, lengths, law, solid=HALF_SPACE):
@@ -257,7 +266,7 @@ class Scaled:
         problem = Problem(scaled, sides, scaled_law, scaled_law.strength, solid)
         flattening = float(np.sqrt(np.mean(problem.exact.stiffness(scaled) ** 2)))
         problem = replace(problem, unit=max(flattening, scaled_law.strength))
-        return cls(problem, law, lengths, height, rms)
+        return cls(problem, law, lengths, height, rms, flattening)
 
     @property
     def stress(self):

@@ -138,8 +138,8 @@ def verdict(
     Warns
     -----
     PlausibilityWarning
-        If a value is none that real pairs have in SI units, such as a modulus given in MPa or a
-        length of 2 for 2 mm, or if heights have what no surface has, such as spikes.
+        If the rms slope exceeds 1, if a value is none that real pairs have in SI units, such as a
+        modulus in MPa or a length of 2 for 2 mm, or if heights have spikes or the like.
 
     Examples
     --------

@@ -199,6 +199,12 @@ class Kernels:
         """Return exp(x^2) kappa(x) for x^2, with kappa(x) = x int_x^inf F(t)/t^2 dt."""
         return self._evaluate(self._mean, x2)
 
+    def energy_kept(self, p: NDArray, m: NDArray) -> tuple[NDArray, NDArray]:
+        """Energy A S of the scale m over that in full contact, and its mean over scales up to m."""
+        x = np.clip(p / np.sqrt(m), 1e-150, 20.0)
+        kept, rest = erf(x) * self.correction.diffusion(x), 2 / np.sqrt(np.pi) * x * np.exp(-(x**2))
+        return kept, kept + rest * (self.gap_kernel(x**2) - self.mean_kernel(x**2))
+
     def _evaluate(self, table: EvenTable, x2: ArrayLike) -> NDArray:
         log_x = 0.5 * np.log(np.asarray(x2, dtype=float))
         inside = np.clip(log_x, np.log(_X_LOW), np.log(_X_HIGH))

@@ -27,7 +27,8 @@ class LayeredScales:
         self.spectrum, self.solid = spectrum, solid
         if spectrum.is_discrete:
             self._q = spectrum.q
-            self._m = np.cumsum(0.5 * spectrum.variance * self._slope_weight(self._q))
+            self._growth = 0.5 * spectrum.variance * self._slope_weight(self._q)
+            self._m = np.cumsum(self._growth)
         else:
             self._q, self._m, self._growth = self._gauss_nodes(nodes)
 
@@ -37,16 +38,23 @@ class LayeredScales:
 
     def mean_gap(self, p: NDArray, universal: Kernels) -> NDArray:
         """Mean gap [length] at mean pressures `p` > 0 [E*]."""
-        s, per_pressure = np.sqrt(self._m), self.solid.factor(self._q) / self._q
+        s = np.sqrt(self._m)
         x2 = (p[..., None] / s) ** 2
         faded = np.exp(-x2)
-        # within a shell S/q stands still: int F(p/s) ds = s kappa(p/s)
-        if self.spectrum.is_discrete:
-            terms = np.diff(s * faded * universal.mean_kernel(x2), axis=-1, prepend=0.0)
-        else:
-            terms = faded * universal.gap_kernel(x2) * self._growth / (2 * s)
-            terms[..., 0] = s[0] * faded[..., 0] * universal.mean_kernel(x2[..., 0])
-        return 2 / np.sqrt(np.pi) * np.sum(per_pressure * terms, axis=-1)
+        total, kernel = s * faded * universal.mean_kernel(x2), faded * universal.gap_kernel(x2)
+        return 2 / np.sqrt(np.pi) * self._sum(total, kernel * self._growth / (2 * s))
+
+    def elastic_energy(self, p: NDArray, universal: Kernels) -> NDArray:
+        """Elastic energy [length] at mean pressures `p` [E*], less the mean compression's."""
+        kept, mean = universal.energy_kept(p[..., None], self._m)
+        return 0.5 * self._sum(self._m * mean, kept * self._growth)
+
+    def _sum(self, total: NDArray, growth: NDArray) -> NDArray:
+        """Sum over scales of S/q times what an integral grows by; `total` is that up to each."""
+        if self.spectrum.is_discrete:  # within a shell S/q stands still
+            growth = np.diff(total, axis=-1, prepend=0.0)
+        growth[..., 0] = total[..., 0]
+        return np.sum(self.solid.factor(self._q) / self._q * growth, axis=-1)
 
     def _slope_weight(self, q: NDArray) -> NDArray:
         return (q / self.solid.factor(q)) ** 2

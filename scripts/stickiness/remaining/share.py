@@ -95,7 +95,7 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
     x, onset = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, onset=onset))
     start, rest = onset.ravel(), 1 - onset.ravel()
     t = _PARTS * np.maximum(x.ravel() - start, 1e-9) / rest
-    decay = -np.log(-np.expm1(-t) - rest * t * np.exp(-t))
+    decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), _TINY)
     gap = np.exp(np.interp(np.log(decay), _FINE_DECAY, np.log(_FINE_GAPS)))
     rise = decay_energy(gap)[1] * np.exp(-decay) * (x.ravel() / (start + rest * t) - 1)
     return plain(np.max(rise, axis=0, initial=0.0).reshape(x.shape) / LIFT)

@@ -267,6 +267,10 @@ def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
     """Range over height and adhesion length over range at their ends, under every control."""
     heights = rough(24)
     law = law_of(kind, eps, la)
+    if (eps, la) == (1e-3, 10.0):
+        with pytest.raises(ValueError, match="does not resolve the edges of contact"):
+            adhesive.solve(heights, 1.0, law, pressure=LOAD)
+        return
     for control in controls(law, heights.shape):
         load = control.get("pressure")
         try:
@@ -281,6 +285,45 @@ def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
         assert a.iterations < 3000
         assert np.all(np.isfinite([a.gap, a.pressure]))
         assert np.isfinite([a.mean_pressure, a.energy, a.enthalpy]).all()
+
+
+def test_a_range_that_the_grid_loses_is_refused():
+    """Beyond the shares that `edge_zone.is_lost` quotes of what adhesion takes from the load."""
+    length, finest, mean_gap = 0.02 * HEIGHT, 256, 0.5 * HEIGHT
+    law = Exponential(length, np.sqrt(2 * length / finest))  # half a pixel in range^2/length
+    alone = adhesive.solve(rough(64), 1.0, Exponential(1e-9, 1.0), mean_gap=mean_gap)
+    best = adhesive.solve(rough(finest), 1.0, law, mean_gap=mean_gap)
+    for ratio, kept in ((1, 1.0), (4, 0.85), (8, 0.65), (16, 0.5), (32, 0.3)):
+        short = Exponential(length, np.sqrt(length / 64 / ratio))
+        found = adhesive.solve(rough(64), 1.0, short, mean_gap=mean_gap)
+        lost = (found.mean_pressure - best.mean_pressure) / alone.mean_pressure
+        all_of_it = 1 - best.mean_pressure / alone.mean_pressure
+        assert 1 - lost / all_of_it == pytest.approx(kept, abs=0.06)
+    short = Exponential(length, np.sqrt(length / 64 / 52))
+    with pytest.raises(ValueError, match="does not resolve the edges of contact"):
+        adhesive.solve(rough(64), 1.0, short, mean_gap=mean_gap)
+
+
+@pytest.mark.parametrize("kind", LAWS)
+@pytest.mark.parametrize("eps", [1e-3, 1e-4, 1e-6, 1e-9])
+def test_weak_adhesion_is_solved_at_any_range(kind, eps):
+    """A strength below the pressures of contact cannot hold points: nothing changes."""
+    heights = rough(32)
+    law = law_of(kind, eps, 0.1)
+    alone = repulsive.solve(heights, 1.0, LOAD)
+    found = adhesive.solve(heights, 1.0, law, pressure=LOAD)
+    assert found.repulsive_area_fraction == pytest.approx(alone.area_fraction, rel=0.04)
+    assert found.mean_gap == pytest.approx(alone.mean_gap, rel=1e-3)
+
+
+def test_pressures_out_of_balance_are_refused():
+    """A strength far above the pressures of contact, with a tolerance in its unit."""
+    heights = rough(32)
+    law = law_of(Exponential, 10.0, 10.0)
+    given = {"mean_gap": 30 * law.range, "start": heights.max() - heights}
+    with pytest.raises(adhesive.ConvergenceError, match="E. is out of balance, the largest"):
+        adhesive.solve(heights, 1.0, law, tol=0.5, **given)
+    assert adhesive.solve(heights, 1.0, law, **given).residual <= 1e-8
 
 
 @pytest.mark.parametrize("kind", LAWS)

@@ -1,6 +1,7 @@
 """From a surface and a material to a verdict by one call."""
 
 import doctest
+import warnings
 
 import numpy as np
 import pytest
@@ -81,6 +82,7 @@ def test_verdict_depends_within_the_limits_of_the_threshold():
 
 
 @pytest.mark.slow
+@pytest.mark.filterwarnings("ignore:rms_slope")  # of the finest waves: up to 1.9
 @pytest.mark.parametrize("modulus", [5e3, 30e3, 40e3, 70e3])
 def test_verdict_hardly_knows_the_finest_wave(modulus):
     """Three decades of finer waves; the onset at the finest wave moves by more than a factor."""
@@ -152,6 +154,16 @@ def test_heights_that_no_surface_has_are_warned_of(known, length, factor, spike,
         verdict(heights, length=length, **GEL)
     found = " ".join(str(warning.message) for warning in caught)
     assert all(message in found for message in messages), found
+
+
+@pytest.mark.parametrize(("slope", "warned"), [(0.98, False), (1.02, True)])
+def test_slopes_that_are_not_small_are_warned_of(slope, warned):
+    s = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6 * slope / ROUGH.rms_slope)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        verdict(s, **GEL)
+    text = "rms_slope = 1.02 is outside 1e-07 to 1: give heights and lengths both in m; small "
+    assert [str(one.message) for one in caught] == warned * [f"{text}slopes are assumed"]
 
 
 @pytest.mark.parametrize(
