@@ -71,6 +71,14 @@ def unit_for(largest: float, unit: str, digits: int = 3) -> tuple[float, str]:
     return 10.0**-power, _PREFIXES[power] + unit
 
 
+def duration(seconds: float) -> str:
+    """Time in the unit that a person would use."""
+    for unit, size in (("d", 86400), ("h", 3600), ("min", 60)):
+        if seconds == size or seconds >= 2 * size:
+            return f"{number(seconds / size)} {unit}"
+    return amount(seconds, "s")
+
+
 def percent(share: float) -> str:
     """Share as a percentage to two digits; one that is tiny as less than the least shown."""
     share = float(share)

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL
@@ -21,11 +23,22 @@ class Material:
     solid: Solid = HALF_SPACE  # or a layer, thickness in m
     surface: str | None = None  # name of the rough surface of the material
     law: str = EXPONENTIAL  # name of the traction law
+    dwell: float = np.nan  # time for which contact is made, s
+    broken_at: float = REFERENCE_FREQUENCY  # Hz, after a dwell
 
     @property
     def modulus(self):
-        """E* at the reference frequency of 1 Hz [Pa]."""
-        return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+        """E* after the dwell, or without one at the reference frequency of 1 Hz [Pa]."""
+        if np.isnan(self.dwell):
+            return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+        return float(self.plane_strain.relaxation(self.dwell))
+
+    @property
+    def separation_factor(self):
+        """Factor on the work of separation (value, low, high); 1 without a dwell."""
+        if np.isnan(self.dwell):
+            return 1.0, 1.0, 1.0
+        return self.plane_strain.separation_factor(self.dwell, self.broken_at)
 
     @property
     def is_scalable(self):
@@ -43,6 +56,8 @@ def read_material(entry):
         solid=read_solid(entry),
         surface=entry.get("surface"),
         law=entry.get("law", EXPONENTIAL),
+        dwell=si(entry["dwell"], "s") if "dwell" in entry else np.nan,
+        broken_at=si(entry.get("broken_at", "1 Hz"), "Hz"),
     )
 
 
@@ -86,7 +101,8 @@ def describe_modulus(entry):
         text = f"E′ = {low} at {first} … {high} at {last}"
     elif "youngs_modulus_prony" in entry:
         series = entry["youngs_modulus_prony"]
-        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony terms"
+        plural = "s" if len(series["terms"]) > 1 else ""
+        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony term{plural}"
     else:
         text = f"E = {entry['youngs_modulus']}"
     if "plane_strain_modulus" not in entry:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.formatting import NOTHING, interval, number, percent
+from common.formatting import NOTHING, amount, duration, interval, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
@@ -36,11 +36,23 @@ def count_pairs(dataset):
 
 
 def describe_share(pair):
-    """Share of the work of adhesion that remains, with the limits that decide the verdict."""
+    """Share of the work of adhesion that remains, or a multiple, with the limits that decide."""
     low, high = (round_share(limit) for limit in find_limits(pair))
-    value = show_shares(*sorted(map(round_share, pair.remaining.values)))
-    limits = show_shares(low, high, " to ")
-    return value if limits == value else f"{value} ({limits})"
+    show = percent if high <= 1 else lambda share: number(share, 2)
+    value = show_shares(*sorted(map(round_share, pair.remaining.values)), show=show)
+    limits = show_shares(low, high, " to ", show)
+    text = value if limits == value else f"{value} ({limits})"
+    return text if high <= 1 else f"{text} times"
+
+
+def describe_moment(judged):
+    """Rate or dwell at which a pair or a `Material` is judged; empty of an elastic solid."""
+    if not judged.depends_on_rate:
+        return ""
+    rate = amount(judged.broken_at, "Hz")
+    if np.isnan(judged.dwell):
+        return f"at {rate}"
+    return f"after {duration(judged.dwell)} of dwell, broken at {rate}"
 
 
 def round_share(share):
@@ -48,9 +60,9 @@ def round_share(share):
     return float(share) if float(share) >= LEAST_SHOWN else 0.0
 
 
-def show_shares(low, high, between=" … "):
+def show_shares(low, high, between=" … ", show=percent):
     """Two shares as percentages, or one where they agree."""
-    texts = percent(low), percent(high)
+    texts = show(low), show(high)
     return texts[1] if texts[0] == texts[1] else f"{texts[0].removesuffix(' %')}{between}{texts[1]}"
 
 

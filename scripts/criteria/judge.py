@@ -53,7 +53,7 @@ def describe_pair(pair):
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
     return (
-        WORDS[int(pair.verdict)],
+        f"{WORDS[int(pair.verdict)]} {texts.describe_moment(pair)}".strip(),
         texts.describe_share(pair),
         texts.describe_pull_off(pair),
         texts.show_stress(float(pair.modulus_quoted), texts.MPA),

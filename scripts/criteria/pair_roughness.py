@@ -144,6 +144,7 @@ def read_draws(pair, law):
     """`Roughness` of the draws of a measured surface, for a law by name; None of others."""
     if "h_rms_draws" not in pair:
         return None
-    pair = pair.assign(law=law)
+    # Slopes of the draws are not kept; those of both ends hardly differ.
+    pair = pair.assign(law=law, rms_slope=pair.rms_slope.mean("end"))
     names = [field.name for field in fields(Roughness)]
     return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})

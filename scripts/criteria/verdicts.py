@@ -26,18 +26,22 @@ from stickiness.criteria.pair import (
     judge,
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids.moduli import choose_factor
 from stickiness.statistics import COVERS
 
 DIMS = ("material", "surface", "end")
 QUANTILES = (0.05, 0.5, 0.95)  # of the draws of a measured surface
 SEED = 2
-# Factors on E* and on the heights at an unchanged shape of the spectrum; 1 is among both.
+# Factors on E*, on heights at an unchanged shape of the spectrum, and on the dwell, 1 among them.
 MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
 ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
+DWELL_FACTORS = 10.0 ** (np.arange(-16, 17) / 4)
 AXES = {  # dimension, description, and why a value may be missing, of every curve
     "modulus": ("modulus_factor", "for E* times a factor", "elastic backing"),
     "roughness": ("roughness_factor", "for the pair's heights times a factor", "not judged"),
-    "rate": ("frequency", "at a frequency", "beyond the material's table, or elastic backing"),
+    "rate": ("frequency", "at a frequency", "beyond the material's table, elastic backing, dwell"),
+    "dwell": ("dwell_factor", "for the dwell times a factor", "no dwell, or beyond the table"),
 }
 OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
 FILM, UNMEASURED = "elastic backing", "not measured"
@@ -55,12 +59,13 @@ VARIABLES = {
     **QUANTITIES,
     **{name: (*QUANTITIES[name], FILM) for name in THRESHOLDS},
     **{
-        f"{name}_quantile": (units, f"quantiles of the {text}", UNMEASURED)
-        for name, (units, text) in LIMITED.items()
+        f"{name}_quantile": (LIMITED[name][0], f"quantiles of the {LIMITED[name][1]}", UNMEASURED)
+        for name in DRAWN
     },
     **ERRORS,
     "modulus_factor": ("1", "factor on the plane-strain modulus"),
     "roughness_factor": ("1", "factor on the heights, at unchanged shape of the spectrum"),
+    "dwell_factor": ("1", "factor on the dwell"),
     **{
         f"remaining_by_{axis}{end}": (
             "1",
@@ -86,7 +91,9 @@ VARIABLES = {
     "stiffening": ("1", "energy of full contact over that of a half-space"),
     "layer_strain": ("1", "strain that conforming demands of a layer, order of magnitude"),
     "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
-    "modulus_quoted": ("Pa", "plane-strain storage modulus at 1 Hz, of the quoted margins"),
+    "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
+    "dwell": ("s", "time for which contact is made", "judged at one frequency"),
+    "broken_at": ("Hz", "frequency of the modulus, or after a dwell the rate of breaking"),
     "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
     "verdict": ("1", "verdict: " + ", ".join(f"{code} {word}" for code, word in enumerate(WORDS))),
     "disagrees": ("1", "1 where a criterion says the opposite of the verdict"),
@@ -148,7 +155,9 @@ def judge_pairs(solids, roughness, frequencies):
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)
     rough = rough.broadcast_like(rough.h_rms).transpose(*DIMS)
     names = [field.name for field in fields(Pair) if field.name in rough]
-    pair = Pair(**{name: rough[name].values for name in names})
+    factors = np.array([solid.separation_factor for solid in solids])
+    of_pair = {name: rough[name].values for name in names}
+    pair = Pair(**of_pair, separation_factor=tuple(factors.T[..., None, None]))
     dataset = xr.Dataset({name: (DIMS, values) for name, values in judge(pair).items()})
     # There is no threshold of E* with a film: the modulus of the layer alone cannot change without
     # changing what the layer does.
@@ -176,6 +185,8 @@ def judge_pairs(solids, roughness, frequencies):
         work_of_adhesion=known["work_of_adhesion"],
         modulus=(("material", "frequency"), moduli),
         modulus_quoted=known["modulus"],
+        dwell=("material", [solid.dwell for solid in solids]),
+        broken_at=("material", [solid.broken_at for solid in solids]),
         depends_on_rate=("material", [int(solid.depends_on_rate) for solid in solids]),
     ).assign_coords(
         end=list(ENDS), criterion=list(CRITERIA), quantile=list(QUANTILES), frequency=frequencies
@@ -201,54 +212,65 @@ def judge_measured(solids, draws):
 def judge_draws(solid, draws):
     """Judge one `Material` on the draws of a surface, with errors of the model."""
     length, errors = solid.work_of_adhesion / solid.modulus, draw_errors(draws)
-    at_value = length / draws.threshold(solid.range)
-    margins = length / draws.threshold(solid.range, sign=errors)
+    value, factor = (choose_factor(solid.separation_factor, sign) for sign in (0, errors))
+    at_value = length / draws.threshold(solid.range, DEFAULT_SHARE / value)
+    margins = length / draws.threshold(solid.range, DEFAULT_SHARE / factor, errors)
     return {
         "margin": margins,
-        "remaining": draws.share(length, solid.range, errors),
-        "pull_off": solid.modulus * draws.tension(length, solid.range, errors),
+        "remaining": draws.share(length, solid.range, errors) * factor,
+        "pull_off": solid.modulus * draws.tension(length, solid.range, errors, factor),
         "probability": np.mean(margins > 1),
         "error_of_spectrum": np.std(np.log(at_value)),
         "error_of_model": np.std(np.log(margins / at_value)),
-        "share_error_of_spectrum": np.std(draws.share(length, solid.range)),
+        "share_error_of_spectrum": np.std(draws.share(length, solid.range)) * value,
     }
 
 
 def follow_remaining(pair, solids, draws, strain, rates):
-    """Share that remains along factors on E* and on the heights, and along the rate.
+    """Share that remains along factors on E*, on the heights and on the dwell, and along the rate.
 
     `draws` has a row of `read_draws` for every material, `rates` are moduli (material, frequency).
     """
     # With a film the modulus of the layer alone changes the response: only heights are followed.
     scalable = np.array([solid.is_scalable for solid in solids])
+    dwelt = np.isfinite([solid.dwell for solid in solids])
     quoted = np.array([solid.modulus for solid in solids])
+    times = DWELL_FACTORS if dwelt.any() else np.ones(1)
+    dwells = [[replace(one, dwell=x * one.dwell) for one in solids] for x in times]
     along = {
         "modulus": np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan),
         "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
-        "rate": np.where(scalable, rates.T, np.nan),
+        "rate": np.where(scalable & ~dwelt, rates.T, np.nan),
+        "dwell": np.where(dwelt, [[one.modulus for one in row] for row in dwells], np.nan),
     }
     found = {"modulus_factor": MODULUS_FACTORS, "roughness_factor": ROUGHNESS_FACTORS}
+    found["dwell_factor"] = times
     for axis, moduli in along.items():
         heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
-        curves = follow(pair, solids, draws, strain, AXES[axis][0], moduli, heights)
+        at = dwells if axis == "dwell" else [solids] * len(moduli)
+        factors = np.array([[one.separation_factor for one in row] for row in at])
+        curves = follow(pair, solids, draws, strain, AXES[axis][0], moduli, factors, heights)
         found |= {f"remaining_by_{axis}{end}": x for end, x in zip(SIGNS, curves, strict=True)}
     return found
 
 
-def follow(pair, solids, draws, strain, dim, moduli, heights):
+def follow(pair, solids, draws, strain, dim, moduli, factors, heights):
     """Share with the limits that decide, for moduli (dim, material) and factors on heights (dim,).
 
-    A modulus that is not known is NaN, and so are its shares.
+    `factors` on the work of separation, with limits, are (dim, material, 3). A modulus that is not
+    known is NaN, and so are its shares.
     """
     known = xr.DataArray(~np.isnan(moduli), dims=(dim, "material"))
     moduli = np.where(known, moduli, pair.modulus[:, 0, 0])
     at = scale_heights(pair, heights[:, None, None, None])
-    at = replace(at, modulus=moduli[..., None, None])
+    factors = np.where(known.values[..., None], factors, 1.0)
+    by_limit = tuple(np.moveaxis(factors, -1, 0)[..., None, None])
+    at = replace(at, modulus=moduli[..., None, None], separation_factor=by_limit)
     found = xr.Dataset(
         {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
     )
     quantiles = [
-        [follow_draws(solid, one, moduli[:, i], heights) for one in draws[i]]
+        [follow_draws(solid, one, moduli[:, i], factors[:, i], heights) for one in draws[i]]
         for i, solid in enumerate(solids)
     ]
     found["remaining_quantile"] = (*DIMS[:2], dim, "quantile"), np.array(quantiles)
@@ -267,14 +289,15 @@ def scale_heights(rough, factor):
     )
 
 
-def follow_draws(solid, draws, moduli, heights):
+def follow_draws(solid, draws, moduli, factors, heights):
     """Quantiles of the share over the draws of a surface, ``(dim, quantile)``; NaN without."""
     if draws is None:
         return np.full((len(moduli), len(QUANTILES)), np.nan)
-    (moduli, heights), place = np.unique([moduli, heights], axis=1, return_inverse=True)
-    length = solid.work_of_adhesion / moduli[:, None]
-    rough = scale_heights(draws, heights[:, None])
-    shares = rough.share(length, solid.range, draw_errors(draws))
+    along, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
+    moduli, heights, *factors = along[..., None]
+    rough, errors = scale_heights(draws, heights), draw_errors(draws)
+    shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors)
+    shares = shares * choose_factor(factors, errors)
     return np.quantile(shares, QUANTILES, axis=-1).T[place]
 
 

@@ -26,7 +26,7 @@ from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sid
 from common.formatting import unit_for
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from common.verdicts import find_limits
-from report.surface_figures import DASHES, LABELS, REMAINS, SHOWN
+from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, SHOWN, find_scale
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = (  # of the verdicts, in the order of their codes
@@ -124,9 +124,9 @@ def locate(verdicts, row):
     pair = verdicts.sel(material=row["key"], surface=row["name"])
     told = {name: row[name] for name in ("material", "surface", "word")} | row["text"]
     ratios = np.clip(pair.energy_ratio.values, LEAST_RATIO, MOST_RATIO)
-    ends = sorted(zip(100 * pair.remaining.values, ratios, strict=True))
+    ends = sorted(zip(np.minimum(100 * pair.remaining.values, 100), ratios, strict=True))
     ends = [told | {"ratio": x, "share": share, "low": share, "high": share} for share, x in ends]
-    ends[0]["low"], ends[-1]["high"] = (100 * float(limit) for limit in find_limits(pair))
+    ends[0]["low"], ends[-1]["high"] = (min(100 * float(x), 100) for x in find_limits(pair))
     return ends
 
 
@@ -141,11 +141,15 @@ def draw_axis(axis, curves):
     """Curves along one axis: both ends of the surface, limits, and the pair as it is."""
     shown = DataRange1d(only_visible=True, range_padding=0.02)
     height = 340 + LEGEND_ROW * len(curves)
-    plot = plot_shares(LABELS[axis], height=height, x_range=shown, y_range=(-2, 102))
+    scale, limits = find_scale(curves)
+    ranges = {"x_range": shown, "y_range": limits, "y_axis_type": scale}
+    plot = plot_shares(LABELS[axis], height=height, **ranges)
     told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@rough{0.0} … @smooth{0.0}")]
     told.append(("limits [%]", "@low{0.0} to @high{0.0}"))
     items = []
     for rank, (label, place, points, own) in enumerate(curves):
+        if scale == "log":  # which has no zero
+            points = points.assign(**points.drop(columns="x").clip(lower=LEAST_PERCENT / 10))
         source = ColumnDataSource(points.to_dict("list"))
         look = {"color": COLOURS[place % len(COLOURS)], "visible": rank < SHOWN}
         band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)

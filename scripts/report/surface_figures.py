@@ -18,11 +18,13 @@ LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
 SHOWN = 3  # materials at first, and in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
+LEAST_PERCENT = 0.1  # that a logarithmic axis shows
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
 LABELS = {
     "modulus": "plane-strain modulus E* [MPa]",
     "roughness": "factor on the heights",
     "rate": "frequency [Hz]",
+    "dwell": "dwell time [s]",
 }
 REMAINS = "remaining share [%]"
 
@@ -123,7 +125,8 @@ def follow(axis, pair):
     shares = {end: pair[share].sel(end=end).values for end in ("rough", "smooth")}
     shares |= {limit: pair[f"{share}_{limit}"].values for limit in ("low", "high")}
     factor = pair[dim].values  # a rate of 1 Hz, at which the modulus is quoted, counts as 1
-    x = factor * float(pair.modulus_quoted) / MPA if axis == "modulus" else factor
+    scale = {"modulus": float(pair.modulus_quoted) / MPA, "dwell": float(pair.dwell)}
+    x = factor * scale.get(axis, 1.0)
     points = 100 * pd.DataFrame(shares, index=x)
     points = points.rename_axis("x").reset_index()
     own = points.loc[np.argmin(abs(np.log(factor)))]
@@ -135,9 +138,16 @@ def follow(axis, pair):
     return points[kept], own
 
 
+def find_scale(curves):
+    """Scale and limits of shares [%]: logarithmic where some may exceed 100 %."""
+    most = max(curve.points.high.max() for curve in curves)
+    return ("linear", (-2, 102)) if most <= 100 else ("log", (LEAST_PERCENT, 1.5 * most))
+
+
 def draw_still(found, output):
     """Write the curves of the first materials for print; say so if nothing is judged."""
-    with plotting.open_figure([output], "ABC"[: max(len(found), 1)], 2.9) as panels:
+    rows, height = ("A", "AB", "ABC", "AB;CD")[max(len(found), 1) - 1], 2.9
+    with plotting.open_figure([output], rows, height * len(rows.split(";"))) as panels:
         if not found:
             panels["A"].set_axis_off()
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
@@ -152,7 +162,8 @@ def draw_still(found, output):
                     ax.plot(own.x, own[end], marker, color=colour)
                 ax.plot([], [], **look, marker=marker, label=label)
             ax.axhline(100 * DEFAULT_SHARE, color=GREY, linewidth=0.9, linestyle="--")
-            ax.set(xscale="log", ylim=(-2, 102), xlabel=LABELS[axis], ylabel=REMAINS)
+            scale, limits = find_scale(curves)
+            ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=LABELS[axis], ylabel=REMAINS)
         handles, texts = panels["A"].get_legend_handles_labels()
         look = {"loc": "outside lower center", "ncols": SHOWN, "handlelength": 3}
         panels["A"].figure.legend(handles, texts, **look)

@@ -13,7 +13,7 @@ from common.formatting import (
     quantity_with_error,
     with_error,
 )
-from stickiness.criteria.pair import BROAD_A_V, NOT_JUDGED, WORDS
+from stickiness.criteria.pair import BROAD_A_V, NOT_JUDGED, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
@@ -33,6 +33,7 @@ def describe_pair(pair):
     """
     code = int(pair.verdict)
     row = {"code": code, "word": WORDS[code], "tone": TONES[code], "stiffening": "", "strain": ""}
+    row |= {"moment": texts.describe_moment(pair), "factor": ""}
     if code == NOT_JUDGED:
         nothing = {"text": dict.fromkeys(COLUMNS, NOTHING), "sort": dict.fromkeys(COLUMNS, -1.0)}
         return row | nothing | {"code": -1, "not_judged": str(pair.not_judged.item())}
@@ -40,6 +41,9 @@ def describe_pair(pair):
         row["stiffening"] = interval(*pair.stiffening.values, 2)
     if pair.layer_strain.max() > texts.MOST_STRAIN:
         row["strain"] = number(pair.layer_strain.max(), 2)
+    if np.isfinite(pair.dwell):
+        factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
+        row["factor"] = "{} ({} to {})".format(*factors)
     margin, onset = (pair.margin.sel(criterion=name) for name in (REMAINING, EDGES))
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
@@ -86,8 +90,9 @@ def gather_facts(pair, work_of_adhesion):
     rough = pair.sel(end="rough")
     curvature = float(rough.pair_rms_curvature)
     intervals = ("attractive_over_contact", "edge_strength", "over_dmt")
+    share = texts.describe_share(pair)
     return {name: interval(*pair[name].values, 2) for name in intervals} | {
-        "remaining": texts.describe_share(pair),
+        "remaining": share if share.endswith("times") else f"{share} of",
         "wanted": percent(DEFAULT_SHARE),
         "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
         "h_rms": quantity(*pair.pair_h_rms.values, "m"),

@@ -6,9 +6,9 @@ import xarray as xr
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
-from common.materials import RATE_KEYS, describe_modulus, read_material
+from common.materials import describe_modulus, read_material
 from common.templates import write_page
-from common.verdicts import describe_pull_off, describe_share
+from common.verdicts import describe_moment, describe_pull_off, describe_share
 from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets
@@ -69,10 +69,11 @@ def main(job):
 def describe_verdict(pair, entry):
     """Verdict on one material, the rates at which it sticks, and every criterion's reason."""
     solid, judged = read_material(entry), int(pair.verdict) != NOT_JUDGED
+    rated = solid.depends_on_rate and np.isnan(solid.dwell)
     return describe_pair(pair) | {
         "material": entry["label"],
         "modulus": describe_modulus(entry),
-        "rates": list_rates(solid, pair) if solid.depends_on_rate and judged else [],
+        "rates": list_rates(solid, pair) if rated and judged else [],
         "criteria": explain(pair, solid.work_of_adhesion) if judged else [],
     }
 
@@ -109,7 +110,7 @@ def describe_contact(files, pairs, mine):
         "data": contact,
         "loads": loads,
         "pulled": made["label"],
-        "rated": any(key in made for key in RATE_KEYS),
+        "moment": describe_moment(read_material(made)).partition(",")[0],
         "pull_off": pull_off,
     }
     if not pull_off.attrs["left_out"]:
@@ -130,7 +131,7 @@ def list_loads(contact, materials):
     """Texts of every load: pressure over E* and for each suited material, area and mean gap."""
     # Suited are materials that are deep and smooth, as the simulated solid is.
     suited = {
-        f"{label} at 1 Hz" if solid.depends_on_rate else label: solid.modulus
+        f"{label} {describe_moment(solid).partition(',')[0]}".strip(): solid.modulus
         for label, solid in materials.items()
         if solid.solid == HALF_SPACE and solid.surface is None
     }

@@ -8,7 +8,7 @@ import xarray as xr
 
 from common.materials import read_material
 from common.verdicts import find_limits
-from criteria.verdicts import MODULUS_FACTORS, ROUGHNESS_FACTORS, judge_pairs
+from criteria.verdicts import DWELL_FACTORS, MODULUS_FACTORS, ROUGHNESS_FACTORS, judge_pairs
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
@@ -27,6 +27,7 @@ SERIES = {"equilibrium": "0.1 MPa", "terms": [["0.5 MPa", "0.1 s"], ["1 GPa", "1
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 SLOW = {key: value for key, value in TAPE.items() if key != "youngs_modulus"}
 SLOW |= {"youngs_modulus_prony": SERIES}
+RESTED = SLOW | {"dwell": "0.2 s", "broken_at": "3 Hz"}
 THICK, THIN = "40 um", "7 um"  # layers that can take the heights, and that cannot
 FREQUENCIES, DRAWS = np.geomspace(1e-4, 1e6, 21), 60
 
@@ -61,6 +62,7 @@ def followed(drawn, thickness=THICK):
     """Curves beside what is stored of the pairs."""
     layer = TAPE | {"thickness": thickness}
     entries = {"tape": TAPE, "slow": SLOW, "layer": layer, "film": layer | {"backing": FILM}}
+    entries["rested"] = RESTED
     return judge(entries, drawn, FREQUENCIES)
 
 
@@ -79,20 +81,22 @@ def curves(request):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("axis", ["modulus", "roughness", "rate"])
+@pytest.mark.parametrize("axis", ["modulus", "roughness", "rate", "dwell"])
 @pytest.mark.parametrize("thickness", [THICK, THIN])
 @pytest.mark.parametrize("drawn", [False, True])
 def test_at_the_pair_itself_curves_are_what_is_stored(drawn, thickness, axis):
     found = followed(drawn, thickness)
-    along = {"modulus": MODULUS_FACTORS, "roughness": ROUGHNESS_FACTORS, "rate": FREQUENCIES}[axis]
+    along = {"modulus": MODULUS_FACTORS, "roughness": ROUGHNESS_FACTORS, "rate": FREQUENCIES}
+    along = (along | {"dwell": DWELL_FACTORS})[axis]
     at = {"frequency" if axis == "rate" else f"{axis}_factor": np.argmin(abs(np.log(along)))}
     there, expected = found.isel(at), (found.remaining, *find_limits(found))
-    known = there.material != "film" if axis != "roughness" else np.full(4, True)
+    unknown = {"roughness": [], "modulus": ["film"], "rate": ["film", "rested"]}
+    known = ~there.material.isin(unknown[axis]) if axis != "dwell" else there.material == "rested"
     for name, values in zip(("", "_low", "_high"), expected, strict=True):
         curve = there[f"remaining_by_{axis}{name}"]
         np.testing.assert_allclose(curve[known], values[known], rtol=1e-9)
     assert (there.remaining > 0.01).all()
-    assert (there.remaining < 0.99).all()
+    assert (there.remaining < 0.99 * there.separation_factor).all()
     assert (float(expected[1].sel(material="layer")) == 0) == (thickness == THIN)
 
 
@@ -150,8 +154,60 @@ def test_the_rate_counts_by_the_modulus(curves):
         np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 
+@pytest.mark.parametrize("factor", [1e-4, 1.0, 1e3])
+def test_the_dwell_counts_by_the_relaxed_modulus_and_the_factor(curves, factor):
+    """Curves of dwells are verdicts of materials with these dwells."""
+    drawn = not float(curves.remaining_quantile.isnull().all())
+    entry = RESTED | {"dwell": f"{0.2 * factor!r} s"}
+    expected = judge({"other": entry}, drawn, np.ones(1)).sel(material="other")
+    found = curves.sel(material="rested").isel(dwell_factor=np.argmin(abs(DWELL_FACTORS - factor)))
+    shares = (expected.remaining, *find_limits(expected))
+    for name, values in zip(("", "_low", "_high"), shares, strict=True):
+        np.testing.assert_allclose(found[f"remaining_by_dwell{name}"], values, rtol=1e-9)
+    solid = read_material(entry)
+    series = solid.plane_strain
+    assert solid.modulus == series.relaxation(0.2 * factor)
+    value, low, high = solid.separation_factor
+    assert (value, low, high) == series.separation_factor(0.2 * factor, 3.0)
+    x = 0.07 / solid.modulus
+    shares = [predict(rough(h), x, 3e-9).separation for h in HEIGHTS]
+    np.testing.assert_allclose(expected.remaining, np.multiply(value, shares), rtol=1e-6)
+    assert (expected.separation_factor_high == pytest.approx(high)).all()
+
+
+def test_the_curve_of_a_table_ends_where_the_table_does():
+    pairs = [["0.01 Hz", "0.1 MPa"], ["1 Hz", "0.2 MPa"], ["100 Hz", "0.6 MPa"]]
+    tape = {key: value for key, value in RESTED.items() if key != "youngs_modulus_prony"}
+    tape |= {"youngs_modulus_table": pairs, "dwell": "1 s", "broken_at": "10 Hz"}
+    found = judge({"tape": tape}, False, np.ones(1)).sel(material="tape")
+    known = np.isfinite(found.remaining_by_dwell_low)
+    covered = abs(np.log10(DWELL_FACTORS * np.pi**2)) <= 2  # 0.01 to 100 Hz are 10 s to 1 ms
+    np.testing.assert_array_equal(known, covered)
+    value, low, high = read_material(tape).separation_factor
+    # E' goes as powers log10(2)/2 and log10(3)/2 of the frequency below and above 1 Hz.
+    relaxed = 0.2 / np.pi ** np.log10(2)
+    assert (value, low, high) == pytest.approx((0.2 * 3**0.5 / relaxed, 1.0, 0.6 / relaxed))
+
+
+def test_limits_of_a_dwell_are_those_of_the_factor():
+    elastic = {"label": "a", "plane_strain_modulus": f"{read_material(RESTED).modulus!r} Pa"}
+    elastic |= {"work_of_adhesion": "70 mJ/m^2", "range": "3 nm"}
+    for drawn in (False, True):
+        both = judge({"rested": RESTED, "elastic": elastic}, drawn, np.ones(1))
+        limits = [find_limits(both.sel(material=name)) for name in ("rested", "elastic")]
+        (low, high), (least, most) = [[float(x) for x in pair] for pair in limits]
+        top = float(both.separation_factor_high.sel(material="rested").max())
+        assert top > 1000  # 1 GPa over 0.1 MPa and some
+        if drawn:  # few draws have both limits at once
+            assert least <= low < 2 * least
+            assert most < high <= top * most
+        else:
+            assert (low, high) == pytest.approx((least, top * most))
+
+
 def test_an_elastic_backing_has_no_curve_along_the_modulus(curves):
     film = curves.sel(material="film")
     assert np.isnan(film.remaining_by_modulus).all()
     assert np.isnan(film.remaining_by_rate_low).all()
+    assert np.isnan(film.remaining_by_dwell_low).all()
     assert np.isfinite(film.remaining_by_roughness).all()

@@ -102,6 +102,9 @@ def verdicts():
             "margin_high": (dims, 1.1 * np.array(derived)),
             "margin_quantile": ((*dims[:2], "quantile"), np.tile([0.5, 1.0, 2.0], (2, 2, 1))),
             "modulus_quoted": ("material", [4e3 / 3, 2e9]),
+            "depends_on_rate": ("material", [1, 0]),
+            "dwell": ("material", [np.nan, np.nan]),
+            "broken_at": ("material", [1.0, 1.0]),
             "stiffening": (dims, ones),
             "layer_strain": (dims, 0 * ones),
             "energy_ratio": (dims, np.array(derived) / 2),
@@ -295,8 +298,8 @@ def test_the_report_shows_what_is_in_the_files(page):
         "E = 1 kPa, ν = 0.5",
         "multilevel: 32 coarse seeds, 100 long-wave controls",
         # The sentences of the verdicts.
-        "Jelly & cream on glass pane sticks: 50 … 70 % (40 to 84 %) of the work of adhesion",
-        "For jelly & cream on sand < 1 mm it depends: 2 … 30 % (1.6 to 36 %)",
+        "Jelly & cream on glass pane sticks at 1 Hz: 50 … 70 % (40 to 84 %) of the work",
+        "For jelly & cream on sand < 1 mm it depends at 1 Hz: 2 … 30 % (1.6 to 36 %)",
         f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
         "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains.",
         # Experiments.

@@ -166,6 +166,27 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
 
 
 @pytest.mark.slow
+def test_page_of_a_material_with_a_dwell_names_it_and_shows_more_than_all_adhesion(folder):
+    """Acrylic tape on a rough wall, at 1 Hz and after an hour."""
+    series = {"equilibrium": "54 kPa", "terms": [["126 kPa", "400 s"]]}
+    tape = {"label": "tape", "youngs_modulus_prony": series, "poisson_ratio": 0.5}
+    tape |= {"work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "own"}
+    rested = {"label": "rested tape", "dwell": "3600 s", "broken_at": "20 Hz"}
+    asked = {"kind": "self_affine", "label": "wall", "hurst": 0.8, "source": "own"}
+    asked |= {"longest_wavelength": "10 mm", "shortest_wavelength": "1 um", "h_rms": "45 um"}
+    dataset = analyse_surface.self_affine(asked)
+    datasets.write(dataset, folder / "wall.nc", title="a", parameters=asked)
+    materials = {"tape": tape, "rested": tape | rested}
+    page = write_page(datasets.read(folder / "wall.nc"), folder / "rested", materials)
+    page.check(
+        "Tape adheres locally, does not hold at 1 Hz:",
+        "Rested tape sticks after 1 h of dwell, broken at 20 Hz:",
+        "times the work of adhesion remains. This includes the factor 3.3 (1 to 3.3)",
+    )
+    assert "dwell time [s]" in page.html
+
+
+@pytest.mark.slow
 def test_profiles_and_parametric_surfaces_have_pages(folder):
     s = SelfAffine(hurst=0.8, q0=1.0, q1=200.0, h_rms=300.0)
     h = surface.synthesise(s, n=512, length=2 * np.pi, seed=8)[:, 9]

@@ -4,6 +4,7 @@ from typing import Literal
 
 from common.config import fields as f
 from common.config.fields import Section, needed, optional
+from stickiness.solids.moduli import relaxation_frequency
 
 _MODULI = ("plane_strain_modulus", "youngs_modulus and poisson_ratio")
 
@@ -46,6 +47,8 @@ class Material(ElasticPair, f.Labelled):
         'pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]'
     )
     youngs_modulus_prony: Prony = optional("Prony series of Young's modulus")
+    dwell: f.Time = optional('time for which contact is made, e.g. "60 s"')
+    broken_at: f.Frequency = optional("rate at which contact is broken after a dwell (1 Hz)")
     thickness: f.Thickness = optional("thickness of a layer; without it infinitely deep")
     backing: f.by_type(dict, Film, Literal["bonded", "slip"]) = optional(
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
@@ -58,11 +61,20 @@ class Material(ElasticPair, f.Labelled):
         if frequencies != sorted(set(frequencies)):
             listed = ", ".join(frequency.text for frequency in frequencies)
             yield f"youngs_modulus_table = {listed}: frequencies must ascend"
-        if frequencies and not frequencies[0] <= 1 <= frequencies[-1]:
-            yield (
-                f"youngs_modulus_table runs from {frequencies[0].text} to {frequencies[-1].text} "
-                "and must cover 1 Hz, at which the verdict is quoted"
-            )
+        covered = {self.broken_at or f.Quantity("1 Hz", "Hz"): "at which the verdict is quoted"}
+        if self.dwell is not None:
+            slow = f.Quantity(f"{relaxation_frequency(self.dwell):.3g} Hz", "Hz")
+            covered[slow] = f"1/(pi^2 dwell) for dwell = {self.dwell!r}"
+            if not frequencies and self.youngs_modulus_prony is None:
+                yield f"dwell = {self.dwell!r}: give youngs_modulus_table or youngs_modulus_prony"
+        elif self.broken_at is not None:
+            yield f"broken_at = {self.broken_at!r} belongs to a dwell: give it, too"
+        for frequency, role in covered.items():
+            if frequencies and not frequencies[0] <= frequency <= frequencies[-1]:
+                yield (
+                    f"youngs_modulus_table runs from {frequencies[0].text} to "
+                    f"{frequencies[-1].text} and must cover {frequency.text}, {role}"
+                )
         if self.surface is not None and self.surface not in context["surfaces"]:
             yield f.unknown("surface", self.surface, context["surfaces"])
         if self.thickness is None:

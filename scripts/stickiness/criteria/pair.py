@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.solids.moduli import choose_factor
 
 WORDS = (
     *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
@@ -30,6 +31,7 @@ LIMITED = {  #: units and descriptions of the quantities that have limits by the
     "pull_off": ("Pa", "largest mean tension on separation"),
     "margin": ("1", "adhesion length over the one at which the wanted share remains"),
     "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
+    "separation_factor": ("1", "factor on the work of separation by dissipation at the edge"),
 }
 QUANTITIES = {
     f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
@@ -67,6 +69,8 @@ class Pair(Roughness):
     a_v: ArrayLike  #: at this range on this surface
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
+    #: On the work of separation (value, low, high), see `Prony.separation_factor`
+    separation_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = (1.0, 1.0, 1.0)
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -74,16 +78,22 @@ class Pair(Roughness):
         return self.work_of_adhesion / self.modulus
 
     def remaining(self, sign: int = 0) -> float | NDArray:
-        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
-        return self.share(self.adhesion_length, self.range, sign)
+        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
+
+        It includes the separation factor, and exceeds 1 if that is large.
+        """
+        factor = choose_factor(self.separation_factor, sign)
+        return self.share(self.adhesion_length, self.range, sign) * factor
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
-        return self.tension(self.adhesion_length, self.range, sign) * self.modulus
+        factor = choose_factor(self.separation_factor, sign)
+        return self.tension(self.adhesion_length, self.range, sign, factor) * self.modulus
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
         """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""
-        return self.threshold(self.range, self.wanted_share, sign)
+        factor = choose_factor(self.separation_factor, sign)
+        return self.threshold(self.range, self.wanted_share / factor, sign)
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:
@@ -125,6 +135,8 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         found[f"pull_off{ending}"] = pair.pull_off(sign)
         found[f"margin{ending}"] = length / threshold
         found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
+        factor = choose_factor(pair.separation_factor, sign)
+        found[f"separation_factor{ending}"] = np.broadcast_to(factor, np.shape(threshold))
     found |= {
         "range_over_h_rms": pair.range / pair.h_rms,
         "energy_ratio": length / pair.elastic_energy,

@@ -78,7 +78,7 @@ _TABLE = (
         "remaining adhesion",
         margin=lambda pair: pair.adhesion_length / pair.remaining_threshold(),
         length=Pair.remaining_threshold,
-        reason="{remaining} of the work of adhesion remains; {wanted} is wanted. Full contact "
+        reason="{remaining} the work of adhesion remains; {wanted} is wanted. Full contact "
         "would cost {energy} against the work of adhesion of {work_of_adhesion}.",
         line=Line("red", "-", 2.2),
     ),
@@ -159,7 +159,7 @@ _TABLE = (
         "Dahlquist",
         margin=_margin_of(formulas.dahlquist, "modulus"),
         modulus=formulas.DAHLQUIST_LIMIT,
-        reason="E* = {modulus} at 1 Hz against 1 MPa. The criterion considers no roughness at all.",
+        reason="E* = {modulus} against 1 MPa, meant at 1 Hz. The criterion considers no roughness.",
         line=Line("grey", "-", 1.0),
     ),
 )

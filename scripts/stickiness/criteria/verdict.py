@@ -44,6 +44,8 @@ class StickinessVerdict:
     margin_limits: tuple[float, float]
     modulus_threshold: float  #: plane-strain modulus below which the wanted share remains [Pa]
     modulus_threshold_limits: tuple[float, float]
+    separation_factor: float  #: on the work of separation, included in what remains
+    separation_factor_limits: tuple[float, float]
     regime: str  #: one of `REGIMES`, by the Tabor parameter of the contact edges
     simulated: bool  #: whether full simulation covers the state of the edges
     a_v: float  #: a_V of the pair
@@ -76,7 +78,8 @@ class StickinessVerdict:
             f"{direction if pair.anisotropy_error_factor > 1 else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
-            f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
+            f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m, "
+            f"separation factor {self.separation_factor:.3g}"
         )
 
 
@@ -92,6 +95,7 @@ def verdict(
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
     law: str = EXPONENTIAL,
+    separation_factor: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
 
@@ -121,6 +125,9 @@ def verdict(
         criteria than that and Persson-Tosatti's take a half-space.
     law : str
         As of `predict`, for what remains. The other criteria know the range alone.
+    separation_factor : (value, low, high), optional
+        On the work of separation, so that more than 1 may remain. After a dwell, `modulus` is the
+        relaxation modulus; see `solids.moduli.Prony.separation_factor`.
 
     Returns
     -------
@@ -166,12 +173,17 @@ def verdict(
         )
     if a_v is None:
         a_v = surface_a_v(spectrum, known).at(range / known["h_rms"])
-    value, low, high = map(float, positive(a_v=a_v)[0])
-    if not low <= value <= high:
-        raise ValueError(f"a_v must be (value, low, high) with low <= value <= high, got {a_v!r}")
+    limited = {"a_v": a_v, "separation_factor": separation_factor}
+    for (name, given), (value, low, high) in zip(limited.items(), positive(**limited), strict=True):
+        if not low <= value <= high:
+            raise ValueError(
+                f"{name} must be (value, low, high) with low <= value <= high, got {given!r}"
+            )
+    value, low, high = map(float, a_v)
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
-    pair = Pair(**known, **material, a_v=value, wanted_share=wanted_share, law=law)
+    known |= {"wanted_share": wanted_share, "separation_factor": separation_factor, "law": law}
+    pair = Pair(**known, **material, a_v=value)
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
     limits = {f"{name}_limits": (found[f"{name}_low"], found[f"{name}_high"]) for name in LIMITED}

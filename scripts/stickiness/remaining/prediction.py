@@ -176,11 +176,13 @@ class Roughness:
         range: ArrayLike,
         sign: ArrayLike = 0,
         pressed: ArrayLike = 0.0,
+        separation_factor: ArrayLike = 1.0,
     ) -> float | NDArray:
         """Largest mean tension on separation over E*; `sign` as of `share`.
 
         The high limit goes over to the strength of the law towards full contact, which was not
-        simulated, and takes it where full contact, `pressed` with that pressure over E*, lasts.
+        simulated, and takes it where full contact, `pressed` with that pressure over E*, lasts. A
+        factor on the work of separation multiplies the tension up to that strength.
         """
         length = np.asarray(adhesion_length)
         found = np.asarray(
@@ -195,10 +197,12 @@ class Roughness:
         slope = np.asarray(self.rms_slope)
         lasts = (np.asarray(pressed) > slope) & (strength > LASTING * slope / 2)
         beyond = np.where(lasts, 1.0, beyond) * np.clip(sign, 0.0, 1.0)
-        return plain(found ** (1 - beyond) * np.maximum(strength, found) ** beyond)
+        strength = np.maximum(strength, found)
+        found = found ** (1 - beyond) * strength**beyond
+        return plain(np.minimum(separation_factor * found, strength))
 
     def threshold(
-        self, range: ArrayLike, share: float = DEFAULT_SHARE, sign: ArrayLike = 0
+        self, range: ArrayLike, share: ArrayLike = DEFAULT_SHARE, sign: ArrayLike = 0
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
@@ -208,11 +212,11 @@ class Roughness:
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
-        at = np.broadcast_arrays(*values, half_space, sign, self.rms_slope, self.law)
+        at = np.broadcast_arrays(*values, half_space, sign, self.rms_slope, self.law, share)
         energy = at[2]
 
-        def excess(log_length, h, q0, energy, compliance, range, half_space, sign, slope, law):
-            rough = Roughness(h, q0, energy, compliance, half_space, rms_slope=slope, law=law)
+        def excess(log_length, h, q0, energy, layer, range, bound, sign, slope, law, share):
+            rough = Roughness(h, q0, energy, layer, bound, rms_slope=slope, law=law)
             return np.asarray(rough.share(np.exp(log_length), range, sign)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))

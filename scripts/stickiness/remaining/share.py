@@ -229,8 +229,9 @@ def find_deepest_state(
     area = np.take_along_axis(np.broadcast_to(area, energy.shape), lowest[..., None], -1)[..., 0]
     share = np.maximum(tough_share(energy_ratio, onset), weak)
     tough = share > weak
+    strength = find_strength(law) * x[..., 0] / range_ratio
     return (
         share,
-        np.where(tough, tough_tension(energy_ratio, onset), rise),
+        np.minimum(np.where(tough, tough_tension(energy_ratio, onset), rise), strength),
         np.where(tough, tough_area(energy_ratio, onset), area),
     )

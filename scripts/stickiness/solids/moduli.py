@@ -1,8 +1,9 @@
 """Moduli that depend on the rate: a Prony series, a table, or a constant.
 
 The storage modulus E'(f) sets the elastic energy that competes with adhesion at a frequency f.
-Dahlquist's limit is one on E' at 1 Hz. Dissipation adds to the work of adhesion; no criterion here
-takes it into account. Moduli in Pa, frequencies in Hz, times in s.
+Dahlquist's limit is one on E' at 1 Hz. After a dwell the relaxation modulus E(t) replaces E', and
+dissipation at the edge of contact multiplies the work of separation. Moduli in Pa, frequencies in
+Hz, times in s.
 """
 
 from __future__ import annotations
@@ -12,10 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.arguments import plain, positive
+from stickiness.arguments import number, plain, positive
 
 REFERENCE_FREQUENCY = 1.0  #: Hz, Dahlquist's
 _GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow
+# Steps of t, up to REACH beyond the slowest time, in a sum that converges as exp(-pi^2/STEP).
+_STEP, _REACH = 0.25, 40.0
 
 
 @dataclass(frozen=True)
@@ -59,6 +62,43 @@ class Prony:
         x = np.minimum(2 * np.pi * frequency[..., None] * times, _GLASSY)
         return plain(self.equilibrium + np.sum(moduli * x**2 / (1 + x**2), axis=-1))
 
+    def relaxation(self, time: ArrayLike) -> float | NDArray:
+        """Relaxation modulus E(t) [Pa] at times [s] after a step of the strain."""
+        (time,) = positive(time=time)
+        moduli, times = np.array(self.terms).T
+        return plain(self.equilibrium + np.exp(-time[..., None] / times) @ moduli)
+
+    def separation_factor(self, dwell: float, frequency: float) -> tuple[float, float, float]:
+        """Factor by which dissipation at the edge of contact multiplies the work of separation.
+
+        1/(1 - (2/pi) E(dwell) int_0^f (1 - (g/f)^2)^(1/2) Im(-1/E(g)) dg/g) by Persson and Brener
+        (doi:10.1103/PhysRevE.71.036123). A term counts by the part of it that has relaxed; the rest
+        carries stress as if it were at equilibrium.
+
+        Parameters
+        ----------
+        dwell : float
+            Time for which the surfaces were in contact [s].
+        frequency : float
+            Speed of the edge over the radius of its tip [Hz].
+
+        Returns
+        -------
+        tuple of float
+            The factor with its limits: 1, of a slow edge, and the instantaneous modulus over
+            E(dwell), of a fast one.
+        """
+        dwell, omega = number("dwell", dwell), 2 * np.pi * number("frequency", frequency)
+        relaxed = self.relaxation(dwell)
+        moduli, times = np.array(self.terms).T
+        most = float(self.equilibrium + moduli.sum()) / relaxed
+        # With g = f/cosh(t) the integrand is smooth, even in t, and vanishes exponentially.
+        t = np.arange(_STEP, _REACH + np.log1p(omega * times.max() * most), _STEP)
+        x = 1j * (omega / np.cosh(t))[:, None] * times
+        modulus = relaxed - x / (1 + x) @ (moduli * np.expm1(-dwell / times))
+        lost = np.tanh(t) ** 2 @ (-1 / modulus).imag * _STEP
+        return float(np.clip(1 / (1 - 2 / np.pi * relaxed * lost), 1.0, most)), 1.0, most
+
 
 @dataclass(frozen=True)
 class Table:
@@ -80,8 +120,42 @@ class Table:
         x, y = np.log(self.frequencies), np.log(self.moduli)
         return plain(np.exp(np.interp(np.log(frequency), x, y, left=np.nan, right=np.nan)))
 
+    def relaxation(self, time: ArrayLike) -> float | NDArray:
+        """Relaxation modulus E(t) [Pa] at times [s]: E' at omega = 2/(pi t); NaN beyond the table.
+
+        Where E' goes with any power of the frequency it is off by less than 1.3 %, of a single
+        relaxation by less than a tenth of its step. At omega = 1/t and a power of 1/2 E' is a
+        quarter too high.
+        """
+        (time,) = positive(time=time)
+        return self.storage(relaxation_frequency(time))
+
+    def separation_factor(self, dwell: float, frequency: float) -> tuple[float, float, float]:
+        """Factor on the work of separation with its limits, as that of `Prony`; NaN beyond.
+
+        A table has no loss modulus. The value is E'(frequency)/E(dwell): up to 8 % too low where E'
+        goes with a power of the frequency up to 0.3, a quarter at 0.5, and more at a single
+        relaxation. The high limit is as high as the table goes.
+        """
+        relaxed = self.relaxation(number("dwell", dwell))
+        most = float(np.maximum(max(self.moduli) / relaxed, 1.0))
+        value = self.storage(number("frequency", frequency)) / relaxed
+        return float(np.clip(value, 1.0, most)), 1.0, most
+
 
 Modulus = Constant | Prony | Table
+
+
+def relaxation_frequency(time: ArrayLike) -> ArrayLike:
+    """Frequency [Hz] at which the storage modulus is about the relaxation modulus at a time [s]."""
+    return 1 / (np.pi**2 * time)
+
+
+def choose_factor(factor: tuple[ArrayLike, ArrayLike, ArrayLike], sign: ArrayLike) -> NDArray:
+    """Value of a factor, or its low or high limit at `sign` -1 or +1; signs between interpolate."""
+    value, low, high = map(np.asarray, factor)
+    down, up = np.clip(np.negative(sign), 0, 1), np.clip(sign, 0, 1)
+    return value * (low / value) ** down * (high / value) ** up
 
 
 def crossings(modulus: Modulus, threshold: float, frequencies: NDArray) -> list[tuple[float, bool]]:

@@ -13,6 +13,7 @@ from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids.moduli import Prony
 from stickiness.spectrum import SelfAffine
 
 ROUGH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
@@ -45,6 +46,38 @@ def test_hard_pairs_keep_the_tail_of_van_der_waals_attraction():
     assert [found.margins[name] for name in others] == [none.margins[name] for name in others]
     with pytest.raises(ValueError, match="law must be one of"):
         verdict(silicon, **given, law="none")
+
+
+# Acrylic foam tape VHB, shear moduli of Foo et al., J. Appl. Phys. 111, 034102 (2012) times 3.
+VHB = Prony(3 * 18e3, ((3 * 42e3, 400.0),))
+
+
+@pytest.mark.parametrize(("h_rms", "longest"), [(7.5e-6, 0.2e-3), (53e-6, 10e-3)])
+def test_tape_holds_on_abrasive_paper_and_on_a_rough_wall_after_an_hour(h_rms, longest):
+    rough = SelfAffine(hurst=0.8, q0=2 * np.pi / longest, q1=40 * np.pi / longest, h_rms=h_rms)
+    tape = {"poisson": 0.5, "work_of_adhesion": 0.07, "range": 3e-10}
+    at_once = verdict(rough, modulus=VHB.storage(1.0), **tape)
+    factor, modulus = VHB.separation_factor(3600.0, 1.0), VHB.relaxation(3600.0)
+    rested = verdict(rough, modulus=modulus, separation_factor=factor, **tape)
+    assert (at_once.word, rested.word) == (WORDS[TOUCHES], "sticks")
+    # Dissipation multiplies what remains at the relaxed modulus and leaves the low limit.
+    relaxed = verdict(rough, modulus=modulus, **tape)
+    assert rested.remaining == pytest.approx(factor[0] * relaxed.remaining)
+    expected = relaxed.remaining_limits[0], factor[2] * relaxed.remaining_limits[1]
+    assert rested.remaining_limits == pytest.approx(expected)
+    assert rested.pull_off == pytest.approx(factor[0] * relaxed.pull_off)
+    assert str(rested).endswith("separation factor 3.33")
+    # The margin knows the factor: at the threshold the wanted share remains.
+    edge = tape | {"modulus": 0.75 * rested.modulus_threshold, "separation_factor": factor}
+    assert verdict(rough, **edge).remaining == pytest.approx(DEFAULT_SHARE, rel=1e-6)
+
+
+def test_pull_off_with_dissipation_ends_at_the_strength():
+    found = verdict(ROUGH, **GEL | {"modulus": 10e3}, separation_factor=(1e6, 1.0, 1e6))
+    assert found.pull_off == pytest.approx(GEL["work_of_adhesion"] / GEL["range"])
+    assert found.remaining > 1e5
+    with pytest.raises(ValueError, match="separation_factor must be .value, low, high. with low"):
+        verdict(SMOOTH, **GEL, separation_factor=(1.0, 2.0, 3.0))
 
 
 @pytest.mark.slow

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.solids.moduli import Constant, Prony, Table, crossings
+from stickiness.solids.moduli import Constant, Prony, Table, choose_factor, crossings
 
 SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 
@@ -14,9 +14,101 @@ def test_storage_modulus_is_the_sine_transform_of_relaxation(frequency):
     # E' = E_inf + omega * integral of (E(t) - E_inf) sin(omega t) dt, by quadrature.
     omega, total = 2 * np.pi * frequency, 0.0
     for modulus, tau in SERIES.terms:
-        ends = {"a": 0, "b": np.inf, "weight": "sin", "wvar": omega}
-        total += modulus * integrate.quad(lambda t, tau=tau: np.exp(-t / tau), **ends)[0]
+        alone = Prony(1.0, ((modulus, tau),))
+        ends = {"a": 1e-12, "b": np.inf, "weight": "sin", "wvar": omega}
+        total += integrate.quad(lambda t, one=alone: one.relaxation(t) - 1, **ends)[0]
     assert SERIES.storage(frequency) == pytest.approx(1e4 + omega * total, rel=1e-6)
+    assert SERIES.relaxation([1e-30, 1e30]) == pytest.approx([2.4e5, 1e4], rel=1e-15)
+
+
+@pytest.mark.parametrize("ratio", [2.0, 100.0, 1e6])
+@pytest.mark.parametrize("dwell", [0.3, 3.0, 1e9])
+def test_separation_factor_of_one_relaxation_time(ratio, dwell):
+    """Closed form: compliance has one time, tau E_instant/E_relaxed, and the integral is known."""
+    tau, solid = 3.0, Prony(1.0, ((ratio - 1, 3.0),))
+    relaxed = 1 + (ratio - 1) * np.exp(-dwell / tau)
+    for frequency in 10.0 ** np.arange(-9, 9, 1.7):
+        b = 2 * np.pi * frequency * tau * ratio / relaxed
+        lost = (1 - relaxed / ratio) * b / (1 + np.sqrt(1 + b**2))
+        value, low, high = solid.separation_factor(dwell, frequency)
+        assert value == pytest.approx(1 / (1 - lost), rel=1e-9)
+        assert (low, high) == (1.0, pytest.approx(ratio / relaxed))
+
+
+def test_separation_factor_goes_from_1_to_the_ratio_of_moduli():
+    assert SERIES.separation_factor(1e9, 1e-12)[0] == pytest.approx(1, abs=1e-9)
+    assert SERIES.separation_factor(1e9, 1e12)[0] == pytest.approx(24)
+    assert SERIES.separation_factor(1e-9, 1.0)[0] == pytest.approx(1, abs=1e-5)  # nothing relaxed
+    rates = [SERIES.separation_factor(60.0, f)[0] for f in np.geomspace(1e-4, 1e6, 30)]
+    assert np.all(np.diff(rates) > 0)
+
+
+@pytest.mark.parametrize(
+    ("dwell", "frequency"), [(0.1, 1.0), (1.0, 100.0), (60.0, 0.01), (60, 1e5)]
+)
+def test_separation_factor_is_the_integral_of_persson_and_brener(dwell, frequency):
+    moduli, times = np.array(SERIES.terms).T
+    relaxed = moduli * (1 - np.exp(-dwell / times))
+    rest = SERIES.relaxation(dwell)
+
+    def integrand(log_ratio):
+        x = 2j * np.pi * frequency * np.exp(log_ratio) * times
+        compliance = 1 / (rest + np.sum(relaxed * x / (1 + x)))
+        return -np.sqrt(-np.expm1(2 * log_ratio)) * compliance.imag
+
+    points = np.arange(-50.0, 0.0)
+    total = integrate.quad(integrand, -60, 0, points=points, limit=2000, epsabs=0, epsrel=1e-10)[0]
+    expected = 1 / (1 - 2 / np.pi * rest * total)
+    assert SERIES.separation_factor(dwell, frequency)[0] == pytest.approx(expected, rel=1e-8)
+
+
+def power_law(power):
+    """Series of E ~ t^-power over 21 decades, and the same as a table of storage moduli."""
+    times = 10.0 ** np.arange(-12, 9, 0.5)
+    moduli = times**-power
+    series = Prony(1e3, tuple(zip(1e9 * moduli / moduli.sum(), times, strict=True)))
+    frequencies = np.geomspace(1e-9, 1e13, 400)
+    return series, Table(tuple(frequencies), tuple(series.storage(frequencies)))
+
+
+@pytest.mark.parametrize(("power", "low"), [(0.1, 0.98), (0.2, 0.95), (0.3, 0.91), (0.5, 0.75)])
+def test_a_table_knows_relaxation_and_a_low_separation_factor(power, low):
+    series, table = power_law(power)
+    times = np.geomspace(1e-3, 1e5, 9)
+    error = table.relaxation(times) / series.relaxation(times) - 1
+    assert abs(error).max() < 0.016
+    # The common choice omega = 1/t is worse, the steeper the modulus.
+    common = series.storage(1 / (2 * np.pi * times)) / series.relaxation(times)
+    assert common.max() > 1.05 + 0.3 * power
+    for frequency in (0.01, 1.0, 100.0, 1e4):
+        value, least, most = table.separation_factor(60.0, frequency)
+        exact = series.separation_factor(60.0, frequency)[0]
+        assert low < value / exact < 1.01
+        assert least <= exact <= most
+
+
+def test_a_table_of_one_relaxation_is_off_by_a_tenth_of_the_step():
+    frequencies, times = np.geomspace(1e-4, 1e4, 2000), np.geomspace(1e-2, 10, 300)
+    step = Prony(1.0, ((9.0, 1.0),))
+    table = Table(tuple(frequencies), tuple(step.storage(frequencies)))
+    assert abs(table.relaxation(times) - step.relaxation(times)).max() < 0.1 * 9
+    for frequency in (1e-3, 0.1, 10.0):  # the value is too low, the limits hold
+        value, least, most = table.separation_factor(100.0, frequency)
+        exact = step.separation_factor(100.0, frequency)[0]
+        assert least <= value <= 1.02 * exact
+        assert exact <= 1.001 * most
+
+
+def test_a_table_says_nothing_of_dwells_and_rates_beyond_it():
+    table = Table((0.1, 10.0), (1e4, 1e6))
+    assert np.isnan(table.relaxation([0.001, 10.0])).all()
+    assert np.isnan(table.separation_factor(1.0, 20.0)[0])
+    assert table.separation_factor(0.1, 0.5) == (1.0, 1.0, pytest.approx(1e6 / 1e5 / 1.0132, 1e-3))
+
+
+def test_a_factor_between_its_limits():
+    np.testing.assert_allclose(choose_factor((4, 1, 9), [-2, -1, 0, 1, 2]), [1, 1, 4, 9, 9])
+    np.testing.assert_allclose(choose_factor((4, 1, 9), [-0.5, 0.5]), [2, 6])
 
 
 def test_limits_of_a_prony_series():
@@ -55,6 +147,10 @@ def test_crossings_of_a_table_are_exact_and_know_their_direction():
         (lambda: Table((1.0,), (1.0,)), "two pairs"),
         (lambda: Table((2.0, 1.0), (1.0, 1.0)), "must increase"),
         (lambda: SERIES.storage(0.0), "frequency must be positive"),
+        (lambda: SERIES.relaxation(-1.0), "time must be positive"),
+        (lambda: SERIES.separation_factor(0.0, 1.0), "dwell must be positive"),
+        (lambda: SERIES.separation_factor(1.0, -2.0), "frequency must be positive .*-2.0"),
+        (lambda: Table((1.0, 2.0), (1.0, 1.0)).separation_factor(1.0, 0), "frequency must be pos"),
     ],
 )
 def test_wrong_moduli(make, message):
