@@ -23,6 +23,7 @@ class Material:
     solid: Solid = HALF_SPACE  # or a layer, thickness in m
     surface: str | None = None  # name of the rough surface of the material
     law: str = EXPONENTIAL  # name of the traction law
+    pressed: float = 0.0  # mean pressure before separation, Pa
     dwell: float = np.nan  # time for which contact is made, s
     broken_at: float = REFERENCE_FREQUENCY  # Hz, after a dwell
 
@@ -56,6 +57,7 @@ def read_material(entry):
         solid=read_solid(entry),
         surface=entry.get("surface"),
         law=entry.get("law", EXPONENTIAL),
+        pressed=si(entry.get("pressed", "0 Pa"), "Pa"),
         dwell=si(entry["dwell"], "s") if "dwell" in entry else np.nan,
         broken_at=si(entry.get("broken_at", "1 Hz"), "Hz"),
     )

@@ -149,7 +149,7 @@ def judge_pairs(solids, roughness, frequencies):
     """Quantities of every pair by the library; `roughness` has a row of `combine` by material."""
     known = {
         name: ("material", [getattr(solid, name) for solid in solids])
-        for name in ("modulus", "work_of_adhesion", "range", "law")
+        for name in ("modulus", "work_of_adhesion", "range", "law", "pressed")
     }
     ends = [[one.drop_dims("draw", errors="ignore") for one in row] for row in roughness]
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)

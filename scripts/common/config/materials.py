@@ -54,6 +54,7 @@ class Material(ElasticPair, f.Labelled):
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
     )
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
+    pressed: f.Pressure = optional('pressure before separation, e.g. "10 kPa"; a touch without it')
     law: f.Law = optional("traction law; default exponential. The range of van_der_waals is D0")
 
     def _problems(self, context):

@@ -67,6 +67,7 @@ class Pair(Roughness):
     work_of_adhesion: ArrayLike  #: [J/m^2]
     range: ArrayLike  #: of the attraction [m]
     a_v: ArrayLike  #: at this range on this surface
+    pressed: ArrayLike = 0.0  #: mean pressure before separation [Pa]
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
     #: On the work of separation (value, low, high), see `Prony.separation_factor`
@@ -88,7 +89,8 @@ class Pair(Roughness):
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
         factor = choose_factor(self.separation_factor, sign)
-        return self.tension(self.adhesion_length, self.range, sign, factor) * self.modulus
+        at = self.adhesion_length, self.range, sign, self.pressed / self.modulus, factor
+        return self.tension(*at) * self.modulus
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
         """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""

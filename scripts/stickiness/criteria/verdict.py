@@ -95,6 +95,7 @@ def verdict(
     wanted_share: float = DEFAULT_SHARE,
     solid: Solid = HALF_SPACE,
     law: str = EXPONENTIAL,
+    pressed: float = 0.0,
     separation_factor: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> StickinessVerdict:
     """Say whether a material sticks to a rough surface.
@@ -125,6 +126,8 @@ def verdict(
         criteria than that and Persson-Tosatti's take a half-space.
     law : str
         As of `predict`, for what remains. The other criteria know the range alone.
+    pressed : float
+        Mean pressure [Pa] before separation, for the high limit of the pull-off; see `predict`.
     separation_factor : (value, low, high), optional
         On the work of separation, so that more than 1 may remain. After a dwell, `modulus` is the
         relaxation modulus; see `solids.moduli.Prony.separation_factor`.
@@ -182,7 +185,8 @@ def verdict(
     value, low, high = map(float, a_v)
     if poisson is not None:
         material["modulus"] = modulus / (1 - poisson**2)
-    known |= {"wanted_share": wanted_share, "separation_factor": separation_factor, "law": law}
+    known |= {"wanted_share": wanted_share, "separation_factor": separation_factor}
+    known |= {"law": law, "pressed": pressed}
     pair = Pair(**known, **material, a_v=value)
     found = {name: quantity.item() for name, quantity in judge(pair).items()}
     margins = {name: float(criterion.margin(pair)) for name, criterion in CRITERIA.items()}
