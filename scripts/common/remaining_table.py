@@ -4,7 +4,8 @@ import pandas as pd
 
 COLUMNS = (
     *("set", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
-    *("energy_ratio", "zone", "range", "adhesion_length", "approach", "separation", "bound"),
+    *("rms_slope", "energy_ratio", "squeeze", "zone", "range", "adhesion_length"),
+    *("approach", "separation", "bound"),
     *("pull_off", "pixels_in_zone", "predicted", "predicted_low", "predicted_high"),
     "predicted_pull_off",
 )

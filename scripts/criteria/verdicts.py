@@ -285,6 +285,7 @@ def scale_heights(rough, factor):
         rough,
         h_rms=rough.h_rms * factor,
         elastic_energy=rough.elastic_energy * factor**2,
+        rms_slope=rough.rms_slope * factor,
         half_space_energy=rough.half_space_energy * factor**2,
     )
 

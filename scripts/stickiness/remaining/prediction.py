@@ -23,8 +23,7 @@ from stickiness.traction_laws import EXPONENTIAL, find_strength
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
-# Relative error of a share by a law with a tail, far below the onset: 0.5 to 2.4 is simulated.
-TAIL_ERROR = 1.0
+WEAK_ERROR = 1.0  # relative, far below the onset, where the gap depends on the highest summits
 # All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost,
 # times the distance of S of the longest waves from 1. LAYER_LESS is for films on a soft backing and
 # for S of about a half, LAYER_MORE for thin incompressible layers, whose long waves are stiffer
@@ -105,9 +104,8 @@ class Roughness:
         share = remaining_share(ratio, reach, zone, onset, compliance, load_scale, self.law)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
-        tail = np.where(np.equal(self.law, EXPONENTIAL), 0.0, 1 - fades)
-        error = (SHARE_ERROR + TAIL_ERROR * tail) * lost
-        share = share * (1 + error) ** sign + sign * LEAST_ERROR * (1 - tail) * fades * lost
+        error = (SHARE_ERROR + WEAK_ERROR * (1 - fades)) * lost
+        share = share * (1 + error) ** sign + sign * LEAST_ERROR * fades * lost
         harder = 1 - np.asarray(self.relative_compliance)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
@@ -282,7 +280,7 @@ def predict(
     >>> rough = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0)
     >>> found = predict(rough, adhesion_length=1.0, range=0.01)
     >>> print(f"{found.separation:.2f} of the work of adhesion remains")
-    0.39 of the work of adhesion remains
+    0.40 of the work of adhesion remains
     """
     check_spectrum(spectrum)
     length, range = number("adhesion_length", adhesion_length), number("range", range)

@@ -34,7 +34,7 @@ ENERGY_DECAY = (2.19, 0.82, 0.18, 2.53)
 CLOSING = 5.0
 # Fitted to what remains in simulations: the energy ratio from which tough contact grows at a short
 # range, and how a wider cohesive zone advances that.
-ONSET, ADVANCE = 0.4, 1.24
+ONSET, ADVANCE = 0.4, 1.2
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
 LIFT = 1.4
@@ -48,7 +48,7 @@ _OPENINGS = np.exp(np.linspace(-28.0, 3.0, 389))
 _OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
 _OPEN *= np.gradient(np.log(_OPENINGS))[:, None] * _OPENINGS[:, None]
 _FINE_GAPS = np.geomspace(_GAPS[0], _GAPS[-1], 1000)
-_PARTS = np.linspace(0.02, 1.0, 50)[:, None]  # of the way from the onset to zero load
+_PARTS = np.linspace(0.0, 1.0, 60)[:, None]  # of the way to zero load, in logarithms
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
 _CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
 _LEVELS = np.linspace(-0.5, 6.0, 66)
@@ -104,7 +104,9 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
     """
     x, onset = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, onset=onset))
     start, rest = onset.ravel(), 1 - onset.ravel()
-    t = _PARTS * np.maximum(x.ravel() - start, 1e-9) / rest
+    full = np.maximum(x.ravel() - start, 1e-9) / rest
+    least = 1e-3 * np.minimum(full, 1.0)
+    t = least * (full / least) ** _PARTS
     decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), _TINY)
     gap = np.exp(np.interp(np.log(decay), _FINE_DECAY, np.log(_FINE_GAPS)))
     rise = decay_energy(gap)[1] * np.exp(-decay) * (x.ravel() / (start + rest * t) - 1)

@@ -353,7 +353,7 @@ def test_a_range_that_the_grid_loses_is_refused():
 def test_weak_adhesion_is_solved_at_any_range(kind, eps):
     """A strength below the pressures of contact cannot hold points: nothing changes."""
     heights = rough(32)
-    law = law_of(kind, eps, 0.1)
+    law = law_of(kind, eps, 0.1 / kind.strength_ratio)
     alone = repulsive.solve(heights, 1.0, LOAD)
     found = adhesive.solve(heights, 1.0, law, pressure=LOAD)
     assert found.repulsive_area_fraction == pytest.approx(alone.area_fraction, rel=0.04)

@@ -50,7 +50,7 @@ def test_a_rough_sphere_is_that_of_maugis_with_what_remains_and_its_distance(sig
     surface, radius, length, reach = draw(300)
     found = sphere.pull_off(surface, radius, length, reach, sign)
     # Whatever the limit, attraction acts over the distance of the value.
-    distance = reach + 1.25 * (length / surface.elastic_energy) ** 0.25 * surface.h_rms
+    distance = surface.distance(length, reach)
     held = found.work * length
     contact, derjaguin = np.cbrt(9 * np.pi / 8 * held * radius**2), np.sqrt(2 * radius * distance)
     np.testing.assert_allclose(found.zone_radius, np.maximum(contact, derjaguin), rtol=1e-9)
