@@ -87,7 +87,7 @@ def draw_hysteresis(ax, table):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
     keys = [make_dot(f"ζ = {z:g}", color=c, marker="s") for c, z in plotting.shade(known)]
-    ax.legend(handles=keys, loc="upper center", ncols=5, fontsize=7)
+    ax.legend(handles=keys, loc="upper center", ncols=5, fontsize=7, columnspacing=0.8)
     ax.set(xscale="log", ylim=(0.7, 1.85), xlim=(0.02, 0.3), ylabel="work over energy gained")
     plotting.write_ticks(ax.xaxis, [0.025, 0.05, 0.1, 0.2])
     ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")
