@@ -105,7 +105,9 @@ class Roughness:
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
         error = (SHARE_ERROR + WEAK_ERROR * (1 - fades)) * lost
-        share = share * (1 + error) ** sign + sign * LEAST_ERROR * fades * lost
+        # A tail attracts whatever small gaps do.
+        least = LEAST_ERROR * fades ** np.where(np.equal(self.law, EXPONENTIAL), 1, 2)
+        share = share * (1 + error) ** sign + sign * least * lost
         harder = 1 - np.asarray(self.relative_compliance)
         less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
         layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
