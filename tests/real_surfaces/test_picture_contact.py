@@ -15,7 +15,7 @@ from report import interactive, write_surface
 from stickiness import repulsive, surface
 from stickiness.measured import periodic
 from stickiness.measured.topography import Topography
-from stickiness.remaining import measurement
+from stickiness.remaining.measurement import RESOLVED
 from stickiness.repulsive import subpixel
 from stickiness.solids.moduli import Constant
 from stickiness.spectrum import SelfAffine
@@ -184,7 +184,7 @@ def test_range_is_that_of_the_grid_and_a_longer_one_that_of_the_material(pulled)
     wide = replace(GEL, range=1.9e-6)
     assert float(separate(wide)["range"]) == wide.range
     # Errors are told from half the grid, as those of the simulations behind the model.
-    assert picture_contact.PIXELS_IN_ZONE >= 2 * measurement.RESOLVED
+    assert picture_contact.PIXELS_IN_ZONE >= 2 * RESOLVED
 
 
 def test_simulation_agrees_with_the_model_of_the_verdicts(pulled):
