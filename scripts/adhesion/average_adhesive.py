@@ -106,12 +106,9 @@ def main(job):
     dataset = conventions.annotate(dataset, **VARIABLES)
     for name in [name for name in ALL if name in dataset]:
         dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], LEFT))
-    datasets.write(
-        dataset,
-        job.output.averages,
-        title="adhesive contact averaged over realisations, by the model chosen",
-        parameters={**made, **datasets.parameters(limit), "seeds": seeds},
-    )
+    title = "adhesive contact averaged over realisations, by the model chosen"
+    parameters = {**made, **datasets.parameters(limit), "seeds": seeds}
+    datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
 
 
 def take_dmt_limit(limit):

@@ -16,15 +16,8 @@ import numpy as np
 import scipy  # scipy.special is loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.accuracy.error_models import (
-    COARSE,
-    FULL,
-    ErrorModels,
-    Settings,
-    Surface,
-    nearest_measured,
-    single_error,
-)
+from stickiness.accuracy import error_models
+from stickiness.accuracy.error_models import COARSE, FULL, ErrorModels, Settings, Surface
 from stickiness.statistics import COVERS, covering_multiple
 
 # The settings to choose from; errors were measured for these pixels.
@@ -74,8 +67,8 @@ def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
     models, at = problem.models, (column, problem.surface, pressure)
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
     return {
-        "discretisation": single_error(models, "discretisation", *at, pixels=pixels),
-        "solver": single_error(models, "solver", *at, tolerance=tolerance),
+        "discretisation": error_models.single_error(models, "discretisation", *at, pixels=pixels),
+        "solver": error_models.single_error(models, "solver", *at, tolerance=tolerance),
         "sampling": COVERS * np.sqrt(mean_variance(problem, settings, pressure, column)),
     }
 
@@ -119,7 +112,7 @@ def mean_variance(problem: Problem, settings: Settings, pressure: float, column:
     """
     multilevel = sum(part for part, _ in _levels(problem, settings, pressure, column))
     plain = 1 / np.asarray(settings.seeds)
-    surface, pressure, factor = nearest_measured(problem.surface, pressure)
+    surface, pressure, factor = error_models.nearest_measured(problem.surface, pressure)
     scatter = problem.models["scatter", column](surface, pressure)
     return (factor * scatter) ** 2 * np.where(np.equal(settings.coarse_seeds, 0), plain, multilevel)
 
@@ -141,7 +134,8 @@ def covering_factor(problem: Problem, settings: Settings, pressure: float, colum
 
 def _levels(problem, settings, pressure, column):
     """Variance of the fine, coarse and long-wave means over scatter², and degrees of freedom."""
-    models, (surface, pressure, _) = problem.models, nearest_measured(problem.surface, pressure)
+    surface, pressure, _ = error_models.nearest_measured(problem.surface, pressure)
+    models = problem.models
     coarse = min(models["coarse_share", column](surface, pressure), 1.0)
     fine = models["fine_share", column](surface, pressure, settings.pixels_per_wavelength)
     shares = fine, coarse, math.sqrt(1 - coarse**2)
