@@ -71,21 +71,19 @@ def main(job):
         solved = [states(fine[::step, ::step], length, adhesion, chosen) for step in (2, 1)]
         return xr.concat(solved, resolution, coords="minimal")
 
-    datasets.write(
-        conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES),
-        job.output[0],
-        title="adhesive contact of realisations at given mean gaps",
-        parameters={
-            **datasets.parameters(surfaces),
-            "seeds": list(job.params.seeds),
-            "q0_h_rms": roughness(adhesion),
-            "law": adhesion["law"],
-            "refine": refine,
-            "pixel": length / points,
-            "strongest": adhesion_sets.STRONGEST,
-            "coarsest": edge_zone.COARSEST,
-        },
-    )
+    title = "adhesive contact of realisations at given mean gaps"
+    parameters = {
+        **datasets.parameters(surfaces),
+        "seeds": list(job.params.seeds),
+        "q0_h_rms": roughness(adhesion),
+        "law": adhesion["law"],
+        "refine": refine,
+        "pixel": length / points,
+        "strongest": adhesion_sets.STRONGEST,
+        "coarsest": edge_zone.COARSEST,
+    }
+    dataset = conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def combinations(adhesion, pixel, full):
