@@ -1,9 +1,8 @@
 """Adhesion of a set of parameters: by the DMT sum, and at every point by the chosen model.
 
-Full simulations are averaged over the realisations: slopes of the area-load relation, and their
-ratio to the DMT sum. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
-half the relative reduction by adhesion of the pressure that belongs to an area. The sum of the
-tractions gives it directly, as the DMT sum does, but misses the area that the tractions pull into
+Full simulations are averaged over the realisations. With kappa = 2 without adhesion, 1/kappa = 1/2
+- 1/kappa_ad. 1/kappa_ad is half the relative reduction by adhesion of the pressure that belongs to
+an area. The sum of the tractions gives it directly, but misses the area that they pull into
 contact. Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more
 slowly.
 """

@@ -29,9 +29,8 @@ LEAST = Settings(PIXELS[0], TOLERANCES[0], SEEDS[0], COARSE_SEEDS[0])
 MOST_POINTS = 2048  #: along a side of a grid
 SAME_COST = 1.05  #: ratio of costs that were not measured well enough to tell them apart
 # By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and models
-# fitted without the surface at hand, 96 % of runs on the four surfaces of `finer` were within the
-# accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these. Half
-# of that was taken before the surfaces of `validation` were looked at.
+# fitted without the surface at hand, 96 % of runs on the surfaces of `finer` were within the
+# accuracy; without it 88 % on the hardest. Half was taken before `validation` was looked at.
 SAFETY = 1.05
 # Power with which chances add up: 1 would hold for errors that exclude each other, infinity for
 # errors that come together.
