@@ -22,23 +22,13 @@ def main(job):
     for pressure in pressures:
         given_load = {"pressure": pressure, "start": states[-1] if states else None}
         states.append(adhesive.solve(heights, length, law, **given_load, tol=TOLERANCE))
-    datasets.write(
-        gather_fields(
-            states,
-            pressures,
-            surface,
-            contact_pressure="repulsion less attraction over E* q0 h_rms",
-            residual="unbalanced pressure over the strength or the flattening pressure",
-        ),
-        job.output[0],
-        title="gap and pressure fields of one realisation in adhesive contact",
-        parameters={
-            **datasets.parameters(surface),
-            "law": adhesion["law"],
-            "q0_h_rms": roughness(adhesion),
-            **given,
-        },
-    )
+    texts = {"contact_pressure": "repulsion less attraction over E* q0 h_rms"}
+    texts["residual"] = "unbalanced pressure over the strength or the flattening pressure"
+    dataset = gather_fields(states, pressures, surface, **texts)
+    title = "gap and pressure fields of one realisation in adhesive contact"
+    made = {"law": adhesion["law"], "q0_h_rms": roughness(adhesion), **given}
+    parameters = {**datasets.parameters(surface), **made}
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 if __name__ == "__main__":

@@ -1,9 +1,8 @@
 """Adhesion of a set of parameters: by the DMT sum, and at every point by the chosen model.
 
-Full simulations are averaged over the realisations: slopes of the area-load relation, and their
-ratio to the DMT sum. With kappa = 2 without adhesion, 1/kappa = 1/2 - 1/kappa_ad. 1/kappa_ad is
-half the relative reduction by adhesion of the pressure that belongs to an area. The sum of the
-tractions gives it directly, as the DMT sum does, but misses the area that the tractions pull into
+Full simulations are averaged over the realisations. With kappa = 2 without adhesion, 1/kappa = 1/2
+- 1/kappa_ad. 1/kappa_ad is half the relative reduction by adhesion of the pressure that belongs to
+an area. The sum of the tractions gives it directly, but misses the area that they pull into
 contact. Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more
 slowly.
 """
@@ -106,12 +105,9 @@ def main(job):
     dataset = conventions.annotate(dataset, **VARIABLES)
     for name in [name for name in ALL if name in dataset]:
         dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], LEFT))
-    datasets.write(
-        dataset,
-        job.output.averages,
-        title="adhesive contact averaged over realisations, by the model chosen",
-        parameters={**made, **datasets.parameters(limit), "seeds": seeds},
-    )
+    title = "adhesive contact averaged over realisations, by the model chosen"
+    parameters = {**made, **datasets.parameters(limit), "seeds": seeds}
+    datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
 
 
 def take_dmt_limit(limit):

@@ -63,12 +63,8 @@ def main(job):
             sampling=ErrorComponent(error, "Student's t"),
             **SIMULATED,
         )
-    datasets.write(
-        dataset,
-        job.output[0],
-        title="attraction at equal area of contact, simulation and model of the edges",
-        parameters=adhesion,
-    )
+    title = "attraction at equal area of contact, simulation and model of the edges"
+    datasets.write(dataset, job.output[0], title=title, parameters=adhesion)
 
 
 def compare(adhesive, alone, adhesion, grid):

@@ -133,12 +133,9 @@ def write_limit(adhesion, ensemble, laws, errors, output):
     for ending in ENDINGS:
         known = ensemble[f"area_fraction_mean{ending}"]
         dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
-    datasets.write(
-        dataset,
-        output,
-        title=f"DMT sum and weak limit of adhesion, {adhesion['law']} traction",
-        parameters={**datasets.parameters(ensemble), **adhesion},
-    )
+    title = f"DMT sum and weak limit of adhesion, {adhesion['law']} traction"
+    parameters = {**datasets.parameters(ensemble), **adhesion}
+    datasets.write(dataset, output, title=title, parameters=parameters)
 
 
 def add_budgets(dataset, simulation, linear, slope):

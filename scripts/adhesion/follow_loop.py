@@ -70,12 +70,9 @@ def main(job):
         curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
     longest = max((one.state for one in curves), key=len)
     dataset = xr.combine_by_coords([one.reindex(state=longest) for one in curves])
-    datasets.write(
-        add_quoted(dataset),
-        job.output[0],
-        title="approach and separation of one realisation with adhesion",
-        parameters={**datasets.parameters(surface), **loop},
-    )
+    title = "approach and separation of one realisation with adhesion"
+    parameters = {**datasets.parameters(surface), **loop}
+    datasets.write(add_quoted(dataset), job.output[0], title=title, parameters=parameters)
 
 
 def follow(heights, length, loop, adhesion_length_over_range, control):

@@ -12,17 +12,8 @@ import logging
 import numpy as np
 import xarray as xr
 
-from common import conventions
-from common.adhesion_sets import (
-    AXES,
-    MISSING,
-    NEARLY_LINEAR,
-    STRONGEST,
-    axes,
-    roughness,
-    scaled_law,
-    solve_at_gap,
-)
+from common import adhesion_sets, conventions
+from common.adhesion_sets import AXES, axes, roughness, scaled_law
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets, dmt
@@ -56,7 +47,7 @@ ALONE = {
 }
 VARIABLES = {
     **ALONE,
-    **{name: ("1", text, f"DMT sum, or {MISSING}") for name, text in STATE.items()},
+    **{name: ("1", text, f"DMT sum, or {adhesion_sets.MISSING}") for name, text in STATE.items()},
     "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
     "rms_slope": conventions.RMS_SLOPE,
     "attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
@@ -80,21 +71,19 @@ def main(job):
         solved = [states(fine[::step, ::step], length, adhesion, chosen) for step in (2, 1)]
         return xr.concat(solved, resolution, coords="minimal")
 
-    datasets.write(
-        conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES),
-        job.output[0],
-        title="adhesive contact of realisations at given mean gaps",
-        parameters={
-            **datasets.parameters(surfaces),
-            "seeds": list(job.params.seeds),
-            "q0_h_rms": roughness(adhesion),
-            "law": adhesion["law"],
-            "refine": refine,
-            "pixel": length / points,
-            "strongest": STRONGEST,
-            "coarsest": edge_zone.COARSEST,
-        },
-    )
+    title = "adhesive contact of realisations at given mean gaps"
+    parameters = {
+        **datasets.parameters(surfaces),
+        "seeds": list(job.params.seeds),
+        "q0_h_rms": roughness(adhesion),
+        "law": adhesion["law"],
+        "refine": refine,
+        "pixel": length / points,
+        "strongest": adhesion_sets.STRONGEST,
+        "coarsest": edge_zone.COARSEST,
+    }
+    dataset = conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def combinations(adhesion, pixel, full):
@@ -120,10 +109,10 @@ def states(heights, length, adhesion, chosen, tolerance=TOLERANCE):
             law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
             attraction = dmt.adhesive_pressure(contact.gap, law)
             values["attraction_dmt"][i, j, k] = attraction
-            if chosen[i, j, k] and attraction <= STRONGEST * contact.mean_pressure:
-                weak = attraction <= NEARLY_LINEAR * contact.mean_pressure
+            if chosen[i, j, k] and attraction <= adhesion_sets.STRONGEST * contact.mean_pressure:
+                weak = attraction <= adhesion_sets.NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None
-                found = solve_at_gap(heights, length, law, contact, tolerance, known)
+                found = adhesion_sets.solve_at_gap(heights, length, law, contact, tolerance, known)
                 for name in STATE:
                     values[name][i, j, k] = getattr(found, ATTRIBUTES.get(name, name))
                 if weak:

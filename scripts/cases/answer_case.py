@@ -10,13 +10,8 @@ from common.error_budgets import Simulation, theory_parts
 from common.job import start
 from common.quantities import derive, quote, statistics
 from stickiness import datasets
-from stickiness.accuracy.error_models import (
-    Settings,
-    Surface,
-    extrapolated,
-    grid_error,
-    read_models,
-)
+from stickiness.accuracy import error_models
+from stickiness.accuracy.error_models import Settings, Surface, read_models
 from stickiness.accuracy.quantities import COLUMNS, columns_of, has_error_model
 from stickiness.accuracy.settings import Problem, joint_error, seeds_enough
 from stickiness.error_budget import SOURCES, ErrorComponent, part, with_budget
@@ -55,10 +50,10 @@ def main(job):
             for column, value in zip(columns, values, strict=True)
         ]
 
-    outside = np.array([extrapolated(surface, load, **knobs) for load in loads], np.int8)
+    outside = [error_models.extrapolated(surface, load, **knobs) for load in loads]
     variables = {
         "value": (DIMS, [value.values for value, _ in found]),
-        "extrapolated": ("pressure", outside),
+        "extrapolated": ("pressure", np.array(outside, np.int8)),
     }
     dataset = annotate(
         xr.Dataset(variables, {"column": columns, "pressure": loads}),
@@ -92,7 +87,7 @@ def simulate(simulation, column, files):
         problem, pixels = simulation.problem, simulation.settings.pixels_per_wavelength
         size, at = abs(mean), (problem.models, column, problem.surface)
         error = [
-            grid_error(*at, load, pixels, found)
+            error_models.grid_error(*at, load, pixels, found)
             for load, found in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
         ]
         parts["discretisation"] = ErrorComponent(size * error, GRID)

@@ -3,16 +3,8 @@
 import numpy as np
 import xarray as xr
 
-from claims.ledger import (
-    OPEN,
-    QUALIFIED,
-    Finding,
-    claim,
-    describe_cell,
-    errors_by_source,
-    grade,
-    value_and_error,
-)
+from claims import ledger
+from claims.ledger import OPEN, QUALIFIED, Finding, claim, describe_cell, grade
 from common.conventions import LOAD, at_load
 from stickiness import criteria, datasets, error_budget
 
@@ -74,7 +66,7 @@ def find_zero(data, name):
     # The error is that of the less certain of the two simulated points beside it.
     beside = data.isel({LENGTH: slice(i - 1, i + 1)})
     worse = beside.isel({LENGTH: int(np.argmax(error_budget.total_error(beside, name).values))})
-    sizes = errors_by_source(worse, name)
+    sizes = ledger.errors_by_source(worse, name)
     return zero, {source: float(zero * size / abs(slope)) for source, size in sizes.items()}
 
 
@@ -142,7 +134,7 @@ def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
         dmt_points=int(points.dmt.values[known].sum()),
         decades=np.ptp(np.log10(direct[resolved])),
         direct=find_ends(over["inverse_kappa_ad_direct"][resolved]),
-        a_v=[value_and_error(fit, "a_v_mean") for fit in fits],
+        a_v=[ledger.value_and_error(fit, "a_v_mean") for fit in fits],
         factors=[PAPER_A_V / float(fit.a_v_mean) for fit in fits],
     )
 

@@ -14,15 +14,10 @@ MIDDLE = slice(1e3, 1e5)  # magnifications at which a_V should be about 3
 
 @claim(1)
 def area_slope(kappa_128, kappa_64, kappa_wide, lattice_128):
-    at = at_load(kappa_128)
-    simulations = [
-        {
-            "cell": describe_cell(data),
-            "kappa": value_and_error(at_load(data), "kappa"),
-            "ends": kappa_ends(data),
-        }
-        for data in (kappa_128, kappa_64, kappa_wide)
-    ]
+    at, simulations = at_load(kappa_128), []
+    for data in (kappa_128, kappa_64, kappa_wide):
+        quoted = {"cell": describe_cell(data), "kappa": value_and_error(at_load(data), "kappa")}
+        simulations.append(quoted | {"ends": kappa_ends(data)})
     (_, first), (_, last) = simulations[0]["ends"]
     close = abs(float(at.kappa) - 2) < 0.2
     return Finding(

@@ -160,12 +160,10 @@ def write_a_v(areas_file, output, windows, laws):
     add_budgets = add_theory_budgets
     if "seed" in dataset.a_v.dims:
         dataset, add_budgets = average_a_v(dataset, areas, windows), add_simulation_budgets
-    datasets.write(
-        add_budgets(annotate(dataset, **A_V_VARIABLES), areas, read_models(laws)),
-        output,
-        title="a_V from attractive areas",
-        parameters={**datasets.parameters(areas), "windows": windows},
-    )
+    title = "a_V from attractive areas"
+    parameters = {**datasets.parameters(areas), "windows": windows}
+    dataset = add_budgets(annotate(dataset, **A_V_VARIABLES), areas, read_models(laws))
+    datasets.write(dataset, output, title=title, parameters=parameters)
 
 
 def average_a_v(dataset, ensemble, windows):

@@ -26,12 +26,10 @@ def main(job):
     laws, output = job.input.laws, job.output.means
     ensembles.write_means(realisations, others, made, laws, output, averaged)
     means = datasets.read(output)
-    datasets.write(
-        fit_kappa(means, read_models(laws)),
-        job.output.kappa,
-        title="slope of the area-load relation",
-        parameters={**datasets.parameters(means), "linear_up_to": LINEAR_UP_TO},
-    )
+    title = "slope of the area-load relation"
+    parameters = {**datasets.parameters(means), "linear_up_to": LINEAR_UP_TO}
+    kappa = fit_kappa(means, read_models(laws))
+    datasets.write(kappa, job.output.kappa, title=title, parameters=parameters)
 
 
 if __name__ == "__main__":

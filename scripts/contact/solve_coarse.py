@@ -16,19 +16,17 @@ def main(job):
     seeds = range(asked.after, asked.seeds), asked.descriptor_seeds
     path = asked.pressures, logarithmic_grid(asked.gaps), asked.tolerance
     dataset = coarse_solutions(surface, *seeds, *path, asked.measured)
-    datasets.write(
-        annotate(dataset, **VARIABLES),
-        job.output[0],
-        title="coarse contact solutions and long waves of many realisations",
-        parameters={
-            **surface,
-            "case": job.wildcards.case,
-            "tolerance": asked.tolerance,
-            "largest_residual": float(dataset.residual.max()),
-            "pixels_per_wavelength": COARSE,
-            "grid_points": grid_points(surface, COARSE),
-        },
-    )
+    title = "coarse contact solutions and long waves of many realisations"
+    parameters = {
+        **surface,
+        "case": job.wildcards.case,
+        "tolerance": asked.tolerance,
+        "largest_residual": float(dataset.residual.max()),
+        "pixels_per_wavelength": COARSE,
+        "grid_points": grid_points(surface, COARSE),
+    }
+    dataset = annotate(dataset, **VARIABLES)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 if __name__ == "__main__":

@@ -24,18 +24,16 @@ def main(job):
         job.params.seeds,
     )
     dataset = dataset.assign_coords(resolution=pixels(surfaces) / np.array(steps))
-    datasets.write(
-        annotate(dataset, **VARIABLES),
-        job.output[0],
-        title="repulsive contact of realisations along their load path",
-        parameters={
-            **datasets.parameters(surfaces),
-            "seeds": list(job.params.seeds),
-            "case": job.wildcards.case,
-            "tolerance": job.params.tolerance,
-            "largest_residual": float(dataset.residual.max()),
-        },
-    )
+    title = "repulsive contact of realisations along their load path"
+    parameters = {
+        **datasets.parameters(surfaces),
+        "seeds": list(job.params.seeds),
+        "case": job.wildcards.case,
+        "tolerance": job.params.tolerance,
+        "largest_residual": float(dataset.residual.max()),
+    }
+    dataset = annotate(dataset, **VARIABLES)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 if __name__ == "__main__":

@@ -37,12 +37,9 @@ def main(job):
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
     constant = measure_a_v(job.input, load)[0]
     dataset = datasets.annotate(compare(asked, load, table, constant), **VARIABLES)
-    datasets.write(
-        add_budgets(dataset),
-        job.output[0],
-        title="adhesion at the threshold of stickiness by every criterion",
-        parameters={**asked, "pressure": load, "constant_a_v": constant},
-    )
+    title = "adhesion at the threshold of stickiness by every criterion"
+    parameters = {**asked, "pressure": load, "constant_a_v": constant}
+    datasets.write(add_budgets(dataset), job.output[0], title=title, parameters=parameters)
 
 
 def compare(asked, load, table, constant):

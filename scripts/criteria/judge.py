@@ -21,12 +21,9 @@ def main(job):
     labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)
-    datasets.write(
-        dataset,
-        job.output.dataset,
-        title="verdicts of the stickiness criteria",
-        parameters={"materials": materials, "labels": labels},
-    )
+    title = "verdicts of the stickiness criteria"
+    parameters = {"materials": materials, "labels": labels}
+    datasets.write(dataset, job.output.dataset, title=title, parameters=parameters)
     write_page(job.input.template, job.output.table, **describe_page(dataset, materials, labels))
 
 

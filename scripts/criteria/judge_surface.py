@@ -10,12 +10,10 @@ def main(job):
     surfaces = read_surfaces([name], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
     label = datasets.parameters(surfaces[name])["label"]
-    datasets.write(
-        judge_materials(surfaces, material_surfaces, job.params),
-        job.output[0],
-        title=f"verdicts of the stickiness criteria: {label}",
-        parameters={"materials": job.params.materials, "label": label},
-    )
+    title = f"verdicts of the stickiness criteria: {label}"
+    parameters = {"materials": job.params.materials, "label": label}
+    verdicts = judge_materials(surfaces, material_surfaces, job.params)
+    datasets.write(verdicts, job.output[0], title=title, parameters=parameters)
 
 
 if __name__ == "__main__":

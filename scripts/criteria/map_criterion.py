@@ -71,12 +71,10 @@ def main(job):
     # In proportion to a_V^(3/5).
     scale = 3 / 5 * dataset.h_rms_limit_constant / a_v
     parts = {name: replace(each, error=each.error * scale) for name, each in parts.items()}
-    datasets.write(
-        with_budget(dataset, "h_rms_limit_constant", **parts),
-        job.output[0],
-        title="map of the stickiness criterion",
-        parameters={**asked, "pressure": pressure},
-    )
+    title = "map of the stickiness criterion"
+    parameters = {**asked, "pressure": pressure}
+    dataset = with_budget(dataset, "h_rms_limit_constant", **parts)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 class Roughness:

@@ -14,17 +14,8 @@ from common.verdicts import find_limits
 from criteria.budgets import add_budgets
 from criteria.pair_roughness import ENDS, MOMENTS, combine, find_a_v, read_draws
 from stickiness import datasets
-from stickiness.criteria.pair import (
-    LIMITED,
-    NOT_JUDGED,
-    QUANTITIES,
-    REGIMES,
-    SIGNS,
-    WORDS,
-    Pair,
-    decide,
-    judge,
-)
+from stickiness.criteria import pair as pairs
+from stickiness.criteria.pair import LIMITED, NOT_JUDGED, QUANTITIES, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids.moduli import choose_factor
@@ -142,7 +133,7 @@ def decide_pairs(dataset):
     """Code of the verdict over the whole range of the surface and the limits of the model."""
     low, high = find_limits(dataset)
     grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
-    return low.copy(data=decide(low, high, grows))
+    return low.copy(data=pairs.decide(low, high, grows))
 
 
 def judge_pairs(solids, roughness, frequencies):
@@ -154,11 +145,11 @@ def judge_pairs(solids, roughness, frequencies):
     ends = [[one.drop_dims("draw", errors="ignore") for one in row] for row in roughness]
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)
     rough = rough.broadcast_like(rough.h_rms).transpose(*DIMS)
-    names = [field.name for field in fields(Pair) if field.name in rough]
+    names = [field.name for field in fields(pairs.Pair) if field.name in rough]
     factors = np.array([solid.separation_factor for solid in solids])
     of_pair = {name: rough[name].values for name in names}
-    pair = Pair(**of_pair, separation_factor=tuple(factors.T[..., None, None]))
-    dataset = xr.Dataset({name: (DIMS, values) for name, values in judge(pair).items()})
+    pair = pairs.Pair(**of_pair, separation_factor=tuple(factors.T[..., None, None]))
+    dataset = xr.Dataset({name: (DIMS, values) for name, values in pairs.judge(pair).items()})
     # There is no threshold of E* with a film: the modulus of the layer alone cannot change without
     # changing what the layer does.
     scalable = xr.DataArray([solid.is_scalable for solid in solids], dims="material")

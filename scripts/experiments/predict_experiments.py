@@ -33,6 +33,7 @@ SHAPE = ("hurst", "longest_wavelength", "shortest_wavelength", "rolloff_waveleng
 MOMENTS = ("q0", "rms_slope", "rms_curvature", "elastic_energy")
 MIDDLE = 0  # index of the combination with every input in the middle
 SIGNS = (-1, 0, 1)  # low limit, value, high limit
+OF_SPHERES = {"relative_pull_off": "relative", "work_of_separation": "work"}  # `SpherePullOff`
 ROUGHNESS = np.geomspace(1e-11, 1e-3, 121)  # rms heights [m] along which adhesion is followed
 # Margins are nearly powers of the rms height: between points as far apart as these they are read
 # off to better than 1 %.
@@ -204,9 +205,8 @@ def predict(observation):
     """Prediction and curve, the pair, and longest waves across the contact of a sphere.
 
     The prediction ``(sign, combination)`` is of the quantity observed. The curve ``(sign,
-    combination, roughness)`` is the pull-off of a sphere over that from a smooth surface, or the
-    share of the work of adhesion that remains between flats. The pair is at the rms heights given
-    or, if a limiting one was observed, at the predicted one.
+    combination, roughness)`` is the relative pull-off of a sphere, or the share that remains
+    between flats. The pair is at the rms heights given or, where a limit was observed, predicted.
     """
     quantity, h_rms = observation.quantity, observation.inputs.get("h_rms")
     rough = observation.pair(np.tile(ROUGHNESS, (len(observation.inputs["hurst"]), 1)))
@@ -227,15 +227,13 @@ def predict(observation):
     found = np.array([pair.remaining(sign) for sign in SIGNS])
     if quantity == "limiting_roughness":
         found = limit[..., None]
-    elif quantity == "relative_pull_off" and spheres:
-        found = np.array([one.relative for one in spheres])
+    elif spheres and quantity in OF_SPHERES:
+        found = np.array([getattr(one, OF_SPHERES[quantity]) for one in spheres])
     elif quantity == "relative_pull_off":
         stress = np.array([pair.tension(length, reach, sign) for sign in SIGNS])
         found = np.minimum(stress * reach / length / find_strength(observation.law), 1.0)
     elif quantity == "work_of_approach":
         found[0] /= LATE
-    elif quantity == "work_of_separation" and spheres:
-        found = np.array([one.work for one in spheres])
     elif quantity == "work_of_separation":
         found = np.array([pair.separation(length, reach, sign) for sign in SIGNS])
     if quantity.startswith("work_of"):

@@ -21,12 +21,9 @@ def main(job):
     for ensemble, lattice, output in zip(*inputs, job.output, strict=True):
         simulated = datasets.read(ensemble, [f"{name}_mean" for name in COMPARED])
         theory = datasets.read(lattice, [*COMPARED, *WINDOW])
-        datasets.write(
-            compare(simulated, theory),
-            output,
-            title="theory on the lattice spectrum against simulation",
-            parameters=datasets.parameters(simulated),
-        )
+        title = "theory on the lattice spectrum against simulation"
+        parameters = datasets.parameters(simulated)
+        datasets.write(compare(simulated, theory), output, title=title, parameters=parameters)
 
 
 def compare(simulated, theory):

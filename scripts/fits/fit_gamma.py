@@ -63,12 +63,10 @@ def main(job):
     agree = each.gamma_low.max("quantity") <= each.gamma_high.min("quantity")
     dataset["quantities_agree"] = agree.astype("i1")
     dataset["own_gamma"] = "correction", [correction_of(name).gamma for name in CORRECTIONS]
-    datasets.write(
-        add_budgets(annotate(dataset.drop_vars("spread"), **VARIABLES), dataset.spread),
-        job.output[0],
-        title="gamma of the corrections of Persson's theory by simulation",
-        parameters={"cases": len(cases), "ranges": RANGES, "loads": LOADS} | RANDOM,
-    )
+    title = "gamma of the corrections of Persson's theory by simulation"
+    parameters = {"cases": len(cases), "ranges": RANGES, "loads": LOADS} | RANDOM
+    gamma = add_budgets(annotate(dataset.drop_vars("spread"), **VARIABLES), dataset.spread)
+    datasets.write(gamma, job.output[0], title=title, parameters=parameters)
 
 
 def case(ensemble, comparison):

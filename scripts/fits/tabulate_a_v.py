@@ -54,16 +54,13 @@ def main(job):
         ),
         model=budget.not_applicable("simulation over theory is what is quoted"),
     )
-    datasets.write(
-        dataset,
-        job.output[0],
-        title="a_V as a function of Hurst exponent, magnification, load and range, with its error",
-        parameters={
-            **datasets.parameters(theory),
-            "variants": theory.variant.values.tolist(),
-            "cases": [datasets.parameters(comparison)["case"] for comparison in comparisons],
-        },
-    )
+    title = "a_V as a function of Hurst exponent, magnification, load and range, with its error"
+    parameters = {
+        **datasets.parameters(theory),
+        "variants": theory.variant.values.tolist(),
+        "cases": [datasets.parameters(comparison)["case"] for comparison in comparisons],
+    }
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def reach(theory):

@@ -46,12 +46,10 @@ def main(job):
     models = read_models(job.input.laws)
     for name in QUADRATURE:
         dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], surface))
-    datasets.write(
-        add_kappa(dataset, models, surface),
-        job.output.theory,
-        title="Persson's theory on the lattice spectrum of a case",
-        parameters={**surface, "case": job.wildcards.compared, "gamma": job.params.gamma},
-    )
+    title = "Persson's theory on the lattice spectrum of a case"
+    parameters = {**surface, "case": job.wildcards.compared, "gamma": job.params.gamma}
+    dataset = add_kappa(dataset, models, surface)
+    datasets.write(dataset, job.output.theory, title=title, parameters=parameters)
     write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 

@@ -30,12 +30,9 @@ def main(job):
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
         dataset = with_budget(dataset, name, **theory_parts(models, name, value))
-    datasets.write(
-        dataset,
-        job.output.theory,
-        title="Persson's theory on continuous self-affine spectra",
-        parameters={**sweep, "variants": job.params.variants, "gamma": job.params.gamma},
-    )
+    title = "Persson's theory on continuous self-affine spectra"
+    parameters = {**sweep, "variants": job.params.variants, "gamma": job.params.gamma}
+    datasets.write(dataset, job.output.theory, title=title, parameters=parameters)
     write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
 
 

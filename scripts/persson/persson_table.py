@@ -39,12 +39,10 @@ def main(job):
     axes = {name: np.array(table[name], dtype=float) for name in AXES}
     dataset = tabulate(axes, ranges, gamma)
     dataset["quadrature_error"] = quadrature_error(axes, ranges, gamma)
-    datasets.write(
-        add_budgets(annotate(dataset, **VARIABLES), read_models(job.input.laws)),
-        job.output[0],
-        title="a_V by Persson's theory on self-affine spectra",
-        parameters={**table, "gamma": gamma, "quoted": VARIANT},
-    )
+    title = "a_V by Persson's theory on self-affine spectra"
+    parameters = {**table, "gamma": gamma, "quoted": VARIANT}
+    dataset = add_budgets(annotate(dataset, **VARIABLES), read_models(job.input.laws))
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def tabulate(axes, ranges, gamma):

@@ -74,12 +74,9 @@ VARIABLE_TEXTS = {
 def main(job):
     entry = job.params.surface
     dataset = analyse(entry) if entry["kind"] == "measured" else self_affine(entry)
-    datasets.write(
-        dataset,
-        job.output[0],
-        title=f"spectrum of a real surface: {entry['label']}",
-        parameters={"surface": job.wildcards.real_surface, **entry},
-    )
+    title = f"spectrum of a real surface: {entry['label']}"
+    parameters = {"surface": job.wildcards.real_surface, **entry}
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def self_affine(entry):

@@ -62,12 +62,10 @@ def main(job):
         tolerance=params.tolerance,
         gamma=params.gamma,
     )
-    datasets.write(
-        conventions.annotate(found, **VARIABLE_TEXTS),
-        job.output[0],
-        title=f"contact of measured heights: {entry['label']}",
-        parameters={"surface": job.wildcards.real_surface, "source": heights.source, **entry},
-    )
+    title = f"contact of measured heights: {entry['label']}"
+    parameters = {"surface": job.wildcards.real_surface, "source": heights.source, **entry}
+    found = conventions.annotate(found, **VARIABLE_TEXTS)
+    datasets.write(found, job.output[0], title=title, parameters=parameters)
 
 
 def read_map(entry):

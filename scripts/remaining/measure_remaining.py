@@ -80,12 +80,10 @@ def main(job):
         },
         coords=axes,
     )
-    datasets.write(
-        annotate(dataset, **VARIABLES),
-        job.output[0],
-        title="adhesion that remains on one rough surface",
-        parameters={**made, "seed": seed, "law": job.params.law},
-    )
+    title = "adhesion that remains on one rough surface"
+    parameters = {**made, "seed": seed, "law": job.params.law}
+    dataset = annotate(dataset, **VARIABLES)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def measure(heights, length, law, squeeze):

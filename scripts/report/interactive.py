@@ -2,22 +2,9 @@
 
 import numpy as np
 import pandas as pd
+from bokeh import models
 from bokeh.embed import components
 from bokeh.layouts import column, row
-from bokeh.models import (
-    ColorBar,
-    ColumnDataSource,
-    CustomJS,
-    DataRange1d,
-    Div,
-    HoverTool,
-    Legend,
-    LinearColorMapper,
-    Slider,
-    Span,
-    TabPanel,
-    Tabs,
-)
 from bokeh.plotting import figure
 from bokeh.resources import Resources
 from markupsafe import Markup
@@ -88,7 +75,7 @@ def plot_shares(label, **settings):
     """Empty plot of remaining shares, with a dashed line from which on a pair sticks."""
     plot = make_plot(x_axis_type="log", x_axis_label=label, y_axis_label=REMAINS, **settings)
     look = {"dimension": "width", "line_dash": "dashed", "line_color": "#666"}
-    plot.add_layout(Span(location=100 * DEFAULT_SHARE, **look))
+    plot.add_layout(models.Span(location=100 * DEFAULT_SHARE, **look))
     return plot
 
 
@@ -106,16 +93,16 @@ def draw_pairs(verdicts, pairs):
         if not ends:
             continue
         points = pd.DataFrame(ends)
-        source = ColumnDataSource(points.to_dict("list"))
+        source = models.ColumnDataSource(points.to_dict("list"))
         look = {"line_color": colour, "line_alpha": 0.6}
         pairwise = (points[name].values.reshape(-1, 2).tolist() for name in ("ratio", "share"))
         joined = plot.multi_line(*pairwise, **look)
         bars = plot.segment("ratio", "low", "ratio", "high", source=source, **look)
         look = {"marker": marker, "size": 9, "color": colour, "fill_alpha": 0.8}
         marks = plot.scatter("ratio", "share", source=source, **look)
-        plot.add_tools(HoverTool(renderers=[marks], tooltips=TOLD_OF_PAIR, visible=False))
+        plot.add_tools(models.HoverTool(renderers=[marks], tooltips=TOLD_OF_PAIR, visible=False))
         items.append((ends[0]["word"], [marks, bars, joined]))
-    plot.add_layout(Legend(items=items, click_policy="hide", location="top_left"))
+    plot.add_layout(models.Legend(items=items, click_policy="hide", location="top_left"))
     return plot
 
 
@@ -133,13 +120,13 @@ def locate(verdicts, row):
 def draw_curves(found):
     """Tabs with a figure of all `found` curves of a surface for each axis."""
     panels = {axis.capitalize(): draw_axis(axis, curves) for axis, curves in found.items()}
-    tabs = [TabPanel(title=title, child=panel) for title, panel in panels.items()]
-    return Tabs(tabs=tabs, sizing_mode="stretch_width")
+    tabs = [models.TabPanel(title=title, child=panel) for title, panel in panels.items()]
+    return models.Tabs(tabs=tabs, sizing_mode="stretch_width")
 
 
 def draw_axis(axis, curves):
     """Curves along one axis: both ends of the surface, limits, and the pair as it is."""
-    shown = DataRange1d(only_visible=True, range_padding=0.02)
+    shown = models.DataRange1d(only_visible=True, range_padding=0.02)
     height = 340 + LEGEND_ROW * len(curves)
     scale, limits = find_scale(curves)
     ranges = {"x_range": shown, "y_range": limits, "y_axis_type": scale}
@@ -150,17 +137,17 @@ def draw_axis(axis, curves):
     for rank, (label, place, points, own) in enumerate(curves):
         if scale == "log":  # which has no zero
             points = points.assign(**points.drop(columns="x").clip(lower=LEAST_PERCENT / 10))
-        source = ColumnDataSource(points.to_dict("list"))
+        source = models.ColumnDataSource(points.to_dict("list"))
         look = {"color": COLOURS[place % len(COLOURS)], "visible": rank < SHOWN}
         band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
         style = look | {"line_dash": DASHES[place % len(DASHES)], "line_width": 2, "name": label}
         lines = [plot.line("x", end, source=source, **style) for end in ("rough", "smooth")]
-        plot.add_tools(HoverTool(renderers=lines, tooltips=told, visible=False))
+        plot.add_tools(models.HoverTool(renderers=lines, tooltips=told, visible=False))
         marker = POINTS[place % len(POINTS)]
         shares = [own.rough, own.smooth]
         marks = plot.scatter([own.x] * 2, shares, marker=marker, size=10, **look)
         items.append((label, [*lines, marks, band]))
-    plot.add_layout(Legend(items=items, click_policy="hide", **LEGEND), "below")
+    plot.add_layout(models.Legend(items=items, click_policy="hide", **LEGEND), "below")
     return plot
 
 
@@ -168,14 +155,14 @@ def draw_contact(contact, pull_off, texts):
     """Contact under a slider over the loads, each with its text, and the curve of tension."""
     codes, widest = code_maps(contact)
     first = min(FIRST_LOAD, len(texts) - 1)
-    shown = ColumnDataSource({"code": [codes[first]]})
+    shown = models.ColumnDataSource({"code": [codes[first]]})
     # Labels of materials are the user's: as text, not as HTML.
-    text = Div(text=texts[first], render_as_text=True, sizing_mode="stretch_width")
+    text = models.Div(text=texts[first], render_as_text=True, sizing_mode="stretch_width")
     look = {"title": "Load, from light to heavy", "show_value": False}
     look |= {"name": "load", "sizing_mode": "stretch_width"}
-    slider = Slider(start=0, end=len(texts) - 1, value=first, **look)
+    slider = models.Slider(start=0, end=len(texts) - 1, value=first, **look)
     passed = {"slider": slider, "shown": shown, "stored": list(codes), "text": text, "texts": texts}
-    slider.js_on_change("value", CustomJS(args=passed, code=SHOW_LOAD))
+    slider.js_on_change("value", models.CustomJS(args=passed, code=SHOW_LOAD))
     plots = [draw_map(contact, shown, widest)]
     if not pull_off.attrs["left_out"]:
         plots.append(draw_tension(pull_off))
@@ -189,8 +176,9 @@ def draw_map(contact, source, widest):
     """Gap as a shade of grey and contact in orange, in a box with the shape of the map."""
     (width, height), unit = sides_of(contact)
     plot = make_plot(
-        x_range=DataRange1d(range_padding=0),  # of fixed ranges a narrow window changes the shape
-        y_range=DataRange1d(range_padding=0),
+        # Of fixed ranges a narrow window changes the shape.
+        x_range=models.DataRange1d(range_padding=0),
+        y_range=models.DataRange1d(range_padding=0),
         match_aspect=True,
         sizing_mode="scale_width",
         aspect_ratio=max(width / height, 0.3) * 0.86,
@@ -198,11 +186,11 @@ def draw_map(contact, source, widest):
         y_axis_label=f"y [{unit}]",
     )
     plot.grid.visible = False
-    colours = LinearColorMapper(palette=[*GAPS, RED], low=0, high=CONTACT)
+    colours = models.LinearColorMapper(palette=[*GAPS, RED], low=0, high=CONTACT)
     plot.image("code", x=0, y=0, dw=width, dh=height, source=source, color_mapper=colours)
     per_gap, unit = unit_for(widest, "m")
-    scale = LinearColorMapper(palette=GAPS, low=0, high=widest * per_gap)
-    plot.add_layout(ColorBar(color_mapper=scale, title=f"gap [{unit}]", height=12), "below")
+    scale = models.LinearColorMapper(palette=GAPS, low=0, high=widest * per_gap)
+    plot.add_layout(models.ColorBar(color_mapper=scale, title=f"gap [{unit}]", height=12), "below")
     return plot
 
 
@@ -210,9 +198,9 @@ def draw_tension(pull_off):
     """Mean tension against mean gap, on approach and separation."""
     curves, gap, tension, limits = follow_tension(pull_off)
     plot = make_plot(height=400, y_range=limits, x_axis_label=gap, y_axis_label=tension)
-    plot.add_layout(Span(location=0, dimension="width", line_color="#737373"))
+    plot.add_layout(models.Span(location=0, dimension="width", line_color="#737373"))
     for name, colour, curve in curves:
         look = {"color": colour, "line_width": 2, "legend_label": name}
-        plot.line("gap", "tension", source=ColumnDataSource(curve), **look)
+        plot.line("gap", "tension", source=models.ColumnDataSource(curve), **look)
     plot.legend.location = "bottom_right"
     return plot

@@ -2,17 +2,9 @@
 
 import numpy as np
 
+from common import formatting
 from common import verdicts as texts
-from common.formatting import (
-    NOTHING,
-    amount,
-    interval,
-    number,
-    percent,
-    quantity,
-    quantity_with_error,
-    with_error,
-)
+from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
 from stickiness.criteria.pair import BROAD_A_V, NOT_JUDGED, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
@@ -113,7 +105,9 @@ def describe_surface(surface):
     height, slope = (surface[name].values for name in ("h_rms", "rms_slope"))
     if "draw" in surface.dims:  # both ends are one standard error off; errors shown cover 90 %
         found = {
-            "height": quantity_with_error(height.mean(), COVERS * np.ptp(height) / 2, "m"),
+            "height": formatting.quantity_with_error(
+                height.mean(), COVERS * np.ptp(height) / 2, "m"
+            ),
             "slope": with_error(slope.mean(), COVERS * np.ptp(slope) / 2),
         }
     else:

@@ -41,15 +41,8 @@ from importlib import import_module
 __version__ = "0.2.0"
 
 _MODULES = (
-    "spectrum",
-    "surface",
-    "solids",
-    "repulsive",
-    "adhesive",
-    "dmt",
-    "persson",
-    "criteria",
-    "remaining",
+    *("spectrum", "surface", "solids", "repulsive", "adhesive", "dmt", "persson"),
+    *("criteria", "remaining"),
 )
 _PACKAGES = ("measured", "accuracy", "datasets")
 _FUNCTIONS = {"verdict": "stickiness.criteria.verdict"}

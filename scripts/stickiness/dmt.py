@@ -16,20 +16,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive
 from stickiness.repulsive import subpixel as subpixel_edges
-from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
+from stickiness.repulsive.subpixel import gap_and_contact
 from stickiness.traction_laws import TractionLaw, check_law
 
 _FIT = ("AvFit", "fit_a_v", "local_exponent")
 
 __all__ = [  # noqa: PLE0604
-    "STRIP_WIDTH",
-    "adhesive_pressure",
-    "attractive_area",
-    "boundary_strip",
-    "edge_gap",
-    "sum_over_gaps",
-    "weak_attraction",
-    *_FIT,
+    *("STRIP_WIDTH", "adhesive_pressure", "attractive_area", "boundary_strip", "edge_gap"),
+    *("sum_over_gaps", "weak_attraction", *_FIT),
 ]
 
 

@@ -53,18 +53,16 @@ def main(job):
         },
         {"seed": list(seeds), "x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
     )
-    datasets.write(
-        annotate(dataset, **VARIABLES),
-        job.output[0],
-        title="random surfaces on a periodic window",
-        parameters={
-            **surface,
-            "seeds": list(seeds),
-            "pixels_per_wavelength": pixels,
-            "grid_points": n,
-            "prescribed": spectrum.prescribed,
-        },
-    )
+    title = "random surfaces on a periodic window"
+    parameters = {
+        **surface,
+        "seeds": list(seeds),
+        "pixels_per_wavelength": pixels,
+        "grid_points": n,
+        "prescribed": spectrum.prescribed,
+    }
+    dataset = annotate(dataset, **VARIABLES)
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def variance_on_shells(heights, length, lattice):

@@ -55,12 +55,10 @@ def main(job):
         for part, column in [*models]
         if part == "fine_share" and ("coarse_share", column) not in models
     }
-    datasets.write(
-        annotate(found.rename_axis("row").to_xarray(), **TEXTS),
-        job.output.dataset,
-        title="error and cost of every setting",
-        parameters={"surfaces": [Path(path).stem for path in job.input.contact]},
-    )
+    title = "error and cost of every setting"
+    parameters = {"surfaces": [Path(path).stem for path in job.input.contact]}
+    table = annotate(found.rename_axis("row").to_xarray(), **TEXTS)
+    datasets.write(table, job.output.dataset, title=title, parameters=parameters)
     medians = found.groupby(summary.KEYS, sort=False)[["error", "cost"]].median().reset_index()
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)

@@ -16,15 +16,8 @@ import numpy as np
 import scipy  # scipy.special is loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.accuracy.error_models import (
-    COARSE,
-    FULL,
-    ErrorModels,
-    Settings,
-    Surface,
-    nearest_measured,
-    single_error,
-)
+from stickiness.accuracy import error_models
+from stickiness.accuracy.error_models import COARSE, FULL, ErrorModels, Settings, Surface
 from stickiness.statistics import COVERS, covering_multiple
 
 # The settings to choose from; errors were measured for these pixels.
@@ -36,9 +29,8 @@ LEAST = Settings(PIXELS[0], TOLERANCES[0], SEEDS[0], COARSE_SEEDS[0])
 MOST_POINTS = 2048  #: along a side of a grid
 SAME_COST = 1.05  #: ratio of costs that were not measured well enough to tell them apart
 # By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and models
-# fitted without the surface at hand, 96 % of runs on the four surfaces of `finer` were within the
-# accuracy, at a median of 1.23 times the least cost; without it 88 % on the hardest of these. Half
-# of that was taken before the surfaces of `validation` were looked at.
+# fitted without the surface at hand, 96 % of runs on the surfaces of `finer` were within the
+# accuracy; without it 88 % on the hardest. Half was taken before `validation` was looked at.
 SAFETY = 1.05
 # Power with which chances add up: 1 would hold for errors that exclude each other, infinity for
 # errors that come together.
@@ -74,8 +66,8 @@ def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
     models, at = problem.models, (column, problem.surface, pressure)
     pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
     return {
-        "discretisation": single_error(models, "discretisation", *at, pixels=pixels),
-        "solver": single_error(models, "solver", *at, tolerance=tolerance),
+        "discretisation": error_models.single_error(models, "discretisation", *at, pixels=pixels),
+        "solver": error_models.single_error(models, "solver", *at, tolerance=tolerance),
         "sampling": COVERS * np.sqrt(mean_variance(problem, settings, pressure, column)),
     }
 
@@ -119,7 +111,7 @@ def mean_variance(problem: Problem, settings: Settings, pressure: float, column:
     """
     multilevel = sum(part for part, _ in _levels(problem, settings, pressure, column))
     plain = 1 / np.asarray(settings.seeds)
-    surface, pressure, factor = nearest_measured(problem.surface, pressure)
+    surface, pressure, factor = error_models.nearest_measured(problem.surface, pressure)
     scatter = problem.models["scatter", column](surface, pressure)
     return (factor * scatter) ** 2 * np.where(np.equal(settings.coarse_seeds, 0), plain, multilevel)
 
@@ -141,7 +133,8 @@ def covering_factor(problem: Problem, settings: Settings, pressure: float, colum
 
 def _levels(problem, settings, pressure, column):
     """Variance of the fine, coarse and long-wave means over scatter², and degrees of freedom."""
-    models, (surface, pressure, _) = problem.models, nearest_measured(problem.surface, pressure)
+    surface, pressure, _ = error_models.nearest_measured(problem.surface, pressure)
+    models = problem.models
     coarse = min(models["coarse_share", column](surface, pressure), 1.0)
     fine = models["fine_share", column](surface, pressure, settings.pixels_per_wavelength)
     shares = fine, coarse, math.sqrt(1 - coarse**2)

@@ -12,13 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from stickiness.adhesive.problem import (
-    balanced,
-    largest,
-    lowered,
-    spans,
-    sum_blocks,
-)
+from stickiness.adhesive.problem import balanced, largest, lowered, spans, sum_blocks
 
 _REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
 _MAX_SHORTENINGS = 30

@@ -15,16 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.adhesive.solver import (
-    APPROACH,
-    SEPARATION,
-    Adhesion,
-    ConvergenceError,
-    PullOffError,
-    Scaled,
-    relax_from,
-    solve,
-)
+from stickiness.adhesive import solver
+from stickiness.adhesive.solver import APPROACH, SEPARATION, Adhesion, PullOffError
 from stickiness.arguments import grid, number
 from stickiness.solids import HALF_SPACE
 
@@ -114,11 +106,11 @@ def path(
     for name, value in sizes.items():
         number(name, value)
     options = {"tol": tol, "max_iterations": max_iterations, "solid": solid}
-    last = solve(heights, length, law, **{control: values[0]}, start=start, **options)
+    last = solver.solve(heights, length, law, **{control: values[0]}, start=start, **options)
     yield PathPoint(last)
     follower = _Follower(
         first=last,
-        scaled=Scaled.of(grid("heights", heights), last.length, law, solid),
+        scaled=solver.Scaled.of(grid("heights", heights), last.length, law, solid),
         control=control,
         effort=(tol, max_iterations),
         span=float(np.ptp(values)),
@@ -139,7 +131,7 @@ class _Follower:
     """Follows a path leg by leg."""
 
     first: Adhesion
-    scaled: Scaled
+    scaled: solver.Scaled
     control: str
     effort: tuple  #: tolerance and most iterations of a state
     span: float  #: between the largest and the smallest value of the control
@@ -198,12 +190,13 @@ class _Follower:
     def _solve(self, state, value, branch):
         """State at a value, from a neighbour; None if the surfaces part."""
         if self.left <= 0:
-            raise ConvergenceError("max_states do not suffice for this path: raise it", state)
+            text = "max_states do not suffice for this path: raise it"
+            raise solver.ConvergenceError(text, state)
         self.left -= 1
         control = {self.control: value}
         gap = self.scaled.first_gap(state, control.get("mean_gap"))
         try:
-            return relax_from(self.scaled, gap, branch, control, self.effort)
+            return solver.relax_from(self.scaled, gap, branch, control, self.effort)
         except PullOffError:
             return None
 

@@ -3,10 +3,7 @@
 The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
 precision within a round, and computed again in double precision between rounds (iterative
 refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
-and energies are compared, between rounds only.
-
-The compiled loops at the end do all that they need at one point before they go to the next. Their
-fields are flat.
+and energies are compared, between rounds only. Fields of the compiled loops at the end are flat.
 """
 
 import numpy as np

@@ -48,9 +48,8 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
     """Range below which Persson's theory no longer resolves the edges of the contact.
 
     That is the largest at which the attractive area (or a_V) of the variant with `infinite` P(0) is
-    `PARTED` times that of the variant with a `finite` one, between increasing `ranges` along a
-    power law; the smallest range if the variants never part. The theory there is 1.0 to 1.2 times
-    what simulation finds next to edges, and 0.8 to 1.4 times the estimate of Pastewka and Robbins.
+    `PARTED` times that with a `finite` one, between increasing `ranges` along a power law; the
+    smallest if they never part. Theory there is 1.0 to 1.2 times what simulation finds at edges.
     """
     ranges, infinite, finite = positive(ranges=ranges, infinite=infinite, finite=finite)
     logs = np.log(infinite / finite) - np.log(PARTED)

@@ -14,12 +14,8 @@ from stickiness.criteria.a_v_table import RANGES, surface_a_v
 from stickiness.criteria.pair import LIMITED, REGIMES, WORDS, Pair, decide, judge
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
-from stickiness.remaining.prediction import (
-    DEFAULT_SHARE,
-    PULL_OFF_UNKNOWN,
-    find_anisotropy_error_factor,
-    find_half_space_energy,
-)
+from stickiness.remaining import prediction
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 from stickiness.solids import HALF_SPACE, Layer, Solid
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
@@ -67,6 +63,7 @@ class StickinessVerdict:
             f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
             "few surfaces with a direction were simulated\n"
         )
+        factor = f", separation factor {self.separation_factor:.3g}"
         return (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
@@ -78,8 +75,8 @@ class StickinessVerdict:
             f"{direction if pair.anisotropy_error_factor > 1 else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
-            f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m, "
-            f"separation factor {self.separation_factor:.3g}"
+            f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
+            f"{factor if self.separation_factor != 1 else ''}"
         )
 
 
@@ -226,8 +223,8 @@ def describe_surface(
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
         "relative_compliance": float(solid.factor(q0)),
-        "half_space_energy": find_half_space_energy(spectrum, solid),
-        "anisotropy_error_factor": find_anisotropy_error_factor(ratio),
+        "half_space_energy": prediction.find_half_space_energy(spectrum, solid),
+        "anisotropy_error_factor": prediction.find_anisotropy_error_factor(ratio),
     }
 
 

@@ -1,10 +1,9 @@
 """Content of a file of measured heights: NetCDF, numpy, plain text or an instrument's format.
 
-Instruments' formats (AFM, white light, focus variation, profilometers; some forty of them) are
-read by SurfaceTopography. It is imported when it is needed: that takes two seconds. But it takes
-every line of text that it cannot read for a header, in silence, and knows neither decimal commas
-nor separators other than blanks. So plain text is read here, with the header that Gwyddion writes.
-What neither reads is refused: heights would be wrong without notice.
+SurfaceTopography reads the formats of instruments; it is imported when it is needed, which takes
+two seconds. But it takes every line of text that it cannot read for a header, in silence, and knows
+neither decimal commas nor separators other than blanks. So plain text is read here, with the header
+that Gwyddion writes. What neither reads is refused: heights would be wrong without notice.
 """
 
 from __future__ import annotations

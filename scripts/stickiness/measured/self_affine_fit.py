@@ -1,11 +1,10 @@
 """Hurst exponent and prefactor of a measured spectrum, by Whittle's likelihood.
 
 The mean of nu independent modes of the periodogram of a Gaussian surface has a Gamma distribution
-of shape nu. Least squares on its logarithm are biased by digamma(nu) - ln(nu) (-0.58 for a single
-mode); the likelihood -sum nu (ln C + I/C) (Whittle 1953, doi:10.1007/BF02590998) is not. The many
-modes at high q alone would determine the exponent, even of a spectrum that is no power law. So a
-ring has the weight nu/(1 + nu tau^2), with tau the rms misfit beyond sampling, found from the
-scatter of the rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
+of shape nu. Least squares on its logarithm are biased by digamma(nu) - ln(nu); the likelihood -sum
+nu (ln C + I/C) (Whittle 1953, doi:10.1007/BF02590998) is not. So that the many modes at high q do
+not determine the exponent alone, a ring has the weight nu/(1 + nu tau^2), with tau the rms misfit
+beyond sampling, by the scatter of the rings (Paule & Mandel 1982, doi:10.6028/jres.087.022).
 """
 
 from __future__ import annotations

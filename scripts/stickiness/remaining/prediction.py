@@ -14,21 +14,17 @@ from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
-# Errors of the onset; of a share, relative and in proportion to what is lost; and of a share,
-# absolute, which is all that is known of small ones. In simulations of two by two waves and more
-# they hold all energies where more than 5 % remains, but two thirds of those at energy ratios up to
-# 0.35, where the theory is mostly too high; half of all in cells of one wave. That of the onset is
-# the spread of the forms by which simulations are extrapolated to short ranges, not an interval of
-# 90 %.
+# Errors of the onset (the spread of extrapolations to short ranges, no interval of 90 %), and of a
+# share: relative, in proportion to what is lost, and absolute, for small ones. In simulations of
+# two by two waves and more they hold all energies where more than 5 % remains, but two thirds at
+# energy ratios up to 0.35, where the theory is mostly too high; half of all in cells of one wave.
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
 WEAK_ERROR = 4.0  # relative, far below the onset, where the highest summits decide
-# All that was fitted to half-spaces. On layers limits are wider by these parts of what is lost,
-# times the distance of S of the longest waves from 1. LAYER_LESS is for films on a soft backing and
-# for S of about a half, LAYER_MORE for thin incompressible layers, whose long waves are stiffer
-# than springs. Both were set so that limits hold all simulations on layers (H = 0.6 and 0.8, no
-# roll-off); no others were kept back.
+# On layers limits are wider by these parts of what is lost, times the distance of S of the longest
+# waves from 1: LESS for films on a soft backing and S of about a half, MORE for thin incompressible
+# layers. Both were set so that limits hold all simulations on layers; no others were kept back.
 LAYER_LESS, LAYER_MORE = 0.06, 0.2
 PULL_OFF_ERROR = 0.3  # of the largest tension, beside the error of the share
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.

@@ -1,15 +1,14 @@
 """Energy of a rough contact with adhesion against the mean gap, in closed form.
 
 Lengths are over the rms height h, energies per nominal area over U, the elastic energy of full
-contact. Adhesion is then described by ``energy_ratio`` x = w/U, ``range_ratio`` e = range/h and
-``zone`` z = q0 range^2/(adhesion length), the width of the cohesive zone over the longest waves;
-``load_scale`` U/(h h'), h' the rms slope, says how finely the contact without adhesion is divided.
+contact. ``energy_ratio`` is x = w/U, ``range_ratio`` e = range/h, ``zone`` q0 range^2/(adhesion
+length), the width of the cohesive zone over the longest waves; ``load_scale`` U/(h h'), h' the rms
+slope, says how finely the contact without adhesion is divided.
 
 At a mean gap u the surfaces are in the deeper of two states, each of energy F(u) - x G(u):
 
 - weak: attraction leaves the contact without adhesion as it is. F is the elastic energy of that,
-  and G the mean attraction over that of contact, such as exp(-gap/range). This is exact to first
-  order in w (Hellmann and Feynman).
+  G the mean attraction over that of contact: exact to first order in w (Hellmann and Feynman).
 - tough: contact grows with w. G is the area in contact, and F follows from `tough_area`.
 
 What remains is the least energy, the pull-off its steepest rise with the gap. On thin layers
@@ -29,8 +28,8 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 # 0.9 and magnifications 4 to 128, in cells of 4 by 4 waves and more, -ln F scatters about it by 6 %
 # at a gap of 0.1, 2 % at 1, 3 % at 1.5 and 5 % at 2.5.
 ENERGY_DECAY = (2.19, 0.82, 0.18, 2.53)
-# Of contact without adhesion: where undeformed heights overlap, the surfaces touch or leave small
-# gaps, in which attraction of short range falls by exp(-CLOSING e) short of that in contact.
+# Where undeformed heights overlap but do not touch, attraction of short range falls short of that in
+# contact by exp(-CLOSING e).
 CLOSING = 2.6
 # Fitted to what remains in simulations: the energy ratio from which tough contact grows at a short
 # range, and how a wider cohesive zone advances that.
@@ -86,10 +85,9 @@ def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | ND
 
 
 def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
-    """Area of contact at zero load, where it is tough; an upper estimate.
+    """Area of tough contact at zero load; 1.0 to 1.7 times that simulated at an energy ratio of 1.
 
-    It is 1.0 to 1.7 times the area of simulations at an energy ratio of 1, and 1.2 to 2.4 times at
-    0.5, where attraction over gaps stands in for contact.
+    At 0.5, where attraction over gaps stands in for contact, it is 1.2 to 2.4 times that.
     """
     (x,) = positive(energy_ratio=energy_ratio)
     return plain(-np.expm1(-np.maximum(x - onset, 0) / (1 - np.asarray(onset))))

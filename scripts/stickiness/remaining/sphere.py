@@ -1,8 +1,7 @@
 """Pull-off of a sphere from a rough surface: Maugis' sphere with the adhesion that remains.
 
 Where the contact holds many of the longest waves, roughness changes only the work of adhesion and
-the distance over which it acts. Both come from `Roughness`. The sphere is then smooth, and Maugis'
-solution goes from JKR to DMT. Its edge may be pinned, see `Roughness.separation`.
+the distance over which it acts, both by `Roughness`. Maugis' solution goes from JKR to DMT.
 """
 
 from __future__ import annotations

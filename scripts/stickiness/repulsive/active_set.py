@@ -2,10 +2,9 @@
 
 For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
 pressure. Points under tension are released and points that penetrate are added, until neither is
-left. Between updates of the set the pressure is corrected in single precision: a correction reduces
-the gap by a factor of 10 to 1000, for which seven digits are enough, and the next update starts
-from the true gap (iterative refinement), in double precision as soon as rounding matters. Below a
-per cent of contact only points that may touch take part (`dilute_contact`).
+left. Between updates of the set the pressure is corrected in single precision; the next update
+starts from the true gap (iterative refinement), in double precision as soon as rounding matters.
+Below a per cent of contact only points that may touch take part (`dilute_contact`).
 """
 
 from dataclasses import dataclass

@@ -102,11 +102,10 @@ class HalfSpace:
 class FreeHalfSpace(HalfSpace):
     """Displacement of a rectangle of an unbounded half-space under pressure on it.
 
-    The displacement is absolute: it vanishes far away. It is a convolution, which a periodic one on
-    a grid of twice the sides yields if the pressure is zero beyond the rectangle (Hockney, Methods
-    Comput. Phys. 9:135, 1970). The `stiffness` of the periodic half-space only approximates the
-    inverse of `compliance`, enough for a preconditioner. `pairs` counts convolutions by their share
-    of the points of the given grid, those on the grid of twice the sides about fourfold.
+    The displacement is absolute: it vanishes far away. A periodic convolution on a grid of twice
+    the sides yields it (Hockney, Methods Comput. Phys. 9:135, 1970), which counts about fourfold in
+    `pairs`. The `stiffness` of the periodic half-space only approximates the inverse of
+    `compliance`, enough for a preconditioner.
     """
 
     def __init__(self, shape, lengths, dtype, solid):

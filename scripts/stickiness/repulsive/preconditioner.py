@@ -1,12 +1,11 @@
 """Preconditioned conjugate gradients on a given set of contact points.
 
-The preconditioner approximates the inverse of the compliance on these points. That inverse is the
-stiffness, ``|q| / 2`` for a half-space, between an extension of the displacement beyond the edge of
-contact and the transpose of that extension. The extension is the one of least energy, under which
-the free surface carries no pressure. Next to a straight edge it weights the displacement in contact
-by the inverse square of the distance (Poisson's kernel of the root of the Laplacian; Landkof,
-*Foundations of Modern Potential Theory*, 1972). A mean with such weights approximates it, taken on
-a grid with a sixteenth of the points.
+The inverse of the compliance on these points is the stiffness, ``|q| / 2`` for a half-space,
+between an extension of the displacement beyond the edge of contact and its transpose. The extension
+is the one of least energy, under which the free surface carries no pressure. Next to a straight
+edge it weights the displacement in contact by the inverse square of the distance (Landkof,
+*Foundations of Modern Potential Theory*, 1972). A mean with such weights on a coarser grid
+approximates it.
 """
 
 import numpy as np

@@ -1,11 +1,10 @@
 """Projected conjugate gradients for the repulsive contact problem: slower, but sure.
 
 The active-set iteration supposes that pressure on a point moves the others less and less with
-distance, as on a half-space. A film bends, and a thin incompressible layer yields only where
-material can flow off: there it may cycle, or hardly gain. The method of Polonsky
-and Keer (Wear 231:206, 1999, doi 10.1016/S0043-1648(99)00113-1) changes the set of contact with
-every step. Here the stiffness preconditions it, between masks of the contact, and the directions
-are Polak-Ribiere's: some hundreds of iterations where the original takes thousands.
+distance. A film bends, and a thin incompressible layer yields only where material can flow off:
+there it may cycle, or hardly gain. The method of Polonsky and Keer (Wear 231:206, 1999, doi
+10.1016/S0043-1648(99)00113-1) changes the set of contact with every step. Here the stiffness
+preconditions it, with directions of Polak and Ribiere: hundreds of iterations instead of thousands.
 """
 
 import numpy as np

@@ -1,9 +1,8 @@
 """Moduli that depend on the rate: a Prony series, a table, or a constant.
 
-The storage modulus E'(f) sets the elastic energy that competes with adhesion at a frequency f.
-Dahlquist's limit is one on E' at 1 Hz. After a dwell the relaxation modulus E(t) replaces E', and
-dissipation at the edge of contact multiplies the work of separation. Moduli in Pa, frequencies in
-Hz, times in s.
+The storage modulus E'(f) sets the elastic energy that competes with adhesion. After a dwell the
+relaxation modulus E(t) replaces it, and dissipation at the edge of contact multiplies the work of
+separation. Moduli in Pa, frequencies in Hz, times in s.
 """
 
 from __future__ import annotations
@@ -72,21 +71,10 @@ class Prony:
         """Factor by which dissipation at the edge of contact multiplies the work of separation.
 
         1/(1 - (2/pi) E(dwell) int_0^f (1 - (g/f)^2)^(1/2) Im(-1/E(g)) dg/g) by Persson and Brener
-        (doi:10.1103/PhysRevE.71.036123). A term counts by the part of it that has relaxed; the rest
-        carries stress as if it were at equilibrium.
-
-        Parameters
-        ----------
-        dwell : float
-            Time for which the surfaces were in contact [s].
-        frequency : float
-            Speed of the edge over the radius of its tip [Hz].
-
-        Returns
-        -------
-        tuple of float
-            The factor with its limits: 1, of a slow edge, and the instantaneous modulus over
-            E(dwell), of a fast one.
+        (doi:10.1103/PhysRevE.71.036123), f the speed of the edge over the radius of its tip [Hz]. A
+        term counts by the part of it that has relaxed in the dwell [s]; the rest carries stress as
+        if it were at equilibrium. Limits: 1, of a slow edge, and of a fast one the instantaneous
+        modulus over E(dwell).
         """
         dwell, omega = number("dwell", dwell), 2 * np.pi * number("frequency", frequency)
         relaxed = self.relaxation(dwell)
@@ -124,8 +112,7 @@ class Table:
         """Relaxation modulus E(t) [Pa] at times [s]: E' at omega = 2/(pi t); NaN beyond the table.
 
         Where E' goes with any power of the frequency it is off by less than 1.3 %, of a single
-        relaxation by less than a tenth of its step. At omega = 1/t and a power of 1/2 E' is a
-        quarter too high.
+        relaxation by less than a tenth of its step.
         """
         (time,) = positive(time=time)
         return self.storage(relaxation_frequency(time))
@@ -161,9 +148,8 @@ def choose_factor(factor: tuple[ArrayLike, ArrayLike, ArrayLike], sign: ArrayLik
 def crossings(modulus: Modulus, threshold: float, frequencies: NDArray) -> list[tuple[float, bool]]:
     """Frequencies at which the storage modulus passes a threshold [Pa], in ascending order.
 
-    Crossings are looked for between neighbours of the increasing `frequencies`, those of a table
-    too, and interpolated in logarithms. With each comes whether the modulus exceeds the threshold
-    beyond.
+    They are interpolated between neighbours of the increasing `frequencies`, those of a table too,
+    in logarithms. With each comes whether the modulus exceeds the threshold beyond.
     """
     frequencies, _ = positive(frequencies=frequencies, threshold=threshold)
     if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):

@@ -67,6 +67,7 @@ def test_tape_holds_on_abrasive_paper_and_on_a_rough_wall_after_an_hour(h_rms, l
     assert rested.remaining_limits == pytest.approx(expected)
     assert rested.pull_off == pytest.approx(factor[0] * relaxed.pull_off)
     assert str(rested).endswith("separation factor 3.33")
+    assert "separation factor" not in str(relaxed)
     # The margin knows the factor: at the threshold the wanted share remains.
     edge = tape | {"modulus": 0.75 * rested.modulus_threshold, "separation_factor": factor}
     assert verdict(rough, **edge).remaining == pytest.approx(DEFAULT_SHARE, rel=1e-6)
