@@ -197,6 +197,7 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
 
 
 def _check_edges(pixel, law, scaled):
+    """Warn of edges that the grid does not resolve; text of an error where it loses them."""
     ratio = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     text = (
         f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
@@ -209,6 +210,7 @@ def _check_edges(pixel, law, scaled):
         return text
     if ratio > _UNRESOLVED_PIXEL:
         warnings.warn(text, PlausibilityWarning, stacklevel=3)
+    return None
 
 
 def _check_control(pressure, mean_gap, law):

@@ -28,8 +28,8 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 # 0.9 and magnifications 4 to 128, in cells of 4 by 4 waves and more, -ln F scatters about it by 6 %
 # at a gap of 0.1, 2 % at 1, 3 % at 1.5 and 5 % at 2.5.
 ENERGY_DECAY = (2.19, 0.82, 0.18, 2.53)
-# Where undeformed heights overlap but do not touch, attraction of short range falls short of that in
-# contact by exp(-CLOSING e).
+# Where undeformed heights overlap but do not touch, attraction falls short of contact by
+# exp(-CLOSING e).
 CLOSING = 2.6
 # Fitted to what remains in simulations: the energy ratio from which tough contact grows at a short
 # range, and how a wider cohesive zone advances that.
