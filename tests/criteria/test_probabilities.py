@@ -55,6 +55,26 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     assert found["error_of_spectrum"] < 1e-3
 
 
+def test_draws_know_preload_and_dissipation():
+    """Medians over draws of one surface, whose errors are the model's alone, are the values."""
+    solid, same = material_at(1.5), np.ones(500)
+    length, slope = solid.work_of_adhesion / solid.modulus, 0.3
+    draws = Roughness(1e-6 * same, 1e5 * same, 1e-7 * same, rms_slope=slope * same)
+    one = Roughness(1e-6, 1e5, 1e-7, rms_slope=slope)
+    touched = judge_draws(solid, draws)
+    value = one.tension(length, solid.range) * solid.modulus
+    assert np.median(touched["pull_off"]) == pytest.approx(value, rel=0.05)
+    strength = solid.work_of_adhesion / solid.range
+    pressed = judge_draws(dataclasses.replace(solid, pressed=solid.modulus), draws)
+    assert touched["pull_off"].max() < 0.01 * strength < pressed["pull_off"].max()
+    rested = dataclasses.replace(solid, dwell=10.0, broken_at=1.0)
+    factor, length = rested.separation_factor[0], rested.work_of_adhesion / rested.modulus
+    assert factor > 1.5
+    found = np.median(judge_draws(rested, draws)["remaining"])
+    # Its limits span three decades, so that the median of a few hundred draws errs.
+    assert found == pytest.approx(factor * one.share(length, rested.range), rel=0.2)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("factor", "expected"), [(1.0, 0.5), (1.3, None), (2.0, 1.0), (0.5, 0.0)])
 def test_draws_spread_over_the_error_of_the_model(factor, expected):
