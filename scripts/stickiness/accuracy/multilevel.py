@@ -62,14 +62,7 @@ def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> E
     )
 
 
-def multilevel_mean(
-    fine: NDArray,
-    coarse: NDArray,
-    many: NDArray,
-    controls: NDArray,
-    elsewhere: NDArray,
-    fewest: int = _FEWEST,
-) -> Estimate:
+def multilevel_mean(fine, coarse, many, controls, elsewhere, fewest=_FEWEST) -> Estimate:
     """Mean of a few fine solutions (n, ...), corrected by many coarse ones.
 
     `coarse` (n, ...) are the same quantities of the same seeds on the coarse grid, `many` (N, ...)
@@ -91,8 +84,7 @@ def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estima
     coarse, entry by entry. With fewer it is the ratio of their means, or 1 where coarse solutions
     are not all of `one_sign`: fitted to four seeds, a slope can double the variance of a plain
     mean. The ratio suits areas at ranges that the coarse grid does not resolve: those are too
-    large, but all in proportion. Neither helps where the coarse solutions hold noise of their own,
-    such as P(u) at gaps that their grid does not resolve.
+    large, but all in proportion.
     """
     if len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)
@@ -113,12 +105,11 @@ def descriptors(
 ) -> NDArray:
     """Describe the long waves of surfaces, as controls of their contact at any load.
 
-    The first arguments are as for `surface.synthesise`. Waves up to `cutoff` times q0 are looked
-    at; those beyond count with the power expected of them, so that the time does not depend on the
-    magnification. The result (number of seeds, 7) is in the order of `DESCRIPTORS`: mean of ``|q|``
-    times the height variance [length], which is 4/E* times the elastic energy of full contact per
-    area; rms slope and its square; mean height [length] of the highest 1, 3, 10 and 30 % of the
-    area.
+    The first arguments are as for `surface.synthesise`. Waves beyond `cutoff` times q0 count with
+    the power expected of them. The result (number of seeds, 7) is in the order of `DESCRIPTORS`:
+    mean of ``|q|`` times the height variance [length], which is 4/E* times the elastic energy of
+    full contact per area; rms slope and its square; mean height [length] of the highest 1, 3, 10
+    and 30 % of the area.
     """
     check_window(spectrum, length)
     if not cutoff >= 1:

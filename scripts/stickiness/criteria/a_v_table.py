@@ -107,9 +107,7 @@ class AvEstimate:
     """a_V with its error; arrays of the common shape of the arguments.
 
     `value` is theory as quoted times simulation over theory. `low` and `high` cover about 90 %:
-    the standard error of that ratio, the spread of the theories and the quadrature's error. Not
-    covered are assumptions that all theories share (Gaussian heights, elastic half-space, no
-    roll-off).
+    the standard error of that ratio, the spread of the theories and the quadrature's error.
     """
 
     value: NDArray
