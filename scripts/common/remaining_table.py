@@ -4,7 +4,7 @@ import pandas as pd
 
 COLUMNS = (
     *("set", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
-    *("rms_slope", "energy_ratio", "squeeze", "zone", "range", "adhesion_length"),
+    *("rms_slope", "energy_ratio", "pressed", "zone", "range", "adhesion_length"),
     *("approach", "separation", "bound"),
     *("pull_off", "pixels_in_zone", "predicted", "predicted_low", "predicted_high"),
     "predicted_pull_off",
@@ -22,6 +22,6 @@ def read(path):
         raise ValueError(f"{path}: lacks the columns {', '.join(missing)}")
     return table.assign(
         wide=table.window > 1,  # cells of two by two of the longest waves or more
-        weak=table["set"].str.endswith("_weak"),  # from weak to tough adhesion
+        weak=table["set"].str.contains("weak"),  # from weak to tough adhesion
         held=table["set"].str.contains("_held"),  # nothing was fitted to these rows
     )

@@ -204,12 +204,13 @@ def judge_draws(solid, draws):
     """Judge one `Material` on the draws of a surface, with errors of the model."""
     length, errors = solid.work_of_adhesion / solid.modulus, draw_errors(draws)
     value, factor = (choose_factor(solid.separation_factor, sign) for sign in (0, errors))
-    at_value = length / draws.threshold(solid.range, DEFAULT_SHARE / value)
-    margins = length / draws.threshold(solid.range, DEFAULT_SHARE / factor, errors)
+    pressed = solid.pressed / solid.modulus
+    at_value = length / draws.threshold(solid.range, separation_factor=value)
+    margins = length / draws.threshold(solid.range, DEFAULT_SHARE, errors, factor)
     return {
         "margin": margins,
-        "remaining": draws.share(length, solid.range, errors) * factor,
-        "pull_off": solid.modulus * draws.tension(length, solid.range, errors, factor),
+        "remaining": draws.share(length, solid.range, errors, factor),
+        "pull_off": solid.modulus * draws.tension(length, solid.range, errors, pressed, factor),
         "probability": np.mean(margins > 1),
         "error_of_spectrum": np.std(np.log(at_value)),
         "error_of_model": np.std(np.log(margins / at_value)),
@@ -288,8 +289,8 @@ def follow_draws(solid, draws, moduli, factors, heights):
     along, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
     moduli, heights, *factors = along[..., None]
     rough, errors = scale_heights(draws, heights), draw_errors(draws)
-    shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors)
-    shares = shares * choose_factor(factors, errors)
+    factors = choose_factor(factors, errors)
+    shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors, factors)
     return np.quantile(shares, QUANTILES, axis=-1).T[place]
 
 

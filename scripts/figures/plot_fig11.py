@@ -4,8 +4,7 @@ import numpy as np
 
 from common import plotting, remaining_table
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
-from stickiness.remaining.prediction import SHORT_RANGE, Roughness
-from stickiness.remaining.share import find_onset, tough_share, weak_share
+from stickiness.remaining.prediction import HYSTERESIS, LATE, SHORT_RANGE, Roughness
 
 RATIOS = np.geomspace(0.2, 3, 200)  # w/U_full
 ZONE = 0.1  # q0 range^2/l_a, of the lines of panel A
@@ -16,6 +15,7 @@ MARKERS = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
 WORKS = {"approach": "v", "separation": "^"}
 ENERGY_RATIO = r"$w/U_\mathrm{full}$"
 FINE, PALE = 3.9, 0.3  # pixels in the cohesive zone that resolve it; look of points with fewer
+TOUCH = 0.2  # pressure over E* q0 h_rms, below which the surfaces were hardly pressed
 RANGES = np.geomspace(0.05, 5, 100)  # over h_rms
 
 
@@ -24,16 +24,16 @@ def main(job):
     with plotting.open_figure(job.output, "AB;CD", 5.6) as panels:
         draw_shares(panels["A"], table)
         draw_errors(panels["B"], table)
-        draw_ranges(panels["C"], table)
+        draw_hysteresis(panels["C"], table)
         draw_weak(panels["D"], table)
 
 
 def draw_shares(ax, table):
     """Share that remains against w/U_full: simulations at short ranges, and the theories."""
-    tough = table[table.wide & ~table.weak]
+    tough = table[table.wide & ~table.weak & (table.pressed < TOUCH)]
     narrowest = tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min")
     tough = tough[tough.zone == narrowest]
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.55)  # amid the surfaces simulated
+    rough = Roughness(1.0, 1.0, elastic_energy=0.55, rms_slope=2.5)  # amid those simulated
     length = RATIOS * rough.elastic_energy
     low, share, high = (rough.share(length, np.sqrt(ZONE * length), sign) for sign in (-1, 0, 1))
     plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
@@ -71,35 +71,36 @@ def draw_works(ax, x, y, rows, **look):
         ax.plot(x[which], y[which], linestyle="none", alpha=alpha, **look)
 
 
-def draw_ranges(ax, table):
-    """Works and energy against the width of the cohesive zone, on one surface."""
-    rows = table[table["set"] == "H0.8_zeta8_2x2"]
-    zone = np.geomspace(0.01, 0.3, 50)
-    for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
-        line = tough_share(ratio, find_onset(zone))
-        ax.plot(zone, line, color=colour)
-        here = rows[rows.energy_ratio == ratio].sort_values("zone")
-        ax.plot(here.zone, here.bound, "o", color=colour)
-        for name, marker in WORKS.items():
-            draw_works(ax, here.zone, here[name], here, marker=marker, color=colour, mfc="white")
-        ax.text(0.32, line[-1], f"{ratio:g}", color=colour, fontsize=8, va="center")
-    keys = [make_dot(name, marker=marker, mfc="white") for name, marker in WORKS.items()]
-    keys.append(make_dot("two pixels in the zone", marker="^", mfc="white", alpha=PALE))
-    ax.legend(handles=[make_dot("energy"), *keys], loc="upper left", ncols=2)
-    ax.set(xscale="log", ylim=(0, 0.7), xlim=(0.01, 0.5))
-    plotting.write_ticks(ax.xaxis, [0.01, 0.03, 0.1, 0.3])
+def draw_hysteresis(ax, table):
+    """Works over the energy gained, against the width of the cohesive zone."""
+    table = table[(table.zone < 0.21) & (table.bound > LEAST) & ~table.weak]
+    known = sorted(table.magnification.unique())
+    for colour, magnification in plotting.shade(known):
+        rows = table[table.magnification == magnification]
+        for pressed in (False, True):
+            here = rows[(rows.pressed > TOUCH) == pressed]
+            look = {"color": colour, "mfc": colour if pressed else "white", "markersize": 3.5}
+            place = here.zone * (1 + 0.05 * (known.index(magnification) - len(known) / 2))
+            for name, marker in WORKS.items():
+                ax.plot(place, here[name] / here.bound, marker, **look)
+    for limit in (1 / LATE, HYSTERESIS):
+        ax.axhline(limit, color=GREY, linestyle=":")
+    ax.axhline(1, color=GREY, linewidth=0.9)
+    keys = [make_dot(f"ζ = {z:g}", color=c, marker="s") for c, z in plotting.shade(known)]
+    ax.legend(handles=keys, loc="upper center", ncols=5, fontsize=7, columnspacing=0.8)
+    ax.set(xscale="log", ylim=(0.7, 1.85), xlim=(0.02, 0.3), ylabel="work over energy gained")
+    plotting.write_ticks(ax.xaxis, [0.025, 0.05, 0.1, 0.2])
     ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")
-    ax.set_ylabel("share of $w$")
 
 
 def draw_weak(ax, table):
     """Share against the range of attraction, from weak to tough adhesion."""
     rows = table[table.weak]
-    energy = float(rows.full_contact_energy.iloc[0])
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
+    rows = rows[rows["set"] == rows["set"].iloc[0]]
+    energy, slope = rows[["full_contact_energy", "rms_slope"]].iloc[0]
+    rough = Roughness(1.0, 1.0, energy, rms_slope=slope)
     for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
         ax.plot(RANGES, rough.share(ratio * energy, RANGES), color=colour, label=f"{ratio:g}")
-        ax.plot(RANGES, weak_share(ratio, RANGES), color=colour, linestyle=":", linewidth=0.9)
         here = rows[rows.energy_ratio == ratio]
         ax.plot(here.range, here.bound, "o", color=colour)
     ax.set(xscale="log", yscale="log", ylim=(3e-3, 1), xlabel=plotting.RANGE)

@@ -56,7 +56,7 @@ def list_rows(path):
             "full_contact_energy": energy,
             "rms_slope": slope,
             "energy_ratio": ratio,
-            "squeeze": float(point["squeeze"]),
+            "pressed": float(point["squeeze"]),
             "zone": rough.q0 * range_**2 / length,
             "range": range_,
             "adhesion_length": length,

@@ -82,6 +82,8 @@ def law_of_traction(kind, x):
         return np.where(x <= 1, 1.0, 0.0)
     if kind == "exponential":
         return np.exp(-x)
+    if kind == "van_der_waals":
+        return 2 * np.exp(-3 * np.log1p(x))
     return 8 / 3 * (np.exp(-3 * np.log1p(x)) - np.exp(-9 * np.log1p(x)))
 
 

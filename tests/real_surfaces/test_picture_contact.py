@@ -11,11 +11,11 @@ from common import contact_picture
 from common.materials import Material, read_material
 from real_surfaces import analyse_surface, contact_measured, measured_surface, picture_contact
 from real_surfaces.picture_contact import ATTRACTED, OPEN, TOUCHING, LeftOutError
-from remaining import measure_remaining
 from report import interactive, write_surface
 from stickiness import repulsive, surface
 from stickiness.measured import periodic
 from stickiness.measured.topography import Topography
+from stickiness.remaining.measurement import RESOLVED
 from stickiness.repulsive import subpixel
 from stickiness.solids.moduli import Constant
 from stickiness.spectrum import SelfAffine
@@ -184,7 +184,7 @@ def test_range_is_that_of_the_grid_and_a_longer_one_that_of_the_material(pulled)
     wide = replace(GEL, range=1.9e-6)
     assert float(separate(wide)["range"]) == wide.range
     # Errors are told from half the grid, as those of the simulations behind the model.
-    assert picture_contact.PIXELS_IN_ZONE >= 2 * measure_remaining.RESOLVED
+    assert picture_contact.PIXELS_IN_ZONE >= 2 * RESOLVED
 
 
 def test_simulation_agrees_with_the_model_of_the_verdicts(pulled):

@@ -35,7 +35,7 @@ def test_points_that_the_grid_does_not_resolve_are_left_out(measured):
 
 
 def test_shares_and_work_of_adhesion_of_a_file(measured):
-    data = xr.open_dataset(measured).sel(zone=0.8)
+    data = xr.open_dataset(measured).sel(zone=0.8).isel(squeeze=0)
     ratio = data.adhesion_length / data.full_contact_energy
     assert ratio.values == pytest.approx(ASKED["energies"])
     assert (data.range**2 / data.adhesion_length).values == pytest.approx(0.8)

@@ -383,8 +383,8 @@ def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
     doubtful = [pair | {"code": -1} for pair in pairs]
     (line,) = interactive.draw_pairs(verdicts, doubtful).renderers  # the model alone
     at = line.data_source.data
-    shares = np.interp(np.log([0.3, 2.0]), np.log(at["x"]), at["y"])
-    assert shares == pytest.approx([0.44, 51.8], rel=0.02)
+    shares = np.interp(np.log([0.5, 2.0]), np.log(at["x"]), at["y"])
+    assert shares == pytest.approx([1.58, 52.1], rel=0.02)
 
 
 def test_disagreement_counts_pairs_by_verdict(verdicts):

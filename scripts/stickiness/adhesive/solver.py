@@ -149,8 +149,7 @@ def solve(
     if pressure is not None and pressure > 1:
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
-    if scaled.rms_height > 0:
-        _check_edges(lengths[0] / heights.shape[0], law, scaled)
+    lost = scaled.rms_height > 0 and _check_edges(lengths[0] / heights.shape[0], law, scaled)
     gap, branch, unloaded = None, APPROACH, None
     if isinstance(start, str) and start == SEPARATION:
         gap, branch = np.zeros(heights.shape), SEPARATION
@@ -159,7 +158,10 @@ def solve(
     elif pressure is not None and pressure < 0:
         unloaded = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
         gap = unloaded.gap
-    return relax_from(scaled, gap, branch, control, (tol, max_iterations), unloaded)
+    found = relax_from(scaled, gap, branch, control, (tol, max_iterations), unloaded)
+    if lost and 0 < found.repulsive_area_fraction < 1:
+        raise ValueError(lost)
+    return found
 
 
 def relax_from(scaled, gap, branch, control, effort, unloaded=None):
@@ -195,6 +197,7 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
 
 
 def _check_edges(pixel, law, scaled):
+    """Warn of edges that the grid does not resolve; text of an error where it loses them."""
     ratio = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     text = (
         f"a pixel of {pixel:.3g} does not resolve the edges of contact under a range of "
@@ -204,9 +207,10 @@ def _check_edges(pixel, law, scaled):
         "or a longer range"
     )
     if edge_zone.is_lost(ratio, scaled.scaled.law.strength / scaled.flattening):
-        raise ValueError(text)
+        return text
     if ratio > _UNRESOLVED_PIXEL:
         warnings.warn(text, PlausibilityWarning, stacklevel=3)
+    return None
 
 
 def _check_control(pressure, mean_gap, law):

@@ -84,7 +84,7 @@ class Pair(Roughness):
         It includes the separation factor, and exceeds 1 if that is large.
         """
         factor = choose_factor(self.separation_factor, sign)
-        return self.share(self.adhesion_length, self.range, sign) * factor
+        return self.share(self.adhesion_length, self.range, sign, factor)
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
@@ -95,7 +95,7 @@ class Pair(Roughness):
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
         """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""
         factor = choose_factor(self.separation_factor, sign)
-        return self.threshold(self.range, self.wanted_share / factor, sign)
+        return self.threshold(self.range, self.wanted_share, sign, factor)
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:

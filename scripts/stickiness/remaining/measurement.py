@@ -189,7 +189,7 @@ def _follow(heights, length, law, squeeze, options, pixels_in_zone=np.nan):
     return Remaining(
         # A jump can only lose energy: where integrals say otherwise they are less exact than it.
         approach=min(works[0], gained) / law.adhesion_length,
-        separation=max(works[1], spent) / law.adhesion_length,
+        separation=max(works[1], gained, spent) / law.adhesion_length,
         bound=max(gained, spent) / law.adhesion_length,
         pull_off=max(-float(pressure[ways[1]].min()), 0.0),
         area_at_zero_load=area_at_zero_load,

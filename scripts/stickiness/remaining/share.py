@@ -28,17 +28,16 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 # 0.9 and magnifications 4 to 128, in cells of 4 by 4 waves and more, -ln F scatters about it by 6 %
 # at a gap of 0.1, 2 % at 1, 3 % at 1.5 and 5 % at 2.5.
 ENERGY_DECAY = (2.19, 0.82, 0.18, 2.53)
-# Where undeformed heights overlap but do not touch, attraction of short range is by exp(-CLOSING e)
-# short of that in contact.
-CLOSING = 5.0
+# Where undeformed heights overlap but do not touch, attraction falls short of contact by
+# exp(-CLOSING e).
+CLOSING = 2.6
 # Fitted to what remains in simulations: the energy ratio from which tough contact grows at a short
 # range, and how a wider cohesive zone advances that.
 ONSET, ADVANCE = 0.4, 1.2
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
 LIFT = 1.4
-_GAPS = np.linspace(0.0, 10.0, 201)  # mean gaps over h_rms
-_GAPS[0] = 1e-9
+_GAPS = np.linspace(0.05, 10.0, 200)  # mean gaps over h_rms; full contact is a tough state
 # Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.4 to 4.15
 # in cells of 16 to 256 of the longest waves. The largest of 10^6 independent heights is at 4.9.
 FIRST_TOUCH = 4.0
@@ -46,7 +45,7 @@ FIRST_TOUCH = 4.0
 _OPENINGS = np.exp(np.linspace(-28.0, 3.0, 389))
 _OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
 _OPEN *= np.gradient(np.log(_OPENINGS))[:, None] * _OPENINGS[:, None]
-_FINE_GAPS = np.geomspace(_GAPS[0], _GAPS[-1], 1000)
+_FINE_GAPS = np.geomspace(1e-9, _GAPS[-1], 1000)
 _PARTS = np.linspace(0.0, 1.0, 60)[:, None]  # of the way to zero load, in logarithms
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
 _CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
@@ -128,8 +127,8 @@ def _weak_energy(energy_ratio, range_ratio, load_scale, law):
     # What attraction gains is dear and knows the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
     gained = _mean_attraction(ranges)[place.reshape(e.shape)]
-    open_overlap = 1 - np.minimum(area / ndtr(-_GAPS), 1.0)
-    gained = gained * (1 - open_overlap * np.exp(-CLOSING * e[..., None]))
+    open_overlap = np.maximum(ndtr(-_GAPS) - area, 0.0)
+    gained = gained - open_overlap * np.exp(-CLOSING * e[..., None])
     law = np.broadcast_to(law, e.shape)
     for name in set(np.unique(law).tolist()) - {EXPONENTIAL}:
         ranges, place = np.unique(e[law == name], return_inverse=True)
