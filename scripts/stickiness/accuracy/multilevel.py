@@ -18,8 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from stickiness.arguments import finite, integer
-from stickiness.spectrum.kinds import Spectrum
-from stickiness.surface import Amplitudes, check_window, sample_modes, sum_modes
+from stickiness.surface import check_window, sample_modes, sum_modes
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
 DESCRIPTORS = (
@@ -96,13 +95,7 @@ def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estima
     return Estimate(corrected.mean(0), error, factor)
 
 
-def descriptors(
-    spectrum: Spectrum,
-    length: float,
-    seeds: Iterable[int],
-    amplitudes: Amplitudes = "gaussian",
-    cutoff: float = 8.0,
-) -> NDArray:
+def descriptors(spectrum, length, seeds, amplitudes="gaussian", cutoff=8.0) -> NDArray:
     """Describe the long waves of surfaces, as controls of their contact at any load.
 
     The first arguments are as for `surface.synthesise`. Waves beyond `cutoff` times q0 count with

@@ -140,13 +140,7 @@ class AvTable:
         self._known = {name: float(table[name]) for name in _NUMBERS}
         self._simulated = float(table.simulated_range.min())
 
-    def a_v_at(
-        self,
-        hurst: ArrayLike,
-        pressure: ArrayLike,
-        range_over_h_rms: ArrayLike,
-        magnification: ArrayLike = np.inf,
-    ) -> AvEstimate:
+    def a_v_at(self, hurst, pressure, range_over_h_rms, magnification=np.inf) -> AvEstimate:
         """a_V of a self-affine surface without roll-off; ValueError outside the table.
 
         The pressure is the mean one over E* q0 h_rms, the magnification q1/q0.
