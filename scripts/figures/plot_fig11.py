@@ -4,6 +4,7 @@ import numpy as np
 
 from common import plotting, remaining_table
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
+from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.prediction import HYSTERESIS, LATE, SHORT_RANGE, Roughness
 
 RATIOS = np.geomspace(0.2, 3, 200)  # w/U_full
@@ -15,6 +16,7 @@ MARKERS = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
 WORKS = {"approach": "v", "separation": "^"}
 ENERGY_RATIO = r"$w/U_\mathrm{full}$"
 FINE, PALE = 3.9, 0.3  # pixels in the cohesive zone that resolve it; look of points with fewer
+MAGNIFICATIONS = (4, 8), (12, 24), (32, 64)  # from and to, of the colours of panel C
 TOUCH = 0.2  # pressure over E* q0 h_rms, below which the surfaces were hardly pressed
 RANGES = np.geomspace(0.05, 5, 100)  # over h_rms
 
@@ -74,21 +76,22 @@ def draw_works(ax, x, y, rows, **look):
 def draw_hysteresis(ax, table):
     """Works over the energy gained, against the width of the cohesive zone."""
     table = table[(table.zone < 0.21) & (table.bound > LEAST) & ~table.weak]
-    known = sorted(table.magnification.unique())
-    for colour, magnification in plotting.shade(known):
-        rows = table[table.magnification == magnification]
+    table = table[table.pixels_in_zone >= RESOLVED]
+    colours = dict(zip(MAGNIFICATIONS, (BLUE, ORANGE, PURPLE), strict=True))
+    for i, ((least, most), colour) in enumerate(colours.items()):
+        rows = table[table.magnification.between(least, most)]
         for pressed in (False, True):
             here = rows[(rows.pressed > TOUCH) == pressed]
             look = {"color": colour, "mfc": colour if pressed else "white", "markersize": 3.5}
-            place = here.zone * (1 + 0.05 * (known.index(magnification) - len(known) / 2))
             for name, marker in WORKS.items():
-                ax.plot(place, here[name] / here.bound, marker, **look)
+                ax.plot(here.zone * (0.94 + 0.06 * i), here[name] / here.bound, marker, **look)
     for limit in (1 / LATE, HYSTERESIS):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
-    keys = [make_dot(f"ζ = {z:g}", color=c, marker="s") for c, z in plotting.shade(known)]
-    ax.legend(handles=keys, loc="upper center", ncols=5, fontsize=7, columnspacing=0.8)
-    ax.set(xscale="log", ylim=(0.7, 1.85), xlim=(0.02, 0.3), ylabel="work over energy gained")
+    keys = [make_dot(f"ζ = {a} to {b}", color=c, marker="s") for (a, b), c in colours.items()]
+    keys += [make_dot(name, marker=marker, mfc="white") for name, marker in WORKS.items()]
+    ax.legend(handles=[*keys, make_dot("pressed", marker="^")], loc="upper right", ncols=2)
+    ax.set(xscale="log", ylim=(0.7, 1.9), xlim=(0.02, 0.3), ylabel="work over energy gained")
     plotting.write_ticks(ax.xaxis, [0.025, 0.05, 0.1, 0.2])
     ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")
 

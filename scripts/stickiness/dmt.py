@@ -16,14 +16,20 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive
 from stickiness.repulsive import subpixel as subpixel_edges
-from stickiness.repulsive.subpixel import gap_and_contact
+from stickiness.repulsive.subpixel import STRIP_WIDTH, boundary_strip, edge_gap, gap_and_contact
 from stickiness.traction_laws import TractionLaw, check_law
 
 _FIT = ("AvFit", "fit_a_v", "local_exponent")
 
 __all__ = [  # noqa: PLE0604
-    *("STRIP_WIDTH", "adhesive_pressure", "attractive_area", "boundary_strip", "edge_gap"),
-    *("sum_over_gaps", "weak_attraction", *_FIT),
+    "STRIP_WIDTH",
+    "adhesive_pressure",
+    "attractive_area",
+    "boundary_strip",
+    "edge_gap",
+    "sum_over_gaps",
+    "weak_attraction",
+    *_FIT,
 ]
 
 
@@ -135,6 +141,8 @@ def weak_attraction(pressure: ArrayLike, mean_gap: ArrayLike, potential: ArrayLi
     if not gap.shape[-1:] == potential.shape[-1:] == pressure.shape or np.any(potential >= 0):
         message = "mean_gap and potential must have a value, potential a negative one, for each of"
         raise ValueError(f"{message} {pressure.size} pressures, got {mean_gap!r} and {potential!r}")
+    if np.any(np.diff(gap) >= 0):
+        raise ValueError(f"mean_gap must fall as the pressure rises, got {mean_gap!r}")
     logs, along = np.log(pressure), {"axis": -1, "edge_order": 2}
     growth = np.gradient(np.log(-potential), logs, **along)
     return potential * growth / np.gradient(gap, logs, **along)

@@ -174,8 +174,8 @@ def verdict(
     if a_v is None:
         a_v = surface_a_v(spectrum, known).at(range / known["h_rms"])
     limited = {"a_v": a_v, "separation_factor": separation_factor}
-    for (name, given), (value, low, high) in zip(limited.items(), positive(**limited), strict=True):
-        if not low <= value <= high:
+    for (name, given), three in zip(limited.items(), positive(**limited), strict=True):
+        if three.shape != (3,) or not three[1] <= three[0] <= three[2]:
             raise ValueError(
                 f"{name} must be (value, low, high) with low <= value <= high, got {given!r}"
             )

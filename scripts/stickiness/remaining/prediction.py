@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import number, plain, positive
-from stickiness.remaining.share import ONSET, find_deepest_state, remaining_share
+from stickiness.remaining.share import ONSET, find_deepest_state, find_onset, remaining_share
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
@@ -21,7 +21,7 @@ from stickiness.traction_laws import EXPONENTIAL, find_strength
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
-WEAK_ERROR = 4.0  # relative, far below the onset, where the highest summits decide
+WEAK_ERROR = 4.0  # relative, far below the onset at short ranges: the highest summits decide
 # On layers limits are wider by these parts of what is lost, times the distance of S of the longest
 # waves from 1: LESS for films on a soft backing and S of about a half, MORE for thin incompressible
 # layers. Both were set so that limits hold all simulations on layers; no others were kept back.
@@ -35,7 +35,7 @@ LATE, HYSTERESIS = 1.3, 1.6
 # Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
 # at the energy ratios of 4 to 6 where it was.
 PINNING = 6.0
-# Pressed to more than E* times the rms slope, contact is full. It lasts up to the strength of the
+# Pressed to more than 2 E* times the rms slope, contact is full. It lasts up to the strength of the
 # law where that is more than so many times the rms tension of full contact, E* rms slope/2: below
 # that the preload did not change simulations.
 LASTING = 2.2
@@ -113,7 +113,8 @@ class Roughness:
         share = remaining_share(ratio, reach, zone, onset, compliance, load_scale, self.law)
         sign, lost = np.asarray(sign), 1 - np.asarray(share)
         fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
-        error = (SHARE_ERROR + WEAK_ERROR * (1 - fades)) * lost
+        weak = 1 - np.minimum(ratio / find_onset(zone), 1.0)
+        error = (SHARE_ERROR + WEAK_ERROR * weak / (1 + reach)) * lost
         # A tail attracts whatever small gaps do.
         least = LEAST_ERROR * fades ** np.where(np.equal(self.law, EXPONENTIAL), 1, 2)
         share = share * (1 + error) ** sign + sign * least * lost
@@ -196,24 +197,22 @@ class Roughness:
 
         The high limit goes over to the strength of the law towards full contact, which was not
         simulated, and takes it where full contact, `pressed` with that pressure over E*, lasts. A
-        factor on the work of separation multiplies the tension up to that strength.
+        factor on the work of separation raises the tension as it does the share.
         """
         length = np.asarray(adhesion_length)
         found = np.asarray(
             length
             / self.distance(length, range)
-            * self.share(length, range, sign)
+            * self.share(length, range, sign, separation_factor)
             * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
         )
         known, unknown = np.log(PULL_OFF_KNOWN), np.log(PULL_OFF_UNKNOWN)
         beyond = np.clip((np.log(length / self.elastic_energy) - known) / (unknown - known), 0, 1)
         strength = find_strength(self.law) * length / range
         slope = np.asarray(self.rms_slope)
-        lasts = (np.asarray(pressed) > slope) & (strength > LASTING * slope / 2)
+        lasts = (np.asarray(pressed) > 2 * slope) & (strength > LASTING * slope / 2)
         beyond = np.where(lasts, 1.0, beyond) * np.clip(sign, 0.0, 1.0)
-        strength = np.maximum(strength, found)
-        found = found ** (1 - beyond) * strength**beyond
-        return plain(np.minimum(separation_factor * found, strength))
+        return plain(np.minimum(found, strength) ** (1 - beyond) * strength**beyond)
 
     def threshold(
         self,
@@ -305,8 +304,7 @@ def predict(
     """
     check_spectrum(spectrum)
     length, range = number("adhesion_length", adhesion_length), number("range", range)
-    if not pressed >= 0:
-        raise ValueError(f"pressed must not be negative, got {pressed!r}")
+    pressed = number("pressed", pressed, zero=True)
     q0 = number("q0", spectrum.q_longest if q0 is None else q0)
     rough = Roughness(
         h_rms=spectrum.h_rms,
