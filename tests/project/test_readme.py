@@ -80,9 +80,9 @@ def count_failed_claims(results):
         ("this sum is 6 times too large", 6, 0.5, read_sum),
         ("by a factor of 1.1", 1.1, 0.05, read_dmt_ratio),
         ("simulation is 1.03 times", 1.03, 0.005, read_sphere),
-        ("92 % of the predicted works", 92, 0.5, read_works),
+        ("91 % of the predicted works", 91, 0.5, read_works),
         ("49 pairs of material and surface, 7 stick", 7, 0, count_sticking),
-        ("Of 22 graded claims, 8 are not reproduced", 8, 0, count_failed_claims),
+        ("Of 22 graded claims, 7 are not reproduced", 7, 0, count_failed_claims),
     ],
 )
 def test_number_lies_within_its_error(results, text, number, rounding, read):
