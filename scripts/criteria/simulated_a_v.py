@@ -40,16 +40,13 @@ def measure_a_v(inputs, pressure):
     a_v = simulated * ratio
     sampling, discretisation = (error * float(ratio[0]) for error in errors)
     # The 2/3 law holds only roughly, and a_V still grows with the magnification.
-    before = theory.isel(window=0).sel(magnification=broadest / 100, method="nearest")
-    growth = float(theory.isel(window=0).sel(magnification=broadest) / before) - 1
+    theory, spread = theory.isel(window=0), float(np.ptp(a_v)) / 2
+    before = theory.sel(magnification=broadest / 100, method="nearest")
+    growth = float(a_v[0]) * abs(float(theory.sel(magnification=broadest) / before) - 1)
     return float(a_v[0]), {
         "sampling": ErrorComponent(sampling, "of the case simulated"),
         "discretisation": ErrorComponent(discretisation, "of the case simulated"),
-        "model": ErrorComponent(
-            float(np.ptp(a_v)) / 2, "half the spread between intervals of the fit"
-        ),
-        "bandwidth": ErrorComponent(
-            float(a_v[0]) * abs(growth), "growth over the last two decades"
-        ),
+        "model": ErrorComponent(spread, "half the spread between intervals of the fit"),
+        "bandwidth": ErrorComponent(growth, "growth over the last two decades"),
         "solver": not_applicable("far below the errors of the case simulated"),
     }

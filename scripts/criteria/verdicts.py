@@ -273,13 +273,8 @@ def follow(pair, solids, draws, strain, dim, moduli, factors, heights):
 
 def scale_heights(rough, factor):
     """A `Pair` or a `Roughness` with its heights times a factor: no spectrum is integrated."""
-    return replace(
-        rough,
-        h_rms=rough.h_rms * factor,
-        elastic_energy=rough.elastic_energy * factor**2,
-        rms_slope=rough.rms_slope * factor,
-        half_space_energy=rough.half_space_energy * factor**2,
-    )
+    powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
+    return replace(rough, **{n: getattr(rough, n) * factor**power for n, power in powers.items()})
 
 
 def follow_draws(solid, draws, moduli, factors, heights):

@@ -41,19 +41,13 @@ def main(job):
     dataset = annotate(dataset.merge(simulated(comparisons)), **VARIABLES)
     error = COVERS * dataset.simulation_error * dataset.simulation_ratio
     counted = budget.not_applicable("counted with the sampling")
-    dataset = budget.with_budget(
-        dataset,
-        "simulation_ratio",
-        discretisation=counted,
-        solver=counted,
-        sampling=budget.ErrorComponent(
-            error, "of a further surface, the errors of the cases included"
-        ),
-        bandwidth=budget.unknown_error(
-            "the trend beyond the largest magnification is not simulated"
-        ),
-        model=budget.not_applicable("simulation over theory is what is quoted"),
-    )
+    parts = dict.fromkeys(("discretisation", "solver"), counted)
+    text = "of a further surface, the errors of the cases included"
+    parts["sampling"] = budget.ErrorComponent(error, text)
+    text = "the trend beyond the largest magnification is not simulated"
+    parts["bandwidth"] = budget.unknown_error(text)
+    parts["model"] = budget.not_applicable("simulation over theory is what is quoted")
+    dataset = budget.with_budget(dataset, "simulation_ratio", **parts)
     title = "a_V as a function of Hurst exponent, magnification, load and range, with its error"
     parameters = {
         **datasets.parameters(theory),

@@ -127,8 +127,7 @@ def follow(axis, pair):
     factor = pair[dim].values  # a rate of 1 Hz, at which the modulus is quoted, counts as 1
     scale = {"modulus": float(pair.modulus_quoted) / MPA, "dwell": float(pair.dwell)}
     x = factor * scale.get(axis, 1.0)
-    points = 100 * pd.DataFrame(shares, index=x)
-    points = points.rename_axis("x").reset_index()
+    points = (100 * pd.DataFrame(shares, index=x)).rename_axis("x").reset_index()
     own = points.loc[np.argmin(abs(np.log(factor)))]
     kept = points.low.notna()
     if axis == "modulus":

@@ -6,18 +6,8 @@ import re
 from collections.abc import Callable, Iterable
 from typing import Annotated, Any, ClassVar, Literal, TypeVar
 
-from pydantic import (
-    AfterValidator,
-    BaseModel,
-    ConfigDict,
-    Discriminator,
-    Field,
-    PlainValidator,
-    Tag,
-    ValidationInfo,
-    WithJsonSchema,
-    model_validator,
-)
+import pydantic
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainValidator
 
 from stickiness.traction_laws import LAWS
 from stickiness.units import si
@@ -57,7 +47,7 @@ class Section(BaseModel):
     #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
 
-    @model_validator(mode="before")
+    @pydantic.model_validator(mode="before")
     @classmethod
     def _check_keys(cls, given):
         if not isinstance(given, dict):
@@ -76,8 +66,8 @@ class Section(BaseModel):
                 raise ValueError(f": give exactly one of: {'; '.join(group)}")
         return given
 
-    @model_validator(mode="after")
-    def _check_together(self, info: ValidationInfo):
+    @pydantic.model_validator(mode="after")
+    def _check_together(self, info: pydantic.ValidationInfo):
         for problem in self._problems(info.context or {}):
             raise ValueError(problem if problem.startswith(":") else f".{problem}")
         return self
@@ -134,8 +124,8 @@ def demand(test: Callable[[Any], bool], text: str) -> AfterValidator:
 def choose(test: Callable[[Any], bool], met: Any, otherwise: Any) -> Any:
     """Return the type of a value that is `met` if it passes the test, else `otherwise`."""
     return Annotated[
-        Annotated[met, Tag("<met>")] | Annotated[otherwise, Tag("<otherwise>")],
-        Discriminator(lambda value: "<met>" if test(value) else "<otherwise>"),
+        Annotated[met, pydantic.Tag("<met>")] | Annotated[otherwise, pydantic.Tag("<otherwise>")],
+        pydantic.Discriminator(lambda value: "<met>" if test(value) else "<otherwise>"),
     ]
 
 
@@ -173,7 +163,7 @@ def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
             raise ValueError(f"{given!r} must be in {low} … {high}; no solid is beyond")
         return value
 
-    schema = WithJsonSchema({"type": "string", "quantity": word})
+    schema = pydantic.WithJsonSchema({"type": "string", "quantity": word})
     return Annotated[Quantity, PlainValidator(read), schema]
 
 

@@ -125,9 +125,7 @@ def single_error(
     return factor * model.spread * model(surface, pressure, *finest)
 
 
-def grid_error(
-    models: ErrorModels, column: str, surface: Surface, pressure: float, pixels: float, found: float
-) -> float:
+def grid_error(models, column, surface, pressure, pixels, found) -> float:
     """Return the relative error by the grid, covering 90 %, of a case whose own grids say `found`.
 
     The smaller of that and the error model's. What one case's grids say has to cover any surface,

@@ -18,8 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
 from stickiness.arguments import finite, integer
-from stickiness.spectrum.kinds import Spectrum
-from stickiness.surface import Amplitudes, check_window, sample_modes, sum_modes
+from stickiness.surface import check_window, sample_modes, sum_modes
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
 DESCRIPTORS = (
@@ -62,14 +61,7 @@ def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> E
     )
 
 
-def multilevel_mean(
-    fine: NDArray,
-    coarse: NDArray,
-    many: NDArray,
-    controls: NDArray,
-    elsewhere: NDArray,
-    fewest: int = _FEWEST,
-) -> Estimate:
+def multilevel_mean(fine, coarse, many, controls, elsewhere, fewest=_FEWEST) -> Estimate:
     """Mean of a few fine solutions (n, ...), corrected by many coarse ones.
 
     `coarse` (n, ...) are the same quantities of the same seeds on the coarse grid, `many` (N, ...)
@@ -91,8 +83,7 @@ def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estima
     coarse, entry by entry. With fewer it is the ratio of their means, or 1 where coarse solutions
     are not all of `one_sign`: fitted to four seeds, a slope can double the variance of a plain
     mean. The ratio suits areas at ranges that the coarse grid does not resolve: those are too
-    large, but all in proportion. Neither helps where the coarse solutions hold noise of their own,
-    such as P(u) at gaps that their grid does not resolve.
+    large, but all in proportion.
     """
     if len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)
@@ -104,21 +95,14 @@ def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estima
     return Estimate(corrected.mean(0), error, factor)
 
 
-def descriptors(
-    spectrum: Spectrum,
-    length: float,
-    seeds: Iterable[int],
-    amplitudes: Amplitudes = "gaussian",
-    cutoff: float = 8.0,
-) -> NDArray:
+def descriptors(spectrum, length, seeds, amplitudes="gaussian", cutoff=8.0) -> NDArray:
     """Describe the long waves of surfaces, as controls of their contact at any load.
 
-    The first arguments are as for `surface.synthesise`. Waves up to `cutoff` times q0 are looked
-    at; those beyond count with the power expected of them, so that the time does not depend on the
-    magnification. The result (number of seeds, 7) is in the order of `DESCRIPTORS`: mean of ``|q|``
-    times the height variance [length], which is 4/E* times the elastic energy of full contact per
-    area; rms slope and its square; mean height [length] of the highest 1, 3, 10 and 30 % of the
-    area.
+    The first arguments are as for `surface.synthesise`. Waves beyond `cutoff` times q0 count with
+    the power expected of them. The result (number of seeds, 7) is in the order of `DESCRIPTORS`:
+    mean of ``|q|`` times the height variance [length], which is 4/E* times the elastic energy of
+    full contact per area; rms slope and its square; mean height [length] of the highest 1, 3, 10
+    and 30 % of the area.
     """
     check_window(spectrum, length)
     if not cutoff >= 1:

@@ -3,9 +3,8 @@
 A smooth law is relaxed as it is. A law whose traction jumps (Maugis) is relaxed with its traction
 frozen at the points within its range, a convex problem, and frozen anew. As its potential is
 concave, every such round lowers the energy until the set of points no longer changes: it cannot
-cycle. At a prescribed load the rounds are monotone, as added attraction lowers the gap everywhere:
-from the solution without adhesion the set only grows to the least possible, from full contact it
-only shrinks to the largest.
+cycle. At a prescribed load the rounds are monotone: from the solution without adhesion the set only
+grows to the least possible, from full contact it only shrinks to the largest.
 """
 
 from dataclasses import replace

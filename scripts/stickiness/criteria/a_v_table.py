@@ -107,9 +107,7 @@ class AvEstimate:
     """a_V with its error; arrays of the common shape of the arguments.
 
     `value` is theory as quoted times simulation over theory. `low` and `high` cover about 90 %:
-    the standard error of that ratio, the spread of the theories and the quadrature's error. Not
-    covered are assumptions that all theories share (Gaussian heights, elastic half-space, no
-    roll-off).
+    the standard error of that ratio, the spread of the theories and the quadrature's error.
     """
 
     value: NDArray
@@ -142,13 +140,7 @@ class AvTable:
         self._known = {name: float(table[name]) for name in _NUMBERS}
         self._simulated = float(table.simulated_range.min())
 
-    def a_v_at(
-        self,
-        hurst: ArrayLike,
-        pressure: ArrayLike,
-        range_over_h_rms: ArrayLike,
-        magnification: ArrayLike = np.inf,
-    ) -> AvEstimate:
+    def a_v_at(self, hurst, pressure, range_over_h_rms, magnification=np.inf) -> AvEstimate:
         """a_V of a self-affine surface without roll-off; ValueError outside the table.
 
         The pressure is the mean one over E* q0 h_rms, the magnification q1/q0.

@@ -50,16 +50,8 @@ class EdgeAttraction:
 
 
 @takes_positive
-def attraction(
-    h_rms: ArrayLike,
-    q0: ArrayLike,
-    rms_slope: ArrayLike,
-    adhesion_length: ArrayLike,
-    range: ArrayLike,
-    a_v: ArrayLike,
-    kappa_rep: float = KAPPA_REP,
-) -> EdgeAttraction:
-    """Attraction over repulsion at equal area of contact, by the equivalent sphere.
+def attraction(h_rms, q0, rms_slope, adhesion_length, range, a_v, kappa_rep=KAPPA_REP):
+    """`EdgeAttraction`: attraction over repulsion at equal area, by the equivalent sphere.
 
     `rms_slope` is the rms gradient of all waves, `kappa_rep` the slope of area against load without
     adhesion; the other arguments are those of `criteria.traction_ratio`.

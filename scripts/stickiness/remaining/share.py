@@ -110,12 +110,7 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
     return plain(np.max(rise, axis=0, initial=0.0).reshape(x.shape) / LIFT)
 
 
-def weak_share(
-    energy_ratio: ArrayLike,
-    range_ratio: ArrayLike,
-    load_scale: ArrayLike = 0.0,
-    law: ArrayLike = EXPONENTIAL,
-) -> float | NDArray:
+def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> float | NDArray:
     """Share that remains where attraction leaves the contact without adhesion as it is.
 
     `law` is a name of `LAWS`, or an array of names.
@@ -212,13 +207,7 @@ def remaining_share(
     return plain(np.minimum(share, 1.0))
 
 
-def find_deepest_state(
-    energy_ratio: ArrayLike,
-    range_ratio: ArrayLike,
-    zone: ArrayLike,
-    load_scale: ArrayLike = 0.0,
-    law: ArrayLike = EXPONENTIAL,
-) -> tuple[NDArray, NDArray, NDArray]:
+def find_deepest_state(energy_ratio, range_ratio, zone, load_scale=0.0, law=EXPONENTIAL):
     """Share that remains, largest tension [U/h], and area of contact at zero load."""
     onset = find_onset(zone)
     x, energy, area = _weak_energy(energy_ratio, range_ratio, load_scale, law)

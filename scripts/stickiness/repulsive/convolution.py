@@ -5,8 +5,7 @@ a block at a time, then a few wavenumbers at a time along the other axis, multip
 of the kernel and transformed back while they are in cache. Rows that hold nothing, or of which
 nothing is wanted, are left out.
 
-All plans are made with ``FFTW_ESTIMATE``: FFTW then never chooses an algorithm by timing, so that
-the last bits of a result do not depend on how busy the machine was.
+All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on a busy machine.
 """
 
 import threading

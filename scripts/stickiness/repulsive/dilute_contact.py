@@ -5,8 +5,7 @@ that may touch, the *candidates*, are few, and mostly near ones displace each ot
 compliance is split by wave number, as Ewald split the Coulomb potential (Ann. Phys. 369:253, 1921):
 short waves give a sparse matrix of near pairs, long waves a convolution on a grid with a sixteenth
 of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577, 1995, doi
-10.1063/1.470117). It is accurate to 1 %: enough for a correction, after which `active_set` measures
-the true gap.
+10.1063/1.470117). It is accurate to 1 %; `active_set` measures the true gap after a correction.
 """
 
 import numpy as np

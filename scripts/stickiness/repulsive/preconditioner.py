@@ -2,10 +2,9 @@
 
 The inverse of the compliance on these points is the stiffness, ``|q| / 2`` for a half-space,
 between an extension of the displacement beyond the edge of contact and its transpose. The extension
-is the one of least energy, under which the free surface carries no pressure. Next to a straight
-edge it weights the displacement in contact by the inverse square of the distance (Landkof,
-*Foundations of Modern Potential Theory*, 1972). A mean with such weights on a coarser grid
-approximates it.
+is the one of least energy, under which the free surface carries no pressure. At a straight edge it
+weights the displacement in contact by the inverse square of the distance (Landkof, *Foundations of
+Modern Potential Theory*, 1972). A mean with such weights on a coarser grid approximates it.
 """
 
 import numpy as np

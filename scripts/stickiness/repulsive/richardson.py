@@ -3,8 +3,7 @@
 Every grid samples the same band-limited surface, each half as fine as the next. The sign of a
 change from grid to grid depends on how the pixels lie on the spots, so that extrapolation makes the
 error larger; but the change says how large it may be. Attractive areas at ranges below the edge gap
-rest on the edge law, whose error is of first order and mostly of one sign: it is extrapolated in
-part.
+rest on the edge law, whose error is of first order and mostly of one sign: extrapolated in part.
 """
 
 from __future__ import annotations

@@ -172,16 +172,7 @@ def solve(
     return press(heights, lengths, pressure, tol, start, max_iterations, solid, periodic)
 
 
-def press(
-    heights,
-    lengths,
-    pressure,
-    tol,
-    start=None,
-    max_iterations=1000,
-    solid=HALF_SPACE,
-    periodic=True,
-):
+def press(heights, lengths, pressure, tol, start=None, limit=1000, solid=HALF_SPACE, periodic=True):
     """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
     mean, rms = half_space.measure_scale(heights)
     if pressure == 0 or (rms == 0 and periodic):  # no contact, or full contact of a flat
@@ -196,7 +187,7 @@ def press(
         load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
         problem = active_set.Problem(scaled, sides, load, solid.in_unit(lengths[0]), bool(periodic))
         guess = {"pressure": start.pressure} if start is not None and start.area_fraction else None
-        state = _relax(problem, guess, tol, max_iterations)
+        state = _relax(problem, guess, tol, limit)
         # Nothing else refers to these fields: they may be large, and are scaled in place.
         field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
         field *= unit / lengths[0]
