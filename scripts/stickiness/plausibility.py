@@ -23,7 +23,7 @@ _SI_LIMITS = {
     "modulus": (10.0, 1e13, "give it in Pa"),
     "work_of_adhesion": (1e-6, 10.0, "give it in J/m^2"),
     "range": (1e-11, 1e-5, "give it in m"),
-    "rms_slope": (1e-7, 1.0, "small slopes are assumed; far outside, look at the units"),
+    "rms_slope": (1e-7, 1.0, "small slopes are assumed; give heights and lengths both in m"),
 }
 
 

@@ -297,7 +297,7 @@ def pictures(single, folder):
     contact = picture_contact.press(picture_contact.prepare(heights, cutoff, 128), q0, cutoff)
     rough = picture_contact.prepare(heights, cutoff, 64)
     tape = read_material(TAPE)
-    pull_off = picture_contact.separate(rough, (q0, q1), tape, "exponential", 0.1)
+    pull_off = picture_contact.separate(rough, (q0, q1), tape, 0.1)
     made = {"contact": contact.assign_attrs(measurement="data/b.txt"), "pull_off": pull_off}
     return save_pictures(folder, **made)
 

@@ -128,7 +128,7 @@ def measure(
             "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
             f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
-    if resolution > 1 / RESOLVED:
+    if resolution * RESOLVED > 1.001:
         text = f"{1 / resolution:.2g} pixels in the width of the cohesive zone are fewer than"
         warnings.warn(f"{text} {RESOLVED:g}: separation costs too much", PlausibilityWarning, 2)
     settings = {"tol": tol, "solid": check_solid(solid), "steps": steps}

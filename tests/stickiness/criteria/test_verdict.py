@@ -178,8 +178,8 @@ def test_slopes_that_are_not_small_are_warned_of(slope, warned):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         verdict(s, **GEL)
-    text = "rms_slope = 1.02 is outside 1e-07 to 1: small slopes are assumed; far outside, look at"
-    assert [str(one.message) for one in caught] == warned * [f"{text} the units"]
+    text = "rms_slope = 1.02 is outside 1e-07 to 1: small slopes are assumed; give heights and"
+    assert [str(one.message) for one in caught] == warned * [f"{text} lengths both in m"]
 
 
 @pytest.mark.parametrize(
