@@ -16,8 +16,8 @@ from stickiness.traction_laws import EXPONENTIAL, find_strength
 
 # Errors of the onset (the spread of extrapolations to short ranges, no interval of 90 %), and of a
 # share: relative, in proportion to what is lost, and absolute, for small ones. In simulations of
-# two by two waves and more they hold all energies where more than 5 % remains, but two thirds at
-# energy ratios up to 0.35, where the theory is mostly too high; half of all in cells of one wave.
+# two by two waves and more they contain all energies where more than 5 % remains and 95 % of the
+# smaller ones; in cells of one wave a third.
 ONSET_ERROR = 0.08
 SHARE_ERROR = 0.15
 LEAST_ERROR = 0.015
@@ -30,7 +30,7 @@ PULL_OFF_ERROR = 0.3  # of the largest tension, beside the error of the share
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
 PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
 # Jumps at a given mean gap: what the energy gained over the work of approach, and the work of
-# separation over the energy gained, reach in simulations. Both grow as the range falls further.
+# separation over the energy gained, reach in simulations. Both tend to a limit as the range falls.
 LATE, HYSTERESIS = 1.3, 1.6
 # Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
 # at the energy ratios of 4 to 6 where it was.
