@@ -12,9 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import minimize_scalar
-from scipy.special import ndtr
 
 from stickiness.arguments import finite, plain, positive, takes_positive
 from stickiness.spectrum.kinds import Spectrum
@@ -322,7 +321,7 @@ def bearing_area(
 def _bearing_fraction(x: float, width: float) -> float:
     """Fraction of standard normal heights in (x - width, x), without cancellation."""
     if width > 0.5:
-        return float(ndtr(width - x) - ndtr(-x))
+        return float(scipy.special.ndtr(width - x) - scipy.special.ndtr(-x))
     z = x - width / 2 * (1 - _GAUSS_NODES)
     density = np.exp(-(z**2) / 2) / np.sqrt(2 * np.pi)
     return float(width / 2 * np.sum(_GAUSS_WEIGHTS * density))
@@ -335,7 +334,7 @@ def _log_maximum(width: float) -> float:
     The fraction is log-concave, and the slope 2 - E[z | x - width < z < x] changes sign between
     x = 2 and x = 2 + width: one maximum, bracketed.
     """
-    found = minimize_scalar(
+    found = scipy.optimize.minimize_scalar(
         lambda x: -2 * x - np.log(_bearing_fraction(x, width)),
         bounds=(2.0, 2.0 + width),
         method="bounded",

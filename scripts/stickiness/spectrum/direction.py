@@ -11,8 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq, elementwise
 
 from stickiness.arguments import finite, nonnegative, number
 
@@ -159,7 +159,7 @@ def find_ratio(amplitude: float, hurst: float) -> float:
         return _LARGEST_FOUND
     if amplitude <= 0:
         return 1.0
-    return float(np.exp(brentq(excess, 0, np.log(_LARGEST_FOUND))))
+    return float(np.exp(scipy.optimize.brentq(excess, 0, np.log(_LARGEST_FOUND))))
 
 
 def expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
@@ -177,4 +177,4 @@ def _find_slopes(centre: NDArray, width: NDArray) -> NDArray:
         return np.sum(density * high, axis=-1) / np.sum(density, axis=-1) - centre
 
     ends = np.full_like(centre, -_STEEPEST), np.full_like(centre, _STEEPEST)
-    return elementwise.find_root(excess, ends, args=(centre, width)).x
+    return scipy.optimize.elementwise.find_root(excess, ends, args=(centre, width)).x

@@ -15,8 +15,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 
 import numpy as np
+import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import elementwise
 
 from stickiness.arguments import nonnegative, number
 from stickiness.solids import HALF_SPACE, Solid, check_solid
@@ -92,7 +92,9 @@ class Spectrum(ABC):
             return self.variance_below(np.exp(log_q), 2) - target
 
         tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
-        found = elementwise.find_root(excess, tuple(ends), args=(target,), tolerances=tolerances)
+        found = scipy.optimize.elementwise.find_root(
+            excess, tuple(ends), args=(target,), tolerances=tolerances
+        )
         q = np.clip(np.exp(found.x), *self.band)
         return q, self.variance_above(q)
 
