@@ -74,8 +74,9 @@ class StickinessVerdict:
             f"margins by other criteria: {'; '.join(others)}\n"
             f"{direction if pair.anisotropy_error_factor > 1 else ''}"
             f"given: E* = {pair.modulus:.3g} Pa, work of adhesion "
-            f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, "
+            f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, {pair.law} law, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
+            f"{f', pressed by {pair.pressed:.3g} Pa' if pair.pressed else ''}"
             f"{factor if self.separation_factor != 1 else ''}"
         )
 

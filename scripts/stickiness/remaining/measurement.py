@@ -55,7 +55,7 @@ class Remaining:
     pull_off: float  #: largest mean tension on separation at given mean gaps [E*]
     area_at_zero_load: float  #: share of points in contact on approach; NaN without attraction
     gap_at_zero_load: float  #: mean gap [length] on approach; NaN without attraction
-    #: Width of the cohesive zone, range^2/adhesion_length; below two, points snap one by one.
+    #: Width of the cohesive zone, adhesion_length/strength^2; below two, points snap one by one.
     pixels_in_zone: float
     jumps: int  #: on the path
     gap: NDArray  #: mean gaps of the curve [length]
@@ -89,7 +89,7 @@ def measure(
         Sides of the cell [length].
     law : TractionLaw
         Attraction, such as `adhesive.Exponential(adhesion_length, range)`. Pixels should be at
-        most range^2/(2 adhesion_length), half of it where less than 5 % remains.
+        most half the width of the cohesive zone, adhesion_length/strength^2.
     squeeze : float
         Mean pressure [E*] that the surfaces are pressed with before they part, positive. If full
         contact is reached first, they part from there.

@@ -39,7 +39,7 @@ PINNING = 6.0
 # law where that is more than so many times the rms tension of full contact, E* rms slope/2: below
 # that the preload did not change simulations.
 LASTING = 2.2
-MOST_RATIO = 1e30  #: of adhesion length to the energy of full contact
+MOST_RATIO = 1e30  #: of adhesion length to the energy of full contact, and of range to h_rms
 _NOTHING = 1e-12  # of tensions that act at all, over elastic_energy/h_rms
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
@@ -316,6 +316,11 @@ def predict(
         rms_slope=spectrum.rms_slope,
         law=law,
     )
+    if not 1 / MOST_RATIO < range / rough.h_rms < MOST_RATIO:
+        raise ValueError(
+            f"range = {range:.3g} is out of proportion to the rms height, {rough.h_rms:.3g}: give "
+            "both in one unit"
+        )
     if not length <= MOST_RATIO * rough.elastic_energy:
         raise ValueError(
             f"adhesion_length = {length:.3g} is more than {MOST_RATIO:g} times the elastic energy "

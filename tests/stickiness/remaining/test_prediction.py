@@ -140,3 +140,15 @@ def test_thresholds_are_in_the_order_of_their_limits():
     high, value, low = (surface.threshold(np.array([1e-4, 0.3, 1]), sign=k) for k in (1, 0, -1))
     assert np.all(high < value)
     assert np.all(value < low)
+
+
+@pytest.mark.parametrize("reach", [1e150, 1e-300])
+def test_a_range_out_of_proportion_is_refused(reach):
+    with pytest.raises(ValueError, match="out of proportion to the rms height"):
+        predict(rough(), adhesion_length=1.0, range=reach)
+
+
+@pytest.mark.parametrize("work", [1e40, 1e300])
+def test_a_work_of_adhesion_beyond_reason_is_refused(work):
+    with pytest.raises(ValueError, match="give the work of adhesion over"):
+        predict(rough(), adhesion_length=work, range=1e-3)
