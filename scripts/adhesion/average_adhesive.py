@@ -46,7 +46,7 @@ FITS = {
     "inverse_kappa_ad_fit": "1/kappa_ad from fitted 1/kappa",
 }
 RATIOS = {
-    "dmt_ratio": "1/kappa_ad of the full simulation over that of the DMT sum",
+    "dmt_ratio": "1/kappa_ad of the full simulation over the DMT sum",
     "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
     "weak_ratio": "fall of the pressure by adhesion at equal mean gap over its weak limit",
 }
