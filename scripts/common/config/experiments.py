@@ -68,7 +68,7 @@ class Conditions(Section):
     poisson_ratio: KnownValue[f.Poisson] = optional("Poisson's ratio of the soft solid")
     work_of_adhesion: KnownValue[f.Energy] = optional("work of adhesion on a smooth surface")
     range: KnownLength = optional("range of the attraction")
-    law: f.Law = optional("traction law; default exponential")
+    law: f.PredictedLaw = optional("traction law; default exponential")
     hurst: KnownValue[f.number(ge=0.01, le=1)] = optional("Hurst exponent in (0, 1]")
     longest_wavelength: KnownLength = optional("longest wavelength of the roughness")
     rolloff_wavelength: KnownLength = optional("wavelength above which the spectrum is flat")

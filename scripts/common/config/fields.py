@@ -9,7 +9,7 @@ from typing import Annotated, Any, ClassVar, Literal, TypeVar
 import pydantic
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainValidator
 
-from stickiness.traction_laws import LAWS
+from stickiness.traction_laws import LAWS, PREDICTED
 from stickiness.units import si
 
 T = TypeVar("T")
@@ -195,6 +195,7 @@ Loads = Annotated[Values, Field(description="mean pressures over E* q0 h_rms")]
 Hurst = Annotated[float, Field(gt=0, le=1, description="Hurst exponent in (0, 1]")]
 Magnification = Annotated[float, Field(gt=1, description="q1/q0, above 1")]
 Law = Annotated[Literal[tuple(sorted(LAWS))], Field(description="traction law")]
+PredictedLaw = Annotated[Literal[PREDICTED], Field(description="traction law")]
 
 Length = quantity("length", "m")
 WaveNumber = quantity("wave number", "1/m")

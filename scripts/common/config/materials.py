@@ -55,7 +55,9 @@ class Material(ElasticPair, f.Labelled):
     )
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
     pressed: f.Pressure = optional('pressure before separation, e.g. "10 kPa"; a touch without it')
-    law: f.Law = optional("traction law; default exponential. The range of van_der_waals is D0")
+    law: f.PredictedLaw = optional(
+        "traction law; default exponential. The range of van_der_waals is D0"
+    )
 
     def _problems(self, context):
         frequencies = [frequency for frequency, _ in self.youngs_modulus_table or []]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stickiness.arguments import positive
+from stickiness.arguments import number, positive
 from stickiness.criteria.a_v_table import RANGES, surface_a_v
 from stickiness.criteria.pair import LIMITED, REGIMES, WORDS, Pair, decide, judge
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -156,6 +156,7 @@ def verdict(
     if not 0 < wanted_share < 1:
         raise ValueError(f"wanted_share must be between 0 and 1, got {wanted_share!r}")
     positive(modulus=modulus, work_of_adhesion=work_of_adhesion, range=range)
+    pressed = number("pressed", pressed, zero=True)
     if isinstance(solid, Layer) and poisson != solid.poisson:
         raise ValueError(
             f"poisson = {poisson!r} must equal the layer's, {solid.poisson!r}: `modulus` is that "

@@ -151,16 +151,16 @@ class Persson:
         kernel = s * np.exp(-x2) * self._setting.kernels.mean_kernel(x2)
         return 2 / np.sqrt(np.pi) * np.sum(weight * kernel, axis=-1)
 
-    def elastic_energy(self, p: ArrayLike, same_correction: bool = False) -> NDArray:
+    def elastic_energy(self, p: ArrayLike) -> NDArray:
         """Elastic energy per nominal area over E* [length] at mean pressures `p` >= 0.
 
-        The integral of A S dm/(2 q), A of the theory without a correction (Yang & Persson 2008). By
-        default S is that of "xu2024" with `ENERGY_GAMMA`: within 5 % (rms) of simulations at loads
-        from 0.01 E* q0 h_rms on (H = 0.5 to 0.9), where "yang2008" with 0.45 is 9 % too high. With
-        `same_correction` it is this theory's, and the energy is the integral of -p d(ubar).
+        The integral of A S dm/(2 q), A of the theory without a correction (Yang & Persson 2008).
+        Whatever the correction of this theory, S is that of "xu2024" with `ENERGY_GAMMA`: within
+        5 % (rms) of simulations at loads from 0.01 E* q0 h_rms on (H = 0.5 to 0.9), where
+        "yang2008" with 0.45 is 9 % too high. With S the theory's, it is the integral of -p d(ubar).
         """
         (p,) = nonnegative(p=p)
-        universal = self._setting.kernels if same_correction else kernels(ENERGY_GAMMA, "xu2024")
+        universal = kernels(ENERGY_GAMMA, "xu2024")
         if self._layered is not None:
             return self._layered.elastic_energy(p, universal)
         m, _, weight = self._setting.scales.fine

@@ -125,7 +125,7 @@ def measure(
     if resolution > COARSEST:
         raise ValueError(
             f"a pixel of {pixel:.3g} is {resolution:.2g} times the width of the cohesive zone, "
-            "range^2/adhesion_length: points would snap one by one. Take pixels of at most "
+            "adhesion_length/strength^2: points would snap one by one. Take pixels of at most "
             f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
     if resolution * RESOLVED > 1.001:

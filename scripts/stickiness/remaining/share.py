@@ -38,14 +38,14 @@ ONSET, ADVANCE = 0.4, 1.2
 # the same elastic energy: edges that attract lift the surfaces.
 LIFT = 1.4
 _GAPS = np.linspace(0.05, 10.0, 200)  # mean gaps over h_rms; full contact is a tough state
-# Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.4 to 4.15
+# Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.2 to 4.6
 # in cells of 16 to 256 of the longest waves. The largest of 10^6 independent heights is at 4.9.
 FIRST_TOUCH = 4.0
 # Gaps over h_rms, even in the logarithm, and their weights in Gaussian heights by mean gap.
 _OPENINGS = np.exp(np.linspace(-28.0, 3.0, 389))
 _OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
 _OPEN *= np.gradient(np.log(_OPENINGS))[:, None] * _OPENINGS[:, None]
-_FINE_GAPS = np.geomspace(1e-9, _GAPS[-1], 1000)
+_FINE_GAPS, _LEAST_DECAY = np.geomspace(1e-9, _GAPS[-1], 1000), 1e-6  # of the inverse of F
 _PARTS = np.linspace(0.0, 1.0, 60)[:, None]  # of the way to zero load, in logarithms
 # Of springs over h_rms: clearances between undeformed surfaces, and their means.
 _CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
@@ -104,7 +104,7 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
     full = np.maximum(x.ravel() - start, 1e-9) / rest
     least = 1e-3 * np.minimum(full, 1.0)
     t = least * (full / least) ** _PARTS
-    decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), _TINY)
+    decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), _LEAST_DECAY)
     gap = np.exp(np.interp(np.log(decay), _FINE_DECAY, np.log(_FINE_GAPS)))
     rise = decay_energy(gap)[1] * np.exp(-decay) * (x.ravel() / (start + rest * t) - 1)
     return plain(np.max(rise, axis=0, initial=0.0).reshape(x.shape) / LIFT)
