@@ -8,7 +8,7 @@ from scipy.special import ndtr
 from common import remaining_table
 from stickiness import repulsive, surface
 from stickiness.remaining import share as module
-from stickiness.remaining.prediction import LASTING
+from stickiness.remaining.prediction import LASTING, LATE
 from stickiness.remaining.share import (
     FIRST_TOUCH,
     LIFT,
@@ -152,6 +152,13 @@ def test_surfaces_that_nothing_was_fitted_to():
     rows = held[held.bound > 0.05]
     assert len(rows) > 20
     assert np.sqrt(np.mean((rows.predicted / rows.bound - 1) ** 2)) < 0.12
+    for name in ("bound", "separation"):
+        assert np.all(np.abs(rows.predicted / rows[name] - 1) < 0.25)
+    # The theory has no hysteresis: approach lies within its limits, and up to 25.1 % lower.
+    assert np.all(
+        (rows.predicted_low / LATE < rows.approach) & (rows.approach < rows.predicted_high)
+    )
+    assert np.sum(np.abs(rows.predicted / rows.approach - 1) > 0.25) <= 1
     # Near the onset.
     rows = held[(held.energy_ratio <= 0.4) & (held.zone < 0.3)]
     assert len(rows) >= 5
