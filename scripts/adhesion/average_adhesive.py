@@ -14,8 +14,8 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion import dmt_limit
-from adhesion.dmt_limit import fit_slope, linearity_error, quantities_of, weak_attraction
+from adhesion import dmt_sum
+from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
 from common import conventions
 from common.adhesion_sets import AXES, MISSING, OUTSIDE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
@@ -85,11 +85,11 @@ VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT sum in 1/kapp
 def main(job):
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
     errors = {"dmt_valid": job.params.jtb, "dmt_error": job.params.dmt_error}
-    dmt_limit.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
+    dmt_sum.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
     made, seeds = datasets.parameters(ensemble), []
-    dataset = take_dmt_limit(limit)
+    dataset = take_dmt_sum(limit)
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
         made, seeds = datasets.parameters(states), states.seed.values.tolist()
@@ -110,7 +110,7 @@ def main(job):
     datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
 
 
-def take_dmt_limit(limit):
+def take_dmt_sum(limit):
     """The averages by the DMT sum, in which all areas are that without adhesion."""
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
@@ -131,7 +131,7 @@ def average(states, full, ensemble, limit, made):
     whole = fine(states.external_pressure).notnull().all("seed") | ~full
     wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
     states = add_dmt(states, full)
-    in_limit = dmt_limit.find_linear(adhesion, ensemble)
+    in_limit = dmt_sum.find_linear(adhesion, ensemble)
     linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
     states = add_slopes(states, ensemble, linear)
     alone = ensemble.sel(seed=states.seed).isel(resolution=[-2, -1])

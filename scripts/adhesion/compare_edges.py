@@ -8,7 +8,7 @@ that the equivalent sphere models.
 import numpy as np
 import xarray as xr
 
-from adhesion.dmt_limit import integrate_law
+from adhesion.dmt_sum import integrate_law
 from common import conventions
 from common.adhesion_sets import pressure_at, roughness, solver_error
 from common.error_budgets import SIMULATED

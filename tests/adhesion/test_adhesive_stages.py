@@ -6,7 +6,7 @@ import xarray as xr
 from scipy import optimize, stats
 
 from adhesion import average_adhesive, solve_adhesive
-from adhesion.dmt_limit import fit_slope, integrate_law, linearity_error, weak_attraction
+from adhesion.dmt_sum import fit_slope, integrate_law, linearity_error, weak_attraction
 from common.adhesion_sets import scaled_law
 from stickiness import dmt, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
