@@ -50,7 +50,7 @@ class _Convolution:
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
-        """Convolve `field` into `out`, another array, with what `symbol` returned.
+        """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
 
         `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
         wanted, all by default. Both arrays may be the corner of the grid that holds these rows:

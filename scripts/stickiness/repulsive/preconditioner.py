@@ -63,9 +63,9 @@ class Preconditioner:
         self.mean = None
         if points.size < grid.heights.size:
             self.mean = half_space.keep(_Mean, tuple(grid.shape), tuple(grid.sides))
-            self.quick.field[points] = 1
-            self.mean.gather(self.quick.field.reshape(grid.shape))
-            self.quick.field[points] = 0
+            grid.scratch[:] = 0
+            grid.scratch[points] = 1
+            self.mean.gather(grid.scratch.reshape(grid.shape))
             self.weights = np.ones(grid.shape, np.float32)
             self.mean.spread(self.weights, self.weights)
             self.weights += np.float32(_FAR_WEIGHT)
@@ -79,16 +79,17 @@ class Preconditioner:
         stiffness = quick.operator.stiffness
         if self.mean is None:
             return quick.apply(stiffness, points, residual, self.rows, self.rows)[points]
-        field, image = quick.field.reshape(quick.shape), quick.image.reshape(quick.shape)
-        quick.field[points] = residual
+        scratch = self.grid.scratch
+        field, image = scratch.reshape(quick.shape), quick.image.reshape(quick.shape)
+        scratch[:] = 0
+        scratch[points] = residual
         self.mean.gather(field)
         self.mean.spread(self.weights, image)
         quick.image[points] = residual
         stiffness(image, field)
         self.mean.gather(field, self.weights)
         pressure = self.mean.at(points)
-        pressure += quick.field[points]
-        quick.field[:] = 0
+        pressure += scratch[points]
         self.grid.spent += 2 / _SPACING**2
         return pressure
 
