@@ -127,8 +127,11 @@ class Real(_Convolution):
         self._parts = [slice(start, start + self._strip) for start in starts]
 
     def symbol(self, values):
-        """Prepare a symbol, normalised values of shape ``(n1 // 2 + 1, n0)``, for `apply`."""
-        padded = np.zeros(self._spectrum.shape, self._dtype)
+        """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
+
+        It is even along both axes, so that these are the wave numbers that are not negative.
+        """
+        padded = np.zeros((self._spectrum.shape[0], values.shape[1]), self._dtype)
         padded[: values.shape[0]] = values
         return padded
 
@@ -142,7 +145,7 @@ class Real(_Convolution):
 
     def _multiply(self, symbol, bench, strip):
         _run(bench.columns_forward, self._spectrum[strip], bench.work)
-        np.multiply(bench.work, symbol[strip], out=bench.work)
+        _scale(symbol[strip], bench.work.view(self._dtype))
         _run(bench.columns_backward, bench.work, self._spectrum[strip])
 
 
@@ -174,16 +177,15 @@ class Packed(_Convolution):
         bench.before, bench.after, bench.product = (
             pyfftw.zeros_aligned((self._widest, n0), self._numbers) for _ in range(3)
         )
-        bench.mirror = np.empty(2 * n0, self._dtype)
         bench.columns_forward = _plan(bench.before, bench.after, "FFTW_FORWARD")
         bench.columns_backward = _plan(bench.product, bench.before, "FFTW_BACKWARD")
         return bench
 
     def symbol(self, values):
         """Prepare a symbol, as `Real.symbol` does."""
-        modes, n0 = values.shape[0] - 1, values.shape[1]
-        direct = np.empty((modes, n0), self._dtype)
-        crossed = np.empty((modes, n0), self._dtype)
+        modes, half = values.shape[0] - 1, values.shape[1]
+        direct = np.empty((modes, half), self._dtype)
+        crossed = np.empty((modes, half), self._dtype)
         # Half the sum, half the difference, and twice for a transform of half the points.
         for group, rows in self._parts:
             k = np.concatenate([np.arange(strip.start, strip.stop) for strip, _ in group])
@@ -199,27 +201,44 @@ class Packed(_Convolution):
             bench.before[place] = self._spectrum[:, strip].T
         bench.columns_forward.execute()
         values, product = (field.view(self._dtype) for field in (bench.after, bench.product))
-        _combine(*(factor[rows] for factor in symbol), values, product, bench.mirror)
+        _combine(*(factor[rows] for factor in symbol), values, product)
         bench.columns_backward.execute()
         for strip, place in group:
             self._spectrum[:, strip] = bench.before[place].T
 
 
 @compiled
-def _combine(direct, crossed, values, product, mirror):
+def _scale(symbol, values):
+    """Multiply rows of complex numbers, real and imaginary parts in turn, by a symbol."""
+    rows, half = symbol.shape
+    n = values.shape[1] // 2
+    for r in range(rows):
+        for k in range(half):
+            values[r, 2 * k] *= symbol[r, k]
+            values[r, 2 * k + 1] *= symbol[r, k]
+        for k in range(half, n):
+            values[r, 2 * k] *= symbol[r, n - k]
+            values[r, 2 * k + 1] *= symbol[r, n - k]
+
+
+@compiled
+def _combine(direct, crossed, values, product):
     """``a z_k + i b conj(z_-k)`` of the first rows of a group; real and imaginary parts in turn.
 
-    A group is closed under k -> -k: its rows mirror one another in reverse. Reversing real and
-    imaginary parts along with the numbers turns z into i conj(z).
+    A group is closed under k -> -k: its rows mirror one another in reverse.
     """
-    rows, n = direct.shape
+    rows, half = direct.shape
+    n = values.shape[1] // 2
     for r in range(rows):
-        mirror[0], mirror[1] = values[rows - 1 - r, 1], values[rows - 1 - r, 0]
-        for t in range(2, 2 * n):
-            mirror[t] = values[rows - 1 - r, 2 * n + 1 - t]
-        for k in range(n):
-            for t in (2 * k, 2 * k + 1):
-                product[r, t] = direct[r, k] * values[r, t] + crossed[r, k] * mirror[t]
+        a, b, z, back, out = direct[r], crossed[r], values[r], values[rows - 1 - r], product[r]
+        out[0] = a[0] * z[0] + b[0] * back[1]
+        out[1] = a[0] * z[1] + b[0] * back[0]
+        for k in range(1, half):
+            out[2 * k] = a[k] * z[2 * k] + b[k] * back[2 * (n - k) + 1]
+            out[2 * k + 1] = a[k] * z[2 * k + 1] + b[k] * back[2 * (n - k)]
+        for k in range(half, n):
+            out[2 * k] = a[n - k] * z[2 * k] + b[n - k] * back[2 * (n - k) + 1]
+            out[2 * k + 1] = a[n - k] * z[2 * k + 1] + b[n - k] * back[2 * (n - k)]
 
 
 def aligned_zeros(size, dtype):

@@ -138,8 +138,8 @@ class _Split:
         self.beside = _truncate_kernel(q / 2, _BESIDE)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
-        blur = [np.sinc(np.fft.fftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
-        symbol /= np.outer(blur[0], blur[1][: symbol.shape[1]]) * (shape[0] * shape[1])
+        blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
+        symbol /= np.outer(*blur) * (shape[0] * shape[1])
         self._convolution = convolution.choose(self.coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
         self._image = np.zeros(self.coarse, np.float32)
@@ -162,6 +162,7 @@ def _invert(q):
 
 def _truncate_kernel(symbol, reach):
     """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
+    symbol = np.concatenate([symbol, symbol[-2:0:-1]])
     kernel = np.fft.irfft2(symbol, (_TABLE, _TABLE)).astype(np.float32)
     first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
     return np.where(np.hypot(first, second) <= reach, kernel[first, second], 0), kernel[0, 0]

@@ -35,21 +35,18 @@ def clear_caches():
 
 
 def wavenumbers(shape, lengths):
-    """Magnitudes ``|q|`` of a real transform's wavevectors, ``(shape[0], shape[1] // 2 + 1)``."""
-    q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
-    q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
-    return np.hypot(q0[:, None], q1[None, :])
+    """Magnitudes ``|q|`` of one quadrant of wave vectors, ``(n0 // 2 + 1, n1 // 2 + 1)``."""
+    axes = zip(shape, lengths, strict=True)
+    return np.hypot.outer(*(2 * np.pi * np.fft.rfftfreq(n, length / n) for n, length in axes))
 
 
 def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
     """Wave numbers ``|q|``/S, zero at q = 0, at which a half-space is as stiff as the solid."""
     q = wavenumbers(shape, lengths)
     if solid != HALF_SPACE:
-        half = shape[0] // 2 + 1  # the other wave vectors mirror these
         q[0, 0] = 1.0
-        q[:half] /= solid.factor(q[:half])
+        q /= solid.factor(q)
         q[0, 0] = 0.0
-        q[half:] = q[1 : shape[0] - half + 1][::-1]
     return q
 
 
@@ -68,9 +65,12 @@ class HalfSpace:
         self._convolution = convolution.choose(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = effective_wavenumbers(self.shape, self.lengths, solid).T
-        index = np.arange(q.shape[0])  # waves mirror one another but for the first and a last
-        weight = np.where((index == 0) | (2 * index == n1), 1.0, 2.0)
-        self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * n0 * n1)
+        # Waves mirror one another but for the first and a last along each axis.
+        across, along = (
+            np.where(np.arange(m) % (n / 2), 2.0, 1.0)
+            for m, n in zip(q.shape, (n1, n0), strict=True)
+        )
+        self.mean_stiffness = float(across @ q @ along) / (2 * n0 * n1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
         self._compliance = self._convolution.symbol(q)
@@ -118,7 +118,6 @@ class FreeHalfSpace(HalfSpace):
         quadrant = displace_by_pixel([m // 2 + 1 for m in padded], pixel)
         spectrum = fft.dctn(quadrant, type=1, overwrite_x=True).T
         spectrum /= padded[0] * padded[1]
-        spectrum = np.concatenate([spectrum, spectrum[:, -2:0:-1]], axis=1)
         self._symbol = self._padded.symbol(spectrum)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):

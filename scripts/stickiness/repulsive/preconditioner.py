@@ -110,7 +110,7 @@ class _Mean:
         square[0, 0] = 1 / _SELF_WEIGHT
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
         self._convolution = convolution.choose(coarse, np.float32)
-        self._symbol = self._convolution.symbol(symbol.T)
+        self._symbol = self._convolution.symbol(symbol[: coarse[0] // 2 + 1].T)
         self._rows = np.empty((coarse[0], shape[1]), np.float32)
         self._field, self._image = np.zeros((2, *coarse), np.float32)
 
