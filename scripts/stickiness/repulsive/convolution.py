@@ -1,19 +1,22 @@
-"""Blocked convolutions of a real periodic field with an even kernel, on one thread.
+"""Blocked convolutions of a real periodic field with an even kernel.
 
 The transform of a large grid is bound by memory, not by arithmetic. Rows are therefore transformed
 a block at a time, then a few wavenumbers at a time along the other axis, multiplied by the symbol
 of the kernel and transformed back while they are in cache. Rows that hold nothing, or of which
-nothing is wanted, are left out.
+nothing is wanted, are left out. Threads share the blocks (`sharing`).
 
 All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on a busy machine.
 """
 
 import threading
+from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pyfftw
 
 from stickiness.compiled import compiled
+from stickiness.repulsive import sharing
 
 _FLAGS = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
 _ROWS = 64  # rows transformed at a time along axis 1
@@ -37,14 +40,10 @@ class _Convolution:
     _packed = False
 
     def __init__(self, shape, dtype, modes):
-        self.shape, self._dtype = shape, dtype
+        self.shape, self._dtype, self._modes = shape, dtype, modes
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
-        self._real = pyfftw.zeros_aligned((self._rows, shape[1]), dtype)
-        self._half = self._zeros(self._rows, modes)
-        self._buffer = self._real.view(self._numbers) if self._packed else self._real
-        self._rows_forward = _plan(self._buffer, self._half, "FFTW_FORWARD")
-        self._rows_backward = _plan(self._half, self._buffer, "FFTW_BACKWARD")
+        self._benches = []  # one for each thread
 
     def _zeros(self, rows, columns):
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
@@ -61,23 +60,44 @@ class _Convolution:
         rows_out = np.arange(len(out)) if rows_out is None else rows_out
         if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
-        for span, count, direct in self._blocks(field, rows_in):
-            if direct:
-                _run(self._rows_forward, field[span].view(self._numbers), self._by_rows[span])
-                continue
-            width = field.shape[1]
-            self._real[:count, :width] = field[span]
-            self._real[:count, width:] = 0
-            _run(self._rows_forward, self._buffer, self._half)
-            self._by_rows[span] = self._half[:count]
-        self._multiply(symbol)
-        for span, count, direct in self._blocks(out, rows_out):
-            if direct:
-                _run(self._rows_backward, self._by_rows[span], out[span].view(self._numbers))
-                continue
-            self._half[:count] = self._by_rows[span]
-            _run(self._rows_backward, self._half, self._buffer)
-            out[span] = self._real[:count, : out.shape[1]]
+        self._share(partial(self._forward, field), self._blocks(field, rows_in))
+        self._share(partial(self._multiply, symbol), self._parts)
+        self._share(partial(self._backward, out), self._blocks(out, rows_out))
+
+    def _share(self, work, parts):
+        points = self.shape[0] * self.shape[1]
+        sharing.share(work, parts, points, (self._benches, self._make_bench))
+
+    def _make_bench(self):
+        """Buffers and plans of one thread."""
+        bench = SimpleNamespace(
+            real=pyfftw.zeros_aligned((self._rows, self.shape[1]), self._dtype),
+            half=self._zeros(self._rows, self._modes),
+        )
+        bench.buffer = bench.real.view(self._numbers) if self._packed else bench.real
+        bench.rows_forward = _plan(bench.buffer, bench.half, "FFTW_FORWARD")
+        bench.rows_backward = _plan(bench.half, bench.buffer, "FFTW_BACKWARD")
+        return bench
+
+    def _forward(self, field, bench, block):
+        span, count, direct = block
+        if direct:
+            _run(bench.rows_forward, field[span].view(self._numbers), self._by_rows[span])
+            return
+        width = field.shape[1]
+        bench.real[:count, :width] = field[span]
+        bench.real[:count, width:] = 0
+        _run(bench.rows_forward, bench.buffer, bench.half)
+        self._by_rows[span] = bench.half[:count]
+
+    def _backward(self, out, bench, block):
+        span, count, direct = block
+        if direct:
+            _run(bench.rows_backward, self._by_rows[span], out[span].view(self._numbers))
+            return
+        bench.half[:count] = self._by_rows[span]
+        _run(bench.rows_backward, bench.half, bench.buffer)
+        out[span] = bench.real[:count, : out.shape[1]]
 
     def _blocks(self, field, rows):
         """Index of each block of rows, its size, and whether FFTW may work on it where it is."""
@@ -103,10 +123,8 @@ class Real(_Convolution):
         self._strip = max(1, min(modes, _CACHED // n0))
         self._spectrum = self._zeros(-(-modes // self._strip) * self._strip, n0)
         self._by_rows = self._spectrum[:modes].T
-        self._work = pyfftw.zeros_aligned((self._strip, n0), self._numbers)
-        first = self._spectrum[: self._strip]
-        self._columns_forward = _plan(first, self._work, "FFTW_FORWARD")
-        self._columns_backward = _plan(self._work, first, "FFTW_BACKWARD")
+        starts = range(0, self._spectrum.shape[0], self._strip)
+        self._parts = [slice(start, start + self._strip) for start in starts]
 
     def symbol(self, values):
         """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
@@ -117,12 +135,18 @@ class Real(_Convolution):
         padded[: values.shape[0]] = values
         return padded
 
-    def _multiply(self, symbol):
-        for start in range(0, self._spectrum.shape[0], self._strip):
-            strip = slice(start, start + self._strip)
-            _run(self._columns_forward, self._spectrum[strip], self._work)
-            _scale(symbol[strip], self._work.view(self._dtype))
-            _run(self._columns_backward, self._work, self._spectrum[strip])
+    def _make_bench(self):
+        bench = super()._make_bench()
+        bench.work = pyfftw.zeros_aligned((self._strip, self.shape[0]), self._numbers)
+        first = self._spectrum[: self._strip]
+        bench.columns_forward = _plan(first, bench.work, "FFTW_FORWARD")
+        bench.columns_backward = _plan(bench.work, first, "FFTW_BACKWARD")
+        return bench
+
+    def _multiply(self, symbol, bench, strip):
+        _run(bench.columns_forward, self._spectrum[strip], bench.work)
+        _scale(symbol[strip], bench.work.view(self._dtype))
+        _run(bench.columns_backward, bench.work, self._spectrum[strip])
 
 
 class Packed(_Convolution):
@@ -140,46 +164,47 @@ class Packed(_Convolution):
     def __init__(self, shape, dtype):
         n0, modes = shape[0], shape[1] // 2
         super().__init__(shape, dtype, modes)
-        self._groups = list(_mirrored(modes, max(8, _STRIP // n0)))
-        widest = max(group[-1][1].stop for group in self._groups)
+        groups = list(_mirrored(modes, max(8, _STRIP // n0)))
+        widths = [group[-1][1].stop for group in groups]
+        starts = np.cumsum([0, *widths]).tolist()  # of their rows in a symbol
+        rows = map(slice, starts[:-1], starts[1:])
+        self._parts, self._widest = list(zip(groups, rows, strict=True)), max(widths)
         self._spectrum = self._by_rows = self._zeros(n0, modes)
-        self._before, self._after, self._product = (
-            pyfftw.zeros_aligned((widest, n0), self._numbers) for _ in range(3)
+
+    def _make_bench(self):
+        bench = super()._make_bench()
+        n0 = self.shape[0]
+        bench.before, bench.after, bench.product = (
+            pyfftw.zeros_aligned((self._widest, n0), self._numbers) for _ in range(3)
         )
-        self._columns_forward = _plan(self._before, self._after, "FFTW_FORWARD")
-        self._columns_backward = _plan(self._product, self._before, "FFTW_BACKWARD")
+        bench.columns_forward = _plan(bench.before, bench.after, "FFTW_FORWARD")
+        bench.columns_backward = _plan(bench.product, bench.before, "FFTW_BACKWARD")
+        return bench
 
     def symbol(self, values):
         """Prepare a symbol, as `Real.symbol` does."""
         modes, half = values.shape[0] - 1, values.shape[1]
         direct = np.empty((modes, half), self._dtype)
         crossed = np.empty((modes, half), self._dtype)
-        start = 0
         # Half the sum, half the difference, and twice for a transform of half the points.
-        for strip in (strip for group in self._groups for strip, _ in group):
-            k = np.arange(strip.start, strip.stop)
-            rows = slice(start, start + k.size)
+        for group, rows in self._parts:
+            k = np.concatenate([np.arange(strip.start, strip.stop) for strip, _ in group])
             angle = np.pi * k[:, None] / modes
             difference = values[k] - values[modes - k]
             direct[rows] = values[k] + values[modes - k] - difference * np.sin(angle)
             crossed[rows] = difference * np.cos(angle)
-            start += k.size
         return direct, crossed
 
-    def _multiply(self, symbol):
-        direct, crossed = symbol
-        start = 0
-        for group in self._groups:
-            for strip, place in group:
-                self._before[place] = self._spectrum[:, strip].T
-            self._columns_forward.execute()
-            rows = slice(start, start + group[-1][1].stop)
-            values, product = (field.view(self._dtype) for field in (self._after, self._product))
-            _combine(direct[rows], crossed[rows], values, product)
-            self._columns_backward.execute()
-            start = rows.stop
-            for strip, place in group:
-                self._spectrum[:, strip] = self._before[place].T
+    def _multiply(self, symbol, bench, part):
+        group, rows = part
+        for strip, place in group:
+            bench.before[place] = self._spectrum[:, strip].T
+        bench.columns_forward.execute()
+        values, product = (field.view(self._dtype) for field in (bench.after, bench.product))
+        _combine(*(factor[rows] for factor in symbol), values, product)
+        bench.columns_backward.execute()
+        for strip, place in group:
+            self._spectrum[:, strip] = bench.before[place].T
 
 
 @compiled

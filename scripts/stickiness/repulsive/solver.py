@@ -17,7 +17,7 @@ import numpy as np
 
 from stickiness.arguments import grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
-from stickiness.repulsive import active_set, half_space, projected_gradients
+from stickiness.repulsive import active_set, half_space, projected_gradients, sharing
 from stickiness.solids import HALF_SPACE, check_solid
 
 _MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
@@ -95,6 +95,7 @@ def solve(
     max_iterations=1000,
     solid=HALF_SPACE,
     periodic=True,
+    threads=1,
 ) -> Contact:
     """Solve the contact of an elastic solid with a rigid surface at a mean pressure.
 
@@ -120,6 +121,10 @@ def solve(
         pressed into an unbounded half-space; each height is that of a pixel. The total force is
         `pressure` times the area within `length`. This takes two to five times as long, and needs a
         half-space as `solid`.
+    threads : int
+        Threads that share the work on grids from 256 by 256 points on, at least 1. The solution
+        is the same, bit by bit, for any number. Many solutions at once, each on one thread, are the
+        better use of many cores.
 
     Raises
     ------
@@ -150,6 +155,7 @@ def solve(
     pressure = number("pressure", pressure, zero=True)
     tol = number("tol", tol, most=_MAX_TOLERANCE)
     max_iterations = integer("max_iterations", max_iterations, least=1)
+    threads = integer("threads", threads, least=1)
     if not (start is None or isinstance(start, Contact)):
         raise ValueError(f"start must be a Contact of the same grid, got {type(start).__name__}")
     if start is not None and start.pressure.shape != heights.shape:
@@ -169,7 +175,8 @@ def solve(
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, half_space.measure_slope(heights, lengths) * stiffening)
-    return press(heights, lengths, pressure, tol, start, max_iterations, solid, periodic)
+    with sharing.threads(threads):
+        return press(heights, lengths, pressure, tol, start, max_iterations, solid, periodic)
 
 
 def press(heights, lengths, pressure, tol, start=None, limit=1000, solid=HALF_SPACE, periodic=True):
