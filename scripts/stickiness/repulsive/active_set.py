@@ -198,6 +198,7 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
             precondition = None
         changed += admitted.size
         field = grid.quick if residual > grid.single_limit else grid.exact
+    candidates = precondition = None  # frees memory
     return _state(grid, best, field, pressure, iterations)
 
 

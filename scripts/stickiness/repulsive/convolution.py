@@ -11,6 +11,7 @@ All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on 
 import threading
 from functools import partial
 from types import SimpleNamespace
+from weakref import WeakValueDictionary
 
 import numpy as np
 import pyfftw
@@ -34,6 +35,16 @@ class _Count(threading.local):
 COUNT = _Count()
 
 
+class _Spectra(threading.local):
+    """Memory of the spectra of this thread's convolutions, by shape, while any of them lives."""
+
+    def __init__(self):
+        self.memory = WeakValueDictionary()
+
+
+_SPECTRA = _Spectra()
+
+
 class _Convolution:
     """Transforms of blocks of rows, into a `_spectrum` that subclasses multiply by the symbol."""
 
@@ -47,6 +58,15 @@ class _Convolution:
 
     def _zeros(self, rows, columns):
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
+
+    def _share_spectrum(self, rows, columns):
+        """Spectrum in memory of all convolutions of this shape: none uses it between calls."""
+        size = rows * _stride(columns) * self._numbers.itemsize
+        memory = _SPECTRA.memory.get(self.shape)
+        if memory is None or memory.size < size:
+            memory = _SPECTRA.memory[self.shape] = aligned_zeros(size, np.uint8)
+        self._memory = memory  # a view would not keep it, but what it is a view of
+        return memory[:size].view(self._numbers).reshape(rows, -1)[:, :columns]
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
         """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
@@ -63,6 +83,9 @@ class _Convolution:
         self._share(partial(self._forward, field), self._blocks(field, rows_in))
         self._share(partial(self._multiply, symbol), self._parts)
         self._share(partial(self._backward, out), self._blocks(out, rows_out))
+        for bench in self._benches:  # whose plans would keep the fields in memory
+            bench.rows_forward.update_arrays(bench.buffer, bench.half)
+            bench.rows_backward.update_arrays(bench.half, bench.buffer)
 
     def _share(self, work, parts):
         points = self.shape[0] * self.shape[1]
@@ -121,7 +144,7 @@ class Real(_Convolution):
         n0, modes = shape[0], shape[1] // 2 + 1
         super().__init__(shape, dtype, modes)
         self._strip = max(1, min(modes, _CACHED // n0))
-        self._spectrum = self._zeros(-(-modes // self._strip) * self._strip, n0)
+        self._spectrum = self._share_spectrum(-(-modes // self._strip) * self._strip, n0)
         self._by_rows = self._spectrum[:modes].T
         starts = range(0, self._spectrum.shape[0], self._strip)
         self._parts = [slice(start, start + self._strip) for start in starts]
@@ -144,6 +167,7 @@ class Real(_Convolution):
         return bench
 
     def _multiply(self, symbol, bench, strip):
+        self._spectrum[max(strip.start, self._modes) : strip.stop] = 0
         _run(bench.columns_forward, self._spectrum[strip], bench.work)
         _scale(symbol[strip], bench.work.view(self._dtype))
         _run(bench.columns_backward, bench.work, self._spectrum[strip])
@@ -169,7 +193,7 @@ class Packed(_Convolution):
         starts = np.cumsum([0, *widths]).tolist()  # of their rows in a symbol
         rows = map(slice, starts[:-1], starts[1:])
         self._parts, self._widest = list(zip(groups, rows, strict=True)), max(widths)
-        self._spectrum = self._by_rows = self._zeros(n0, modes)
+        self._spectrum = self._by_rows = self._share_spectrum(n0, modes)
 
     def _make_bench(self):
         bench = super()._make_bench()
