@@ -31,18 +31,26 @@ def interpolation():
     return preconditioner._interpolation(12, 3), preconditioner._interpolation(5, 2)
 
 
+def transposed():
+    return [
+        preconditioner._transpose(*axis, m) for axis, m in zip(interpolation(), (3, 2), strict=True)
+    ]
+
+
+GROUP = np.array([1, 3, 6, 8])
 # Arguments of loops over grids of more than one dimension.
 ON_GRIDS = {
     smoother._add_around: (single(6, 10), single(3, 5), single(10)),
     smoother._spread: (single(3, 5), np.float32(0.3), single(6, 10), single(6, 10), single(6)),
-    convolution._combine: (*single(2, 4, 5), *single(2, 4, 10), single(10)),
-    preconditioner._add_to_coarse: (
-        *single(2, 12, 5),
-        *interpolation(),
-        single(3, 5),
-        single(3, 2),
+    convolution._scale: (single(4, 6), single(4, 20)),
+    convolution._turn: (single(11, 9), GROUP, single(4, 11)),
+    convolution._turn_back: (single(4, 11), GROUP, single(11, 9)),
+    convolution._combine: (*single(2, 4, 6), *(single(2, 4, 10) + 1j * single(2, 4, 10)), 10),
+    preconditioner._add_to_coarse: (1, *single(2, 12, 5), *transposed(), single(2, 2)),
+    preconditioner._interpolate_along: (single(3, 2), interpolation()[1], single(3, 5)),
+    preconditioner._interpolate_between: (
+        *(6, single(3, 5), interpolation()[0], single(12, 5), single(4, 5)),
     ),
-    preconditioner._interpolate: (single(3, 2), *interpolation(), single(3, 5), *single(2, 12, 5)),
     preconditioner._interpolate_at: (
         *(np.array([0, 7, 59]), single(3, 2), *interpolation(), single(3)),
     ),

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.repulsive import convolution, dilute_contact, half_space
+from stickiness.repulsive import convolution, dilute_contact, half_space, sharing
 from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
 
@@ -70,9 +70,9 @@ class _Field:
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
-        self.field[points] = values
+        sharing.put(self.field, points, values)
         operation(self.field.reshape(self.shape), self.image.reshape(self.shape), rows_in, rows_out)
-        self.field[points] = 0
+        sharing.put(self.field, points, 0)
         return self.image
 
 
@@ -88,7 +88,7 @@ class _Grid:
         self.exact = _Field(problem.operator(dtype), memory)
         self.quick = self.exact if rough else _Field(problem.operator(np.float32), memory)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
-        largest = float(np.abs(self.heights).max())
+        largest = max(float(self.heights.max()), -float(self.heights.min()))
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
@@ -102,9 +102,9 @@ class _Grid:
         return self.spent + sum(operator.pairs for operator in self._operators)
 
     def rows(self, points):
-        hit = np.zeros(self.shape[0], bool)
-        hit[points // self.shape[1]] = True
-        return np.flatnonzero(hit)
+        """Rows that hold some of the points, given in increasing order."""
+        begins = np.searchsorted(points, np.arange(self.shape[0] + 1) * self.shape[1])
+        return np.flatnonzero(np.diff(begins))
 
 
 def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False):
@@ -216,14 +216,18 @@ def _gap(grid, field, points, pressure):
     The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
     """
     image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
-    np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
-    gaps = image[points].astype(float, copy=False)
+    heights = grid.heights.ravel()
+
+    def lower(chunk):
+        np.subtract(image[chunk], heights[chunk], out=image[chunk], casting="same_kind")
+
+    sharing.spread(lower, image.size)
+    gaps = sharing.take(image, points).astype(float, copy=False)
     shift = float(-gaps.mean())
     gaps += shift
-    below = np.flatnonzero(image < -shift)
-    grid.active[points] = True
-    below = below[~grid.active[below]]
-    grid.active[points] = False
+    sharing.put(grid.active, points, True)
+    below = sharing.find(lambda c: (image[c] < -shift) & ~grid.active[c], image.size)
+    sharing.put(grid.active, points, False)
     depth = float(-(image[below].min() + shift)) if below.size else 0.0
     return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
 
@@ -243,16 +247,24 @@ def _predicted_from_gap(grid, gap, load):
     """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
     operator, shape = grid.quick.operator, grid.shape
     surface = grid.quick.image.reshape(shape)  # scratch: not in use here
-    np.add(gap, grid.heights, out=surface, casting="same_kind")
-    pressure = operator.stiffness(surface)
-    pressure += np.float32(load)
-    np.multiply(gap, np.float32(PREDICTION * operator.mean_stiffness), out=surface)
-    np.maximum(surface, 0, out=surface)
-    points = np.flatnonzero(pressure > surface)
+    gap, heights, flat = gap.ravel(), grid.heights.ravel(), surface.ravel()
+
+    def add(chunk):
+        np.add(gap[chunk], heights[chunk], out=flat[chunk], casting="same_kind")
+
+    sharing.spread(add, gap.size)
+    pressure = operator.stiffness(surface, grid.quick.field.reshape(shape)).ravel()
+    weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
+
+    def touches(chunk):
+        return pressure[chunk] + mean > np.maximum(gap[chunk] * weight, 0)
+
+    points = sharing.find(touches, gap.size)
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
-    pressure = pressure.ravel()[points].astype(float)
-    return points, _balanced(np.maximum(pressure, 0), load * gap.size)
+    touching = (sharing.take(pressure, points) + mean).astype(float)
+    sharing.fill(pressure, 0)  # the scratch field that it was
+    return points, _balanced(np.maximum(touching, 0), load * gap.size)
 
 
 def _predicted_from_pressure(grid, pressure, total):
@@ -276,14 +288,11 @@ def _balanced(pressure, total):
 
 
 def _joined(grid, field, points, pressure, extra, shift):
-    grid.active[points] = True
-    grid.active[extra] = True
-    joined = np.flatnonzero(grid.active)
-    grid.active[joined] = False
-    spread = np.zeros(joined.size)
+    at = np.searchsorted(points, extra)
+    joined = np.insert(points, at, extra)
     # In the precision of the grid, be it single.
-    spread[np.searchsorted(joined, points)] = pressure.astype(grid.exact.field.dtype, copy=False)
-    gaps = field.image[joined].astype(float, copy=False)
+    spread = np.insert(pressure.astype(grid.exact.field.dtype, copy=False), at, 0).astype(float)
+    gaps = sharing.take(field.image, joined).astype(float, copy=False)
     gaps += shift
     return joined, spread, gaps
 
@@ -294,9 +303,13 @@ def _state(grid, best, field, last, iterations):
     if pressure is not last or field is not grid.exact:
         shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
     gap, filled = grid.exact.image, grid.exact.field
-    gap += gap.dtype.type(shift)
-    np.maximum(gap, 0, out=gap)
-    gap[touching] = 0
-    filled[touching] = pressure
+
+    def lift(chunk):
+        gap[chunk] += gap.dtype.type(shift)
+        np.maximum(gap[chunk], 0, out=gap[chunk])
+
+    sharing.spread(lift, gap.size)
+    sharing.put(gap, touching, 0)
+    sharing.put(filled, touching, pressure)
     fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size
     return State(*fields, shift, area, residual, iterations, grid.pairs)

@@ -8,7 +8,11 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 
+import numpy as np
+
 _LEAST = 2**16  # points of a grid below which waking a thread takes longer than it saves
+_CHUNK = 2**15  # numbers of a field passed over at a time …
+_ROWS = 32  # … or rows
 
 
 class _Team(threading.local):
@@ -55,3 +59,48 @@ def share(work, parts, points, tools=None):
     run(*hands[0])
     for other in others:
         other.result()
+
+
+def spread(work, size, points=None):
+    """Call ``work(chunk)`` for slices of so many numbers, or of rows of a grid of `points`."""
+    share(work, _chunks(size, _CHUNK if points is None else _ROWS), points or size)
+
+
+def fill(field, value):
+    """``field[:] = value``."""
+    spread(lambda chunk: field[chunk].fill(value), field.size)
+
+
+def find(test, size):
+    """Indices among `size` numbers for which ``test(chunk)``, an array of truth values, holds."""
+    chunks, found = _chunks(size), {}
+
+    def look(chunk):
+        found[chunk.start] = np.flatnonzero(test(chunk)) + chunk.start
+
+    share(look, chunks, size)
+    return np.concatenate([found[chunk.start] for chunk in chunks])
+
+
+def take(field, points):
+    """``field[points]``."""
+    values = np.empty(points.size, field.dtype)
+
+    def move(chunk):
+        values[chunk] = field[points[chunk]]
+
+    spread(move, points.size)
+    return values
+
+
+def put(field, points, values):
+    """``field[points] = values``, of an array or one number; no point twice."""
+
+    def move(chunk):
+        field[points[chunk]] = values[chunk] if np.ndim(values) else values
+
+    spread(move, points.size)
+
+
+def _chunks(size, length=_CHUNK):
+    return [slice(start, min(start + length, size)) for start in range(0, size, length)]
