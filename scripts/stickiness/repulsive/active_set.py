@@ -24,6 +24,7 @@ _REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing m
 _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
 _FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
 _SINGLE_PRECISION_LIMIT = 1e-4  # of the largest height: a smaller residual needs double precision
+_LARGEST_KEPT = 2**22  # points: beyond this memory is dearer than the time to make operators again
 # Updates without progress …
 _STALLED_UPDATES_TO_TIGHTEN = 8  # … after which the set is solved ten times tighter
 _MAX_STALLED_DILUTE = 2  # … after which corrections among few points are given up
@@ -43,8 +44,8 @@ class Problem:
 
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""
-        shape = self.heights.shape
-        return half_space.half_space(shape, self.sides, dtype, self.solid, self.periodic)
+        kind = self.heights.shape, self.sides, dtype, self.solid, self.periodic
+        return half_space.half_space(*kind, kept=self.heights.size <= _LARGEST_KEPT)
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,18 +62,22 @@ class State:
 
 
 class _Field:
-    """A field that is zero but at some points, and its image under an operator."""
+    """A field that is zero but at some points, replaced by its image under an operator."""
 
     def __init__(self, operator, memory):
         self.operator, self.shape = operator, operator.shape
-        # Shared: zeros are zeros in any precision, and an image is read before the next is made.
-        self.field, self.image = (part.view(operator.dtype)[: part.size] for part in memory)
+        self.image = memory.view(operator.dtype)[: self.shape[0] * self.shape[1]]
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
-        sharing.put(self.field, points, values)
-        operation(self.field.reshape(self.shape), self.image.reshape(self.shape), rows_in, rows_out)
-        sharing.put(self.field, points, 0)
+        image = self.image.reshape(self.shape)
+
+        def clear(rows):
+            image[rows_in[rows]] = 0
+
+        sharing.spread(clear, rows_in.size, image.size)
+        sharing.put(self.image, points, values)
+        operation(image, image, rows_in, rows_out)
         return self.image
 
 
@@ -83,9 +88,10 @@ class _Grid:
         self.heights, self.shape = problem.heights, problem.heights.shape
         self.solid, self.sides = problem.solid, problem.sides
         self.active = np.zeros(self.heights.size, bool)
-        dtype = np.float32 if rough else np.float64
-        memory = [convolution.aligned_zeros(self.heights.size, dtype) for _ in range(2)]
-        self.exact = _Field(problem.operator(dtype), memory)
+        # One array in double precision, or two in single: an image is read before the next is made.
+        memory = convolution.aligned_zeros(self.heights.size, np.float64)
+        self.scratch = memory.view(np.float32)[self.heights.size :]
+        self.exact = _Field(problem.operator(np.float32 if rough else np.float64), memory)
         self.quick = self.exact if rough else _Field(problem.operator(np.float32), memory)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         largest = max(float(self.heights.max()), -float(self.heights.min()))
@@ -107,13 +113,14 @@ class _Grid:
         return np.flatnonzero(np.diff(begins))
 
 
-def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False):
+def relax(problem, guess, *, tol, max_iterations, rough=False):
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
-    Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
-    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices,
-    `tol` is well above 1e-5.
+    Starts from a `guess` of the "gap" (single precision), which is taken out of the mapping so that
+    its memory is free, from one of the "pressure" (any positive mean), or from a uniform pressure
+    on the highest points. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
+    gap, pressure = guess.pop("gap", None), guess.get("pressure")
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
     max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
@@ -122,7 +129,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
     total = load * heights.size
     if gap is not None:
         points, pressure = _predicted_from_gap(grid, gap, load)
-        gap = None  # frees the memory, if nobody else holds it
+        gap = None  # frees the memory
     elif pressure is not None:
         points, pressure = _predicted_from_pressure(grid, pressure, total)
     else:
@@ -195,6 +202,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
             precondition = None
         changed += admitted.size
         field = grid.quick if residual > grid.single_limit else grid.exact
+    candidates = precondition = None  # frees memory
     return _state(grid, best, field, pressure, iterations)
 
 
@@ -253,7 +261,7 @@ def _predicted_from_gap(grid, gap, load):
         np.add(gap[chunk], heights[chunk], out=flat[chunk], casting="same_kind")
 
     sharing.spread(add, gap.size)
-    pressure = operator.stiffness(surface, grid.quick.field.reshape(shape)).ravel()
+    pressure = operator.stiffness(surface, grid.scratch.reshape(shape)).ravel()
     weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
 
     def touches(chunk):
@@ -263,7 +271,6 @@ def _predicted_from_gap(grid, gap, load):
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
     touching = (sharing.take(pressure, points) + mean).astype(float)
-    sharing.fill(pressure, 0)  # the scratch field that it was
     return points, _balanced(np.maximum(touching, 0), load * gap.size)
 
 
@@ -271,9 +278,10 @@ def _predicted_from_pressure(grid, pressure, total):
     flat = pressure.ravel()
     points = np.flatnonzero(flat > 0)
     shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
-    threshold = grid.exact.image + shift
+    threshold = grid.exact.image
+    threshold += threshold.dtype.type(shift)
     threshold *= PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
-    predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
+    predicted = np.flatnonzero(flat > np.maximum(threshold, 0, out=threshold))
     if predicted.size:
         points = predicted
     return points, _balanced(flat[points], total)
@@ -291,7 +299,7 @@ def _joined(grid, field, points, pressure, extra, shift):
     at = np.searchsorted(points, extra)
     joined = np.insert(points, at, extra)
     # In the precision of the grid, be it single.
-    spread = np.insert(pressure.astype(grid.exact.field.dtype, copy=False), at, 0).astype(float)
+    spread = np.insert(pressure.astype(grid.exact.image.dtype, copy=False), at, 0).astype(float)
     gaps = sharing.take(field.image, joined).astype(float, copy=False)
     gaps += shift
     return joined, spread, gaps
@@ -302,7 +310,8 @@ def _state(grid, best, field, last, iterations):
     # The image may belong to a later, worse iterate, or be in single precision.
     if pressure is not last or field is not grid.exact:
         shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
-    gap, filled = grid.exact.image, grid.exact.field
+    gap = grid.exact.image
+    filled = np.zeros_like(gap)
 
     def lift(chunk):
         gap[chunk] += gap.dtype.type(shift)

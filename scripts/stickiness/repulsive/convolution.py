@@ -11,6 +11,7 @@ All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on 
 import threading
 from functools import partial
 from types import SimpleNamespace
+from weakref import WeakValueDictionary
 
 import numpy as np
 import pyfftw
@@ -35,6 +36,16 @@ class _Count(threading.local):
 COUNT = _Count()
 
 
+class _Spectra(threading.local):
+    """Memory of the spectra of this thread's convolutions, by shape, while any of them lives."""
+
+    def __init__(self):
+        self.memory = WeakValueDictionary()
+
+
+_SPECTRA = _Spectra()
+
+
 class _Convolution:
     """Transforms of blocks of rows, into a `_spectrum` that subclasses multiply by the symbol."""
 
@@ -49,8 +60,17 @@ class _Convolution:
     def _padded(self, rows, columns):
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)
 
+    def _share_spectrum(self, rows, columns):
+        """Spectrum in memory of all convolutions of this shape: none uses it between calls."""
+        size = rows * _stride(columns) * self._numbers.itemsize
+        memory = _SPECTRA.memory.get(self.shape)
+        if memory is None or memory.size < size:
+            memory = _SPECTRA.memory[self.shape] = aligned_zeros(size, np.uint8)
+        self._memory = memory  # a view would not keep it, but what it is a view of
+        return memory[:size].view(self._numbers).reshape(rows, -1)
+
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
-        """Convolve `field` into `out`, another array, with what `symbol` returned.
+        """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
 
         `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
         wanted, all by default. Both arrays may be the corner of the grid that holds these rows:
@@ -64,6 +84,9 @@ class _Convolution:
         self._share(partial(self._forward, field), self._blocks(field, rows_in))
         self._share(partial(self._multiply, symbol), self._parts)
         self._share(partial(self._backward, out), self._blocks(out, rows_out))
+        for bench in self._benches:  # whose plans would keep the fields in memory
+            bench.rows_forward.update_arrays(bench.buffer, bench.half)
+            bench.rows_backward.update_arrays(bench.half, bench.buffer)
 
     def _share(self, work, parts):
         points = self.shape[0] * self.shape[1]
@@ -122,7 +145,7 @@ class Real(_Convolution):
         n0, modes = shape[0], shape[1] // 2 + 1
         super().__init__(shape, dtype, modes)
         self._strip = max(1, min(modes, _CACHED // n0))
-        self._spectrum = self._padded(-(-modes // self._strip) * self._strip, n0)[:, :n0]
+        self._spectrum = self._share_spectrum(-(-modes // self._strip) * self._strip, n0)[:, :n0]
         self._by_rows = self._spectrum[:modes].T
         starts = range(0, self._spectrum.shape[0], self._strip)
         self._parts = [slice(start, start + self._strip) for start in starts]
@@ -145,6 +168,7 @@ class Real(_Convolution):
         return bench
 
     def _multiply(self, symbol, bench, strip):
+        self._spectrum[max(strip.start, self._modes) : strip.stop] = 0
         _run(bench.columns_forward, self._spectrum[strip], bench.work)
         _scale(symbol[strip], bench.work.view(self._dtype))
         _run(bench.columns_backward, bench.work, self._spectrum[strip])
@@ -171,7 +195,7 @@ class Packed(_Convolution):
         self._parts = [
             (group, slice(end - group.size, end)) for group, end in zip(groups, ends, strict=True)
         ]
-        self._spectrum = self._padded(n0, modes)
+        self._spectrum = self._share_spectrum(n0, modes)
         self._by_rows = self._spectrum[:, :modes]
 
     def _make_bench(self):

@@ -141,11 +141,12 @@ def displace_by_pixel(shape, pixel):
     return np.diff(np.diff(corners, axis=0), axis=1) / np.pi
 
 
-def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
-    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread."""
+def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True, kept=True):
+    """`HalfSpace` or `FreeHalfSpace` of a grid; if `kept`, for the next call of the same thread."""
     kind = HalfSpace if periodic else FreeHalfSpace
     most = _MANY if periodic and solid == HALF_SPACE else _FEW
-    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid, most=most)
+    grid = tuple(shape), tuple(lengths), np.dtype(dtype), solid
+    return keep(kind, *grid, most=most) if kept else kind(*grid)
 
 
 def check_length(length, shape):

@@ -63,9 +63,9 @@ class Preconditioner:
         self.mean = None
         if points.size < grid.heights.size:
             self.mean = half_space.keep(_Mean, tuple(grid.shape), tuple(grid.sides))
-            sharing.put(self.quick.field, points, 1)
-            self.mean.gather(self.quick.field.reshape(grid.shape))
-            sharing.put(self.quick.field, points, 0)
+            sharing.fill(grid.scratch, 0)
+            sharing.put(grid.scratch, points, 1)
+            self.mean.gather(grid.scratch.reshape(grid.shape))
             self.weights = np.empty(grid.shape, np.float32)
             self.mean.spread(None, self.weights)
             flat = self.weights.ravel()
@@ -85,16 +85,17 @@ class Preconditioner:
         if self.mean is None:
             image = quick.apply(stiffness, points, residual, self.rows, self.rows)
             return sharing.take(image, points)
-        field, image = quick.field.reshape(quick.shape), quick.image.reshape(quick.shape)
-        sharing.put(quick.field, points, residual)
+        scratch = self.grid.scratch
+        field, image = scratch.reshape(quick.shape), quick.image.reshape(quick.shape)
+        sharing.fill(scratch, 0)
+        sharing.put(scratch, points, residual)
         self.mean.gather(field)
         self.mean.spread(self.weights, image)
         sharing.put(quick.image, points, residual)
         stiffness(image, field)
         self.mean.gather(field, self.weights)
         pressure = self.mean.at(points)
-        pressure += sharing.take(quick.field, points)
-        sharing.fill(quick.field, 0)
+        pressure += sharing.take(scratch, points)
         self.grid.spent += 2 / _SPACING**2
         return pressure
 

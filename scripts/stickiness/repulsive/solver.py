@@ -256,7 +256,7 @@ def _relax(problem, guess, tol, limit):
     unsure = problem.solid != HALF_SPACE or not problem.periodic
     guess = guess or _guess_from_coarser_grids(problem, work)
     first_limit = min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit
-    state = active_set.relax(problem, tol=tol, max_iterations=first_limit, **guess)
+    state = active_set.relax(problem, guess, tol=tol, max_iterations=first_limit)
     iterations, pairs = state.iterations, state.fft_pairs
     if unsure and not state.residual <= tol and iterations < limit:
         pressure = np.asarray(state.pressure, dtype=float)
@@ -284,7 +284,7 @@ def _guess_from_coarser_grids(problem, work):
         )
     coarse = replace(problem, heights=heights, sides=sides)
     guess = _guess_from_coarser_grids(coarse, work)
-    state = active_set.relax(coarse, tol=_COARSE_TOLERANCE, max_iterations=200, rough=True, **guess)
+    state = active_set.relax(coarse, guess, tol=_COARSE_TOLERANCE, max_iterations=200, rough=True)
     work.append(state.fft_pairs * heights.size)
     if problem.periodic:
         return {"gap": half_space.interpolate(state.gap, shape)}
