@@ -75,7 +75,7 @@ class _Field:
         def clear(rows):
             image[rows_in[rows]] = 0
 
-        sharing.spread(clear, rows_in.size, image.size)
+        sharing.spread(clear, rows_in.size, self.shape[1])
         sharing.put(self.image, points, values)
         operation(image, image, rows_in, rows_out)
         return self.image

@@ -55,7 +55,7 @@ class _Convolution:
         self.shape, self._dtype, self._modes = shape, dtype, modes
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
-        self._benches = []  # one for each thread
+        self._benches = {}  # one for each of the threads that share the work
 
     def _padded(self, rows, columns):
         return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)
@@ -84,13 +84,17 @@ class _Convolution:
         self._share(partial(self._forward, field), self._blocks(field, rows_in))
         self._share(partial(self._multiply, symbol), self._parts)
         self._share(partial(self._backward, out), self._blocks(out, rows_out))
-        for bench in self._benches:  # whose plans would keep the fields in memory
+        for bench in self._benches.values():  # whose plans would keep the fields in memory
             bench.rows_forward.update_arrays(bench.buffer, bench.half)
             bench.rows_backward.update_arrays(bench.half, bench.buffer)
 
     def _share(self, work, parts):
-        points = self.shape[0] * self.shape[1]
-        sharing.share(work, parts, points, (self._benches, self._make_bench))
+        def do(worker, part):
+            if worker not in self._benches:
+                self._benches[worker] = self._make_bench()
+            work(self._benches[worker], part)
+
+        sharing.share(do, parts, self.shape[0] * self.shape[1])
 
     def _make_bench(self):
         """Buffers and plans of one thread."""
@@ -195,7 +199,7 @@ class Packed(_Convolution):
         self._parts = [
             (group, slice(end - group.size, end)) for group, end in zip(groups, ends, strict=True)
         ]
-        self._spectrum = self._share_spectrum(n0, modes)
+        self._spectrum = self._share_spectrum(-(-n0 // 8) * 8, modes)
         self._by_rows = self._spectrum[:, :modes]
 
     def _make_bench(self):
@@ -224,12 +228,12 @@ class Packed(_Convolution):
         group, rows = part
         # Numbers that are only moved count as real ones of their size.
         spectrum, strip = self._spectrum.view(float), bench.before.view(float)
-        _turn(spectrum, group, strip)
+        _turn(spectrum, group, strip, False)
         bench.columns_forward.execute()
         factors = (factor[rows] for factor in symbol)
         _combine(*factors, bench.after, bench.product, self.shape[0])
         bench.columns_backward.execute()
-        _turn_back(strip, group, spectrum)
+        _turn(spectrum, group, strip, True)
 
 
 @compiled
@@ -247,29 +251,16 @@ def _scale(symbol, values):
 
 
 @compiled
-def _turn(spectrum, group, strip):
-    """Copy the columns of a group into rows, a cache line of each row of the spectrum at a time."""
-    whole = spectrum.shape[0] // 8 * 8
-    for start in range(0, whole, 8):
+def _turn(spectrum, group, strip, back):
+    """Copy columns of a group into rows, or `back`, a cache line of each at a time."""
+    for start in range(0, spectrum.shape[0], 8):
         for r in range(group.size):
             for k in range(8):
-                strip[r, _U(start + k)] = spectrum[_U(start + k), _U(group[r])]
-    for k in range(whole, spectrum.shape[0]):
-        for r in range(group.size):
-            strip[r, k] = spectrum[k, group[r]]
-
-
-@compiled
-def _turn_back(strip, group, spectrum):
-    """Undo `_turn`."""
-    whole = spectrum.shape[0] // 8 * 8
-    for start in range(0, whole, 8):
-        for r in range(group.size):
-            for k in range(8):
-                spectrum[_U(start + k), _U(group[r])] = strip[r, _U(start + k)]
-    for k in range(whole, spectrum.shape[0]):
-        for r in range(group.size):
-            spectrum[k, group[r]] = strip[r, k]
+                at, column = _U(start + k), _U(group[r])
+                if back:
+                    spectrum[at, column] = strip[r, at]
+                else:
+                    strip[r, at] = spectrum[at, column]
 
 
 @compiled

@@ -175,7 +175,7 @@ def _multiply(matrix, values, image):
     *halves, diagonal = matrix
     products = {}
 
-    def multiply(half):
+    def multiply(_, half):
         products[half] = halves[half] @ values
 
     sharing.share(multiply, range(2), halves[0].nnz)

@@ -131,7 +131,7 @@ class _Mean:
         def add(rows):
             _add_to_coarse(rows.start, field, weights, *self._transposed, self._field[rows])
 
-        sharing.spread(add, len(self._field), field.size)
+        sharing.spread(add, len(self._field), _SPACING * field.shape[1])
         self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):
@@ -143,8 +143,8 @@ class _Mean:
         def fill(rows):
             _interpolate_between(rows.start, self._rows, self._axes[0], weights, out[rows])
 
-        sharing.spread(stretch, len(self._rows), out.size)
-        sharing.spread(fill, len(out), out.size)
+        sharing.spread(stretch, len(self._rows), _SPACING * out.shape[1])
+        sharing.spread(fill, *out.shape)
 
     def at(self, points):
         """Sums at some points, given by flat indices."""

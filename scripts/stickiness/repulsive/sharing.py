@@ -10,7 +10,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-_LEAST = 2**16  # points of a grid below which waking a thread takes longer than it saves
+_LEAST = 2**17  # points of a grid below which waking a thread costs what it saves
 _CHUNK = 2**15  # numbers of a field passed over at a time …
 _ROWS = 32  # … or rows
 
@@ -36,50 +36,40 @@ def threads(count):
             _TEAM.helpers, _TEAM.pool = before
 
 
-def share(work, parts, points, tools=None):
-    """Call ``work(part)`` once for each of the `parts` of a grid with so many points.
+def share(work, parts, points):
+    """Call ``work(worker, part)`` once for each of the `parts` of a grid with so many points.
 
-    `tools`: list of what no two threads may use at once, for ``work(tool, part)``, and a function
-    that makes another; each thread gets one.
+    No two threads are the same worker: they count from zero.
     """
-    helpers = _TEAM.helpers if points >= _LEAST else 0
-    todo = iter(list(parts))  # what the next thread that is free takes
+    todo = iter(list(parts))  # whoever is free takes the next
 
-    def run(*tool):
+    def run(worker):
         for part in todo:
-            work(*tool, part)
+            work(worker, part)
 
-    hands = [()] * (helpers + 1)
-    if tools is not None:
-        ready, make = tools
-        while len(ready) <= helpers:
-            ready.append(make())
-        hands = [(tool,) for tool in ready]
-    others = [_TEAM.pool.submit(run, *hands[k + 1]) for k in range(helpers)]
-    run(*hands[0])
+    helpers = _TEAM.helpers if points >= _LEAST else 0
+    others = [_TEAM.pool.submit(run, worker + 1) for worker in range(helpers)]
+    run(0)
     for other in others:
         other.result()
 
 
-def spread(work, size, points=None):
-    """Call ``work(chunk)`` for slices of so many numbers, or of rows of a grid of `points`."""
-    share(work, _chunks(size, _CHUNK if points is None else _ROWS), points or size)
-
-
-def fill(field, value):
-    """``field[:] = value``."""
-    spread(lambda chunk: field[chunk].fill(value), field.size)
+def spread(work, size, width=None):
+    """Call ``work(chunk)`` for slices of so many numbers, or rows of a `width`."""
+    length = _ROWS if width else _CHUNK
+    chunks = (slice(start, min(start + length, size)) for start in range(0, size, length))
+    share(lambda _, chunk: work(chunk), chunks, size * (width or 1))
 
 
 def find(test, size):
     """Indices among `size` numbers for which ``test(chunk)``, an array of truth values, holds."""
-    chunks, found = _chunks(size), {}
+    found = {}
 
     def look(chunk):
         found[chunk.start] = np.flatnonzero(test(chunk)) + chunk.start
 
-    share(look, chunks, size)
-    return np.concatenate([found[chunk.start] for chunk in chunks])
+    spread(look, size)
+    return np.concatenate([found[start] for start in sorted(found)])
 
 
 def take(field, points):
@@ -102,5 +92,6 @@ def put(field, points, values):
     spread(move, points.size)
 
 
-def _chunks(size, length=_CHUNK):
-    return [slice(start, min(start + length, size)) for start in range(0, size, length)]
+def fill(field, value):
+    """``field[:] = value``."""
+    spread(lambda chunk: field[chunk].fill(value), field.size)

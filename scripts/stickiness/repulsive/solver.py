@@ -122,7 +122,7 @@ def solve(
         `pressure` times the area within `length`. This takes two to five times as long, and needs a
         half-space as `solid`.
     threads : int
-        Threads that share the work on grids from 256 by 256 points on, at least 1. The solution
+        Threads that share the work on grids from 400 by 400 points on, at least 1. The solution
         is the same, bit by bit, for any number. Many solutions at once, each on one thread, are the
         better use of many cores.
 

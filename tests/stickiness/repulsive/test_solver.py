@@ -223,7 +223,7 @@ def test_rough_surface_at_vanishing_load_touches_at_its_summit(seed):
 )
 @pytest.mark.parametrize("scaled_pressure", [0.002, 0.1])
 def test_threads_do_not_change_a_bit(scaled_pressure, options):
-    heights = rough(256, seed=1)
+    heights = rough(384, seed=1)
     alone, *shared = (
         repulsive.solve(heights, 1.0, scaled_pressure * 2 * np.pi, threads=n, **options)
         for n in (1, 2, 3)
