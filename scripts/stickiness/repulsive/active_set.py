@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.repulsive import convolution, dilute_contact, half_space
+from stickiness.repulsive import convolution, dilute_contact, half_space, sharing
 from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
 
@@ -71,8 +71,12 @@ class _Field:
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
         image = self.image.reshape(self.shape)
-        image[slice(None) if rows_in.size == len(image) else rows_in] = 0
-        self.image[points] = values
+
+        def clear(rows):
+            image[rows_in[rows]] = 0
+
+        sharing.spread(clear, rows_in.size, self.shape[1])
+        sharing.put(self.image, points, values)
         operation(image, image, rows_in, rows_out)
         return self.image
 
@@ -104,9 +108,9 @@ class _Grid:
         return self.spent + sum(operator.pairs for operator in self._operators)
 
     def rows(self, points):
-        hit = np.zeros(self.shape[0], bool)
-        hit[points // self.shape[1]] = True
-        return np.flatnonzero(hit)
+        """Rows that hold some of the points, given in increasing order."""
+        begins = np.searchsorted(points, np.arange(self.shape[0] + 1) * self.shape[1])
+        return np.flatnonzero(np.diff(begins))
 
 
 def relax(problem, guess, *, tol, max_iterations, rough=False):
@@ -220,14 +224,18 @@ def _gap(grid, field, points, pressure):
     The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
     """
     image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
-    np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
-    gaps = image[points].astype(float, copy=False)
+    heights = grid.heights.ravel()
+
+    def lower(chunk):
+        np.subtract(image[chunk], heights[chunk], out=image[chunk], casting="same_kind")
+
+    sharing.spread(lower, image.size)
+    gaps = sharing.take(image, points).astype(float, copy=False)
     shift = float(-gaps.mean())
     gaps += shift
-    below = np.flatnonzero(image < -shift)
-    grid.active[points] = True
-    below = below[~grid.active[below]]
-    grid.active[points] = False
+    sharing.put(grid.active, points, True)
+    below = sharing.find(lambda c: (image[c] < -shift) & ~grid.active[c], image.size)
+    sharing.put(grid.active, points, False)
     depth = float(-(image[below].min() + shift)) if below.size else 0.0
     return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
 
@@ -247,16 +255,23 @@ def _predicted_from_gap(grid, gap, load):
     """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
     operator, shape = grid.quick.operator, grid.shape
     surface = grid.quick.image.reshape(shape)  # scratch: not in use here
-    np.add(gap, grid.heights, out=surface, casting="same_kind")
-    pressure = operator.stiffness(surface, grid.scratch.reshape(shape))
-    pressure += np.float32(load)
-    np.multiply(gap, np.float32(PREDICTION * operator.mean_stiffness), out=surface)
-    np.maximum(surface, 0, out=surface)
-    points = np.flatnonzero(pressure > surface)
+    gap, heights, flat = gap.ravel(), grid.heights.ravel(), surface.ravel()
+
+    def add(chunk):
+        np.add(gap[chunk], heights[chunk], out=flat[chunk], casting="same_kind")
+
+    sharing.spread(add, gap.size)
+    pressure = operator.stiffness(surface, grid.scratch.reshape(shape)).ravel()
+    weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
+
+    def touches(chunk):
+        return pressure[chunk] + mean > np.maximum(gap[chunk] * weight, 0)
+
+    points = sharing.find(touches, gap.size)
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
-    pressure = pressure.ravel()[points].astype(float)
-    return points, _balanced(np.maximum(pressure, 0), load * gap.size)
+    touching = (sharing.take(pressure, points) + mean).astype(float)
+    return points, _balanced(np.maximum(touching, 0), load * gap.size)
 
 
 def _predicted_from_pressure(grid, pressure, total):
@@ -281,14 +296,11 @@ def _balanced(pressure, total):
 
 
 def _joined(grid, field, points, pressure, extra, shift):
-    grid.active[points] = True
-    grid.active[extra] = True
-    joined = np.flatnonzero(grid.active)
-    grid.active[joined] = False
-    spread = np.zeros(joined.size)
+    at = np.searchsorted(points, extra)
+    joined = np.insert(points, at, extra)
     # In the precision of the grid, be it single.
-    spread[np.searchsorted(joined, points)] = pressure.astype(grid.exact.image.dtype, copy=False)
-    gaps = field.image[joined].astype(float, copy=False)
+    spread = np.insert(pressure.astype(grid.exact.image.dtype, copy=False), at, 0).astype(float)
+    gaps = sharing.take(field.image, joined).astype(float, copy=False)
     gaps += shift
     return joined, spread, gaps
 
@@ -299,10 +311,14 @@ def _state(grid, best, field, last, iterations):
     if pressure is not last or field is not grid.exact:
         shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
     gap = grid.exact.image
-    gap += gap.dtype.type(shift)
-    np.maximum(gap, 0, out=gap)
-    gap[touching] = 0
     filled = np.zeros_like(gap)
-    filled[touching] = pressure
+
+    def lift(chunk):
+        gap[chunk] += gap.dtype.type(shift)
+        np.maximum(gap[chunk], 0, out=gap[chunk])
+
+    sharing.spread(lift, gap.size)
+    sharing.put(gap, touching, 0)
+    sharing.put(filled, touching, pressure)
     fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size
     return State(*fields, shift, area, residual, iterations, grid.pairs)

@@ -24,6 +24,7 @@ _ROWS = 64  # rows transformed at a time along axis 1
 _STRIP = 2**12  # numbers transformed at a time along axis 0 on either side of a mirror: 32 kB
 _CACHED = 2**14  # complex numbers transformed at a time along axis 0: 256 kB
 _ALIGNED = 64  # bytes
+_U = np.uint64  # an index that cannot be negative: the compiler need not check
 
 
 class _Count(threading.local):
@@ -54,10 +55,10 @@ class _Convolution:
         self.shape, self._dtype, self._modes = shape, dtype, modes
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
-        self._benches = []  # one for each thread
+        self._benches = {}  # one for each of the threads that share the work
 
-    def _zeros(self, rows, columns):
-        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
+    def _padded(self, rows, columns):
+        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)
 
     def _share_spectrum(self, rows, columns):
         """Spectrum in memory of all convolutions of this shape: none uses it between calls."""
@@ -66,7 +67,7 @@ class _Convolution:
         if memory is None or memory.size < size:
             memory = _SPECTRA.memory[self.shape] = aligned_zeros(size, np.uint8)
         self._memory = memory  # a view would not keep it, but what it is a view of
-        return memory[:size].view(self._numbers).reshape(rows, -1)[:, :columns]
+        return memory[:size].view(self._numbers).reshape(rows, -1)
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
         """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
@@ -83,19 +84,23 @@ class _Convolution:
         self._share(partial(self._forward, field), self._blocks(field, rows_in))
         self._share(partial(self._multiply, symbol), self._parts)
         self._share(partial(self._backward, out), self._blocks(out, rows_out))
-        for bench in self._benches:  # whose plans would keep the fields in memory
+        for bench in self._benches.values():  # whose plans would keep the fields in memory
             bench.rows_forward.update_arrays(bench.buffer, bench.half)
             bench.rows_backward.update_arrays(bench.half, bench.buffer)
 
     def _share(self, work, parts):
-        points = self.shape[0] * self.shape[1]
-        sharing.share(work, parts, points, (self._benches, self._make_bench))
+        def do(worker, part):
+            if worker not in self._benches:
+                self._benches[worker] = self._make_bench()
+            work(self._benches[worker], part)
+
+        sharing.share(do, parts, self.shape[0] * self.shape[1])
 
     def _make_bench(self):
         """Buffers and plans of one thread."""
         bench = SimpleNamespace(
             real=pyfftw.zeros_aligned((self._rows, self.shape[1]), self._dtype),
-            half=self._zeros(self._rows, self._modes),
+            half=self._padded(self._rows, self._modes)[:, : self._modes],
         )
         bench.buffer = bench.real.view(self._numbers) if self._packed else bench.real
         bench.rows_forward = _plan(bench.buffer, bench.half, "FFTW_FORWARD")
@@ -144,7 +149,7 @@ class Real(_Convolution):
         n0, modes = shape[0], shape[1] // 2 + 1
         super().__init__(shape, dtype, modes)
         self._strip = max(1, min(modes, _CACHED // n0))
-        self._spectrum = self._share_spectrum(-(-modes // self._strip) * self._strip, n0)
+        self._spectrum = self._share_spectrum(-(-modes // self._strip) * self._strip, n0)[:, :n0]
         self._by_rows = self._spectrum[:modes].T
         starts = range(0, self._spectrum.shape[0], self._strip)
         self._parts = [slice(start, start + self._strip) for start in starts]
@@ -189,20 +194,21 @@ class Packed(_Convolution):
         n0, modes = shape[0], shape[1] // 2
         super().__init__(shape, dtype, modes)
         groups = list(_mirrored(modes, max(8, _STRIP // n0)))
-        widths = [group[-1][1].stop for group in groups]
-        starts = np.cumsum([0, *widths]).tolist()  # of their rows in a symbol
-        rows = map(slice, starts[:-1], starts[1:])
-        self._parts, self._widest = list(zip(groups, rows, strict=True)), max(widths)
-        self._spectrum = self._by_rows = self._share_spectrum(n0, modes)
+        self._widest = max(group.size for group in groups)
+        ends = np.cumsum([group.size for group in groups]).tolist()  # of their rows in a symbol
+        self._parts = [
+            (group, slice(end - group.size, end)) for group, end in zip(groups, ends, strict=True)
+        ]
+        self._spectrum = self._share_spectrum(-(-n0 // 8) * 8, modes)
+        self._by_rows = self._spectrum[:, :modes]
 
     def _make_bench(self):
         bench = super()._make_bench()
         n0 = self.shape[0]
-        bench.before, bench.after, bench.product = (
-            pyfftw.zeros_aligned((self._widest, n0), self._numbers) for _ in range(3)
-        )
-        bench.columns_forward = _plan(bench.before, bench.after, "FFTW_FORWARD")
-        bench.columns_backward = _plan(bench.product, bench.before, "FFTW_BACKWARD")
+        before, after, product = (self._padded(self._widest, n0) for _ in range(3))
+        bench.columns_forward = _plan(before[:, :n0], after[:, :n0], "FFTW_FORWARD")
+        bench.columns_backward = _plan(product[:, :n0], before[:, :n0], "FFTW_BACKWARD")
+        bench.before, bench.after, bench.product = before, after, product
         return bench
 
     def symbol(self, values):
@@ -212,23 +218,22 @@ class Packed(_Convolution):
         crossed = np.empty((modes, half), self._dtype)
         # Half the sum, half the difference, and twice for a transform of half the points.
         for group, rows in self._parts:
-            k = np.concatenate([np.arange(strip.start, strip.stop) for strip, _ in group])
-            angle = np.pi * k[:, None] / modes
-            difference = values[k] - values[modes - k]
-            direct[rows] = values[k] + values[modes - k] - difference * np.sin(angle)
+            angle = np.pi * group[:, None] / modes
+            difference = values[group] - values[modes - group]
+            direct[rows] = values[group] + values[modes - group] - difference * np.sin(angle)
             crossed[rows] = difference * np.cos(angle)
         return direct, crossed
 
     def _multiply(self, symbol, bench, part):
         group, rows = part
-        for strip, place in group:
-            bench.before[place] = self._spectrum[:, strip].T
+        # Numbers that are only moved count as real ones of their size.
+        spectrum, strip = self._spectrum.view(float), bench.before.view(float)
+        _turn(spectrum, group, strip, False)
         bench.columns_forward.execute()
-        values, product = (field.view(self._dtype) for field in (bench.after, bench.product))
-        _combine(*(factor[rows] for factor in symbol), values, product)
+        factors = (factor[rows] for factor in symbol)
+        _combine(*factors, bench.after, bench.product, self.shape[0])
         bench.columns_backward.execute()
-        for strip, place in group:
-            self._spectrum[:, strip] = bench.before[place].T
+        _turn(spectrum, group, strip, True)
 
 
 @compiled
@@ -246,23 +251,35 @@ def _scale(symbol, values):
 
 
 @compiled
-def _combine(direct, crossed, values, product):
-    """``a z_k + i b conj(z_-k)`` of the first rows of a group; real and imaginary parts in turn.
+def _turn(spectrum, group, strip, back):
+    """Copy columns of a group into rows, or `back`, a cache line of each at a time."""
+    for start in range(0, spectrum.shape[0], 8):
+        for r in range(group.size):
+            for k in range(8):
+                at, column = _U(start + k), _U(group[r])
+                if back:
+                    spectrum[at, column] = strip[r, at]
+                else:
+                    strip[r, at] = spectrum[at, column]
+
+
+@compiled
+def _combine(direct, crossed, values, product, n):
+    """``a z_k + i b conj(z_-k)`` of the first n numbers of the first rows of a group.
 
     A group is closed under k -> -k: its rows mirror one another in reverse.
     """
     rows, half = direct.shape
-    n = values.shape[1] // 2
     for r in range(rows):
         a, b, z, back, out = direct[r], crossed[r], values[r], values[rows - 1 - r], product[r]
-        out[0] = a[0] * z[0] + b[0] * back[1]
-        out[1] = a[0] * z[1] + b[0] * back[0]
-        for k in range(1, half):
-            out[2 * k] = a[k] * z[2 * k] + b[k] * back[2 * (n - k) + 1]
-            out[2 * k + 1] = a[k] * z[2 * k + 1] + b[k] * back[2 * (n - k)]
-        for k in range(half, n):
-            out[2 * k] = a[n - k] * z[2 * k] + b[n - k] * back[2 * (n - k) + 1]
-            out[2 * k + 1] = a[n - k] * z[2 * k + 1] + b[n - k] * back[2 * (n - k)]
+        mirror = back[0]
+        for k in range(n):
+            if k > 0:
+                mirror = back[_U(n - k)]
+            at = _U(k if k < half else n - k)
+            out[k] = complex(
+                a[at] * z[k].real + b[at] * mirror.imag, a[at] * z[k].imag + b[at] * mirror.real
+            )
 
 
 def aligned_zeros(size, dtype):
@@ -277,15 +294,15 @@ def choose(shape, dtype):
 
 
 def _mirrored(modes, width):
-    """Groups of wavenumbers closed under k -> -k modulo `modes`: slices and places in a buffer."""
-    yield [(slice(0, 1), slice(0, 1))]
+    """Groups of wavenumbers closed under k -> -k modulo `modes`; each is the mirror of its end."""
+    yield np.array([0])
     start = 1
     while 2 * (start + width) <= modes:
-        mirror = slice(modes - start - width + 1, modes - start + 1)
-        yield [(slice(start, start + width), slice(0, width)), (mirror, slice(width, 2 * width))]
+        first = np.arange(start, start + width)
+        yield np.concatenate([first, modes - first[::-1]])
         start += width
     if start <= modes - start:
-        yield [(slice(start, modes - start + 1), slice(0, modes - 2 * start + 1))]
+        yield np.arange(start, modes - start + 1)
 
 
 def _plan(source, target, direction):

@@ -12,7 +12,7 @@ import numpy as np
 from scipy import fft, sparse
 
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, half_space
+from stickiness.repulsive import convolution, half_space, sharing
 from stickiness.repulsive.preconditioner import close_gap
 
 # Beyond these two limits the whole grid is as cheap.
@@ -172,9 +172,15 @@ def _truncate_kernel(symbol, reach):
 
 def _multiply(matrix, values, image):
     """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
-    upper, lower, diagonal = matrix
-    image = image + upper @ values
-    image += lower @ values
+    *halves, diagonal = matrix
+    products = {}
+
+    def multiply(_, half):
+        products[half] = halves[half] @ values
+
+    sharing.share(multiply, range(2), halves[0].nnz)
+    image = image + products[0]
+    image += products[1]
     image += diagonal * values
     return image
 

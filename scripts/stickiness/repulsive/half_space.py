@@ -5,6 +5,7 @@ A pressure wave ``p_q`` (in units of E*) displaces a half-space by ``u_q = 2 p_q
 doi 10.1115/1.2833523), and a layer by S times that, see `solids`.
 """
 
+import math
 import threading
 from functools import cache, cached_property, lru_cache
 
@@ -12,7 +13,8 @@ import numpy as np
 from scipy import fft
 
 from stickiness.arguments import positive
-from stickiness.repulsive import convolution
+from stickiness.compiled import compiled
+from stickiness.repulsive import convolution, sharing
 from stickiness.solids import HALF_SPACE
 
 _FEW, _MANY = 12, 24  # kept of one kind, of all threads: many operators of half-spaces
@@ -162,14 +164,18 @@ def check_length(length, shape):
 def measure_scale(heights):
     """Mean and root mean square about it, safe from overflow and underflow of the squares."""
     mean = float(heights.mean())
-    deviation = heights - mean
-    largest = max(float(deviation.max()), -float(deviation.min()))
+    largest = max(float(heights.max()) - mean, mean - float(heights.min()))
     # Heights that differ by rounding only are flat.
     if largest <= 8 * np.finfo(float).eps * abs(mean):
         return mean, 0.0
-    deviation /= largest
-    deviation *= deviation
-    return mean, largest * float(np.sqrt(np.mean(deviation)))
+    flat, squares = heights.ravel(), {}
+
+    def add(chunk):
+        deviation = (flat[chunk] - mean) / largest
+        squares[chunk.start] = float(np.sum(deviation * deviation))
+
+    sharing.spread(add, flat.size)
+    return mean, largest * math.sqrt(math.fsum(squares.values()) / flat.size)
 
 
 def measure_slope(heights, lengths):
@@ -201,24 +207,33 @@ def sample(field, shape):
 
 def interpolate(field, shape):
     """Interpolate a periodic field by cubics along both axes, onto a grid of any shape."""
+    if all(n == 2 * m for n, m in zip(shape, field.shape, strict=True)):
+        fine = np.empty(shape, field.dtype)
+        sharing.spread(lambda rows: _double(rows.start, rows.stop, field, fine), *field.shape)
+        return fine
     for axis, n in enumerate(shape):
-        if n == 2 * field.shape[axis]:
-            field = _double(field, axis)
-        elif n != field.shape[axis]:
+        if n != field.shape[axis]:
             field = _resample(field, n, axis)
     return field
 
 
-def _double(field, axis):
-    """Put a point between any two, on the cubic through its four neighbours."""
-    between = field + np.roll(field, -1, axis)
-    between *= 9
-    between -= np.roll(field, 1, axis)
-    between -= np.roll(field, -2, axis)
-    between /= 16
-    shape = list(field.shape)
-    shape[axis] *= 2
-    return np.stack([field, between], axis + 1).reshape(shape)
+@compiled
+def _double(start, stop, field, fine):
+    """Put points between those of some rows, on the cubics through their four neighbours."""
+    m0, m1 = field.shape
+    line = np.empty(m1 + 3, field.dtype)
+    for i in range(2 * start, 2 * stop):
+        k = i // 2
+        for j in range(m1):
+            line[j + 1] = field[k, j]
+            if i % 2:
+                near = field[k, j] + field[(k + 1) % m0, j]
+                far = field[(k - 1) % m0, j] + field[(k + 2) % m0, j]
+                line[j + 1] = (9 * near - far) / 16
+        line[0], line[m1 + 1], line[m1 + 2] = line[m1], line[1], line[2]
+        for j in range(m1):
+            fine[i, 2 * j] = line[j + 1]
+            fine[i, 2 * j + 1] = (9 * (line[j + 1] + line[j + 2]) - line[j] - line[j + 3]) / 16
 
 
 def _resample(field, n, axis):

@@ -8,7 +8,11 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 
-_LEAST = 2**16  # points of a grid below which waking a thread takes longer than it saves
+import numpy as np
+
+_LEAST = 2**17  # points of a grid below which waking a thread costs what it saves
+_CHUNK = 2**15  # numbers of a field passed over at a time …
+_ROWS = 32  # … or rows
 
 
 class _Team(threading.local):
@@ -32,26 +36,62 @@ def threads(count):
             _TEAM.helpers, _TEAM.pool = before
 
 
-def share(work, parts, points, tools=None):
-    """Call ``work(part)`` once for each of the `parts` of a grid with so many points.
+def share(work, parts, points):
+    """Call ``work(worker, part)`` once for each of the `parts` of a grid with so many points.
 
-    `tools`: list of what no two threads may use at once, for ``work(tool, part)``, and a function
-    that makes another; each thread gets one.
+    No two threads are the same worker: they count from zero.
     """
-    helpers = _TEAM.helpers if points >= _LEAST else 0
-    todo = iter(list(parts))  # what the next thread that is free takes
+    todo = iter(list(parts))  # whoever is free takes the next
 
-    def run(*tool):
+    def run(worker):
         for part in todo:
-            work(*tool, part)
+            work(worker, part)
 
-    hands = [()] * (helpers + 1)
-    if tools is not None:
-        ready, make = tools
-        while len(ready) <= helpers:
-            ready.append(make())
-        hands = [(tool,) for tool in ready]
-    others = [_TEAM.pool.submit(run, *hands[k + 1]) for k in range(helpers)]
-    run(*hands[0])
+    helpers = _TEAM.helpers if points >= _LEAST else 0
+    others = [_TEAM.pool.submit(run, worker + 1) for worker in range(helpers)]
+    run(0)
     for other in others:
         other.result()
+
+
+def spread(work, size, width=None):
+    """Call ``work(chunk)`` for slices of so many numbers, or rows of a `width`."""
+    length = _ROWS if width else _CHUNK
+    chunks = (slice(start, min(start + length, size)) for start in range(0, size, length))
+    share(lambda _, chunk: work(chunk), chunks, size * (width or 1))
+
+
+def find(test, size):
+    """Indices among `size` numbers for which ``test(chunk)``, an array of truth values, holds."""
+    found = {}
+
+    def look(chunk):
+        found[chunk.start] = np.flatnonzero(test(chunk)) + chunk.start
+
+    spread(look, size)
+    return np.concatenate([found[start] for start in sorted(found)])
+
+
+def take(field, points):
+    """``field[points]``."""
+    values = np.empty(points.size, field.dtype)
+
+    def move(chunk):
+        values[chunk] = field[points[chunk]]
+
+    spread(move, points.size)
+    return values
+
+
+def put(field, points, values):
+    """``field[points] = values``, of an array or one number; no point twice."""
+
+    def move(chunk):
+        field[points[chunk]] = values[chunk] if np.ndim(values) else values
+
+    spread(move, points.size)
+
+
+def fill(field, value):
+    """``field[:] = value``."""
+    spread(lambda chunk: field[chunk].fill(value), field.size)

@@ -20,7 +20,7 @@ from stickiness.plausibility import warn_of_heights, warn_of_pressure
 from stickiness.repulsive import active_set, half_space, projected_gradients, sharing
 from stickiness.solids import HALF_SPACE, check_solid
 
-_MIN_COARSE_POINTS = 64  # points along the shorter side of the coarsest grid
+_MIN_COARSE_POINTS = 128  # points along the shorter side of the coarsest grid
 # Relative change of load up to which the last solution is the better start.
 _MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
@@ -122,7 +122,7 @@ def solve(
         `pressure` times the area within `length`. This takes two to five times as long, and needs a
         half-space as `solid`.
     threads : int
-        Threads that share the work on grids from 256 by 256 points on, at least 1. The solution
+        Threads that share the work on grids from 400 by 400 points on, at least 1. The solution
         is the same, bit by bit, for any number. Many solutions at once, each on one thread, are the
         better use of many cores.
 
@@ -170,18 +170,33 @@ def solve(
         raise ValueError(
             f"periodic=False is for a half-space only, got solid={solid!r}; leave out one of them"
         )
-    warn_of_heights(half_space.measure_scale(heights)[1], lengths[0])
     if pressure > 1:
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, half_space.measure_slope(heights, lengths) * stiffening)
     with sharing.threads(threads):
-        return press(heights, lengths, pressure, tol, start, max_iterations, solid, periodic)
+        scale = half_space.measure_scale(heights)
+        warn_of_heights(scale[1], lengths[0])
+        options = (tol, start, max_iterations, solid, periodic)
+        return press(heights, lengths, pressure, *options, scale=scale)
 
 
-def press(heights, lengths, pressure, tol, start=None, limit=1000, solid=HALF_SPACE, periodic=True):
-    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of."""
-    mean, rms = half_space.measure_scale(heights)
+def press(
+    heights,
+    lengths,
+    pressure,
+    tol,
+    start=None,
+    limit=1000,
+    solid=HALF_SPACE,
+    periodic=True,
+    scale=None,
+):
+    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
+
+    `scale`: what `half_space.measure_scale` returns, if it is known.
+    """
+    mean, rms = scale or half_space.measure_scale(heights)
     if pressure == 0 or (rms == 0 and periodic):  # no contact, or full contact of a flat
         top = float(heights.max() if rms > 0 else heights.flat[0])
         gap = top - heights if rms > 0 else np.zeros(heights.shape)
@@ -189,8 +204,12 @@ def press(heights, lengths, pressure, tol, start=None, limit=1000, solid=HALF_SP
         state = active_set.State(field, gap, top, area, 0.0, 0, 0.0)
     else:
         unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
-        scaled = heights - mean
-        scaled /= unit
+        scaled = np.empty(heights.shape)
+        given, into = heights.ravel(), scaled.ravel()
+        sharing.spread(
+            lambda c: np.divide(given[c] - mean, unit, out=into[c]),
+            given.size,
+        )
         load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
         problem = active_set.Problem(scaled, sides, load, solid.in_unit(lengths[0]), bool(periodic))
         guess = {"pressure": start.pressure} if start is not None and start.area_fraction else None
