@@ -46,7 +46,7 @@ VARIABLES = {
 
 
 def average_case(case, plan, inputs, output):
-    """Average the realisations of a case, and write the means and the slope of area against load."""
+    """Average the realisations of a case; write the means and the slope of area against load."""
     averaged = choose_means(plan["quantities"])
     optional = [name for name in OPTIONAL if name in averaged]
     # The files may be those of another case with more seeds and loads.
