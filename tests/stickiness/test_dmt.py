@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from references.contact import Hertz
 
 from stickiness import adhesive, dmt, repulsive, spectrum, surface
 from stickiness.criteria import equivalent_sphere
@@ -12,16 +13,13 @@ LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
 # --- areas and densities of given gaps -----------------------------------------------------
 
 
+HERTZ = Hertz(1.0, 4 / 3)  # of unit radius a = R = 1
+
+
 def _hertz_gap(n, side=8.0):
-    """Gap outside a Hertzian contact of unit radius a = R = 1 on an n x n grid."""
+    """Gap outside a Hertzian contact on an n x n grid."""
     x = (np.arange(n) + 0.5) / n * side - side / 2
-    r = np.hypot(*np.meshgrid(x, x, indexing="ij"))
-    return np.where(r <= 1, 0.0, _hertz(np.maximum(r, 1.0)))
-
-
-def _hertz(r):
-    # Johnson, Contact Mechanics (1985), eq. 3.42a, with the sphere's parabola subtracted.
-    return ((r**2 - 2) * np.arccos(1 / r) + np.sqrt(r**2 - 1)) / np.pi
+    return HERTZ.gap(np.hypot(*np.meshgrid(x, x, indexing="ij")))
 
 
 def test_attractive_area_definition():
@@ -59,12 +57,12 @@ def test_attraction_of_hertz_gap_against_radial_integral(kind):
     # The midpoint of many thin rings: immune to the jump of the Maugis law but for one ring.
     r = 1 + (np.arange(200000) + 0.5) * (side / 2 - 1) / 200000
     ring = 2 * np.pi * r * (side / 2 - 1) / 200000
-    exact = np.sum(law.traction(_hertz(r)) * ring) / side**2
+    exact = np.sum(law.traction(HERTZ.gap(r)) * ring) / side**2
     # Pixels on the circles at contact edge and range: see the area test; 0.3 % of this area.
     assert attraction == pytest.approx(exact, rel=3e-3)
     assert dmt.adhesive_pressure(gap, law) == pytest.approx(exact, rel=3e-3)
     # The potential counts the near gaps most; contact points are left out.
-    exact = np.sum(law.potential(_hertz(r)) * ring) / side**2
+    exact = np.sum(law.potential(HERTZ.gap(r)) * ring) / side**2
     potential = dmt.sum_over_gaps(area, ranges, law.potential)
     assert potential == pytest.approx(exact, rel=3e-3)
 
@@ -95,7 +93,7 @@ def test_weak_limit_of_a_sphere_is_what_reciprocity_gives(range_):
         radius = np.sqrt(approach)
         ends = np.geomspace(1e-7, 30, 200_001)
         r, width = 1 + (ends[1:] + ends[:-1]) / 2, np.diff(ends)
-        gap = approach * _hertz(r)
+        gap = approach * HERTZ.gap(r)
         within = np.pi * radius**2
         open_gaps = np.sum(law.potential(gap) * 2 * np.pi * r * width) * radius**2
         attractive = np.sum((gap <= range_) * 2 * np.pi * r * width) * radius**2

@@ -6,7 +6,7 @@ import pytest
 from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.prediction import HYSTERESIS, UNLIKE
-from stickiness.spectrum import SelfAffine, combine
+from stickiness.spectrum import SelfAffine
 from stickiness.surface import realised_spectrum, synthesise
 
 TOUGH = {"adhesion_length": 1.0, "range": 1e-3}
@@ -102,13 +102,6 @@ def test_limits_are_wider_for_surfaces_with_a_direction():
     assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
 
 
-def test_two_rough_solids_are_one_surface_of_their_sum():
-    pair, one = combine(rough(), rough()), rough(h_rms=2**0.5)
-    found, same = (predict(spectrum, **TOUGH) for spectrum in (pair, one))
-    assert found.separation == pytest.approx(same.separation, rel=1e-9)
-    assert found.separation_limits == pytest.approx(same.separation_limits, rel=1e-9)
-
-
 def test_limits_widen_steadily_with_the_direction():
     widening = [
         predict(rough(anisotropy=a), **TOUGH).anisotropy_error_factor
@@ -134,13 +127,6 @@ def test_limits_hold_the_value(q1):
 def test_bad_arguments_are_named(name, bad):
     with pytest.raises(ValueError, match=name):
         predict(rough(), **(TOUGH | {name: bad}))
-
-
-def test_thresholds_are_in_the_order_of_their_limits():
-    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6)
-    high, value, low = (surface.threshold(np.array([1e-4, 0.3, 1]), sign=k) for k in (1, 0, -1))
-    assert np.all(high < value)
-    assert np.all(value < low)
 
 
 @pytest.mark.parametrize("reach", [1e150, 1e-300])
