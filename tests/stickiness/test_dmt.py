@@ -181,31 +181,3 @@ def test_standard_error_matches_the_scatter_of_fits():
     # 2000 fits know their scatter to 1.6 %, their mean to scatter/45: three deviations each.
     assert values.std() == pytest.approx(np.sqrt(np.mean(errors**2)), rel=0.05)
     assert values.mean() == pytest.approx(3.0, abs=3 * values.std() / np.sqrt(2000))
-
-
-# --- refusals ------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: dmt.attractive_area([[0.0, -1e-9]], 0.1), "gap must not be negative"),
-        (lambda: dmt.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
-        (lambda: dmt.attractive_area([[0.0, 1.0]], 1.0, [[1, 0]]), "contact must be a boolean"),
-        (lambda: dmt.attractive_area([0.0, 1.0], 1.0, subpixel=True), "two-dimensional"),
-        (lambda: dmt.edge_gap([0.0, 1.0]), "two-dimensional"),
-        (lambda: dmt.weak_attraction([1, 2], [2, 1], [-1, -2]), "three or more increasing"),
-        (lambda: dmt.weak_attraction([3, 2, 1], [1, 2, 3], [-3, -2, -1]), "three or more incr"),
-        (lambda: dmt.weak_attraction([1, 2, 3], [3, 2], [-1, -2, -3]), "each of 3 pressures"),
-        (lambda: dmt.weak_attraction([1, 2, 3], [3, 2, 1], [1, 2, 3]), "potential a negative one"),
-        (lambda: dmt.local_exponent([1.0, 2.0], [1.0, 2.0]), "eps must be an increasing"),
-        (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(0.1, 0.01)), "window must be two"),
-        (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(2.0, 3.0)), "must hold at least two"),
-        (lambda: dmt.fit_a_v(EPS, EPS[1:], 0.1), "area must be finite and match"),
-        (lambda: dmt.fit_a_v(EPS, EPS, [0.1, 0.2]), "pressure must have the shape"),
-        (lambda: dmt.fit_a_v(EPS, EPS, 0.0), "pressure must be positive"),
-    ],
-)
-def test_refusals_name_the_argument(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

@@ -174,24 +174,6 @@ def test_persson_tosatti_of_a_power_law():
     assert criteria.persson_tosatti(energy, 0.999 * energy).sticky is False
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: criteria.violano(2, 0.03, 0.01, np.nan, 3), "^range must be positive and finite"),
-        (lambda: criteria.pastewka_robbins(0.0, 1.0, 1.0, 1.0), "rms_slope must"),
-        (lambda: criteria.pastewka_robbins(1.0, 1.0, 1.0, 1.0, -1.0), "interaction_range must"),
-        (lambda: criteria.pastewka_robbins_a_v_power_law(1.0, 10.0), "hurst must be below 1"),
-        (lambda: criteria.fuller_tabor(1.0, 1.0, 1.0, radius=0.0), "radius must"),
-        (lambda: criteria.bearing_area(1.0, 1.0, 1.0, 0.0), "range must"),
-        (lambda: criteria.persson_tosatti(0.0, 1.0), "elastic_energy must"),
-        (lambda: criteria.dahlquist(-1.0), "modulus_pa must"),
-    ],
-)
-def test_refusals_name_the_argument(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
 def test_the_crystal_has_the_papers_adhesion_length():
     crystal = yaml.safe_load(MATERIALS.read_text())["materials"]["crystal"]
     modulus = units.si(crystal["plane_strain_modulus"], "Pa")

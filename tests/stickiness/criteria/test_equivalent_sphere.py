@@ -199,10 +199,3 @@ def test_error_grows_beyond_what_was_simulated():
     beyond = equivalent_sphere.attraction(1.0, 1.0, 3.0, 1e-4, 1e-6, 2.0)
     assert inside.simulated is True
     assert beyond.simulated is False
-
-
-@pytest.mark.parametrize("name", ["h_rms", "rms_slope", "range", "a_v"])
-def test_arguments_must_be_positive(name):
-    values = {"h_rms": 1.0, "q0": 1.0, "rms_slope": 1.0, "adhesion_length": 0.1, "range": 0.1}
-    with pytest.raises(ValueError, match=name):
-        equivalent_sphere.attraction(**(values | {"a_v": 1.0, name: 0.0}))

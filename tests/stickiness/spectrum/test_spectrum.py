@@ -178,38 +178,3 @@ def test_examples_in_the_documentation(module):
 
 
 GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 10.0, "h_rms": 1.0}
-
-
-@pytest.mark.parametrize(
-    ("change", "name"),
-    [
-        ({"hurst": 1.2}, "hurst"),
-        ({"q0": 0.0}, "q0"),
-        ({"q1": 1.0}, "q1"),
-        ({"C0": 1.0}, "one of h_rms and C0"),
-        ({"h_rms": -1.0}, "h_rms"),
-        ({"q_rolloff": 0.5}, "q_rolloff"),
-    ],
-)
-def test_bad_self_affine_spectra_are_named(change, name):
-    with pytest.raises(ValueError, match=name):
-        SelfAffine(**{**GOOD, **change})
-
-
-@pytest.mark.parametrize(
-    ("call", "name"),
-    [
-        (lambda: Tabulated([1.0, 2.0], [1.0, 2.0, 3.0]), "q and C"),
-        (lambda: Tabulated([2.0, 1.0], [1.0, 1.0]), "increasing"),
-        (lambda: Tabulated([0.0, 1.0], [1.0, 1.0]), "q must be positive"),
-        (lambda: Tabulated([1.0, 2.0], [1.0, 0.0]), r"C\[1\]"),
-        (lambda: Shells([1.0], [-1.0]), "variance"),
-        (lambda: Shells([2.0, 1.0], [1.0, 1.0]), "increasing"),
-        (lambda: Shells([1.0], [1.0]).psd(1.0), "single shell"),
-        (lambda: SelfAffine(**GOOD).moment(3), "order"),
-        (lambda: SelfAffine(**GOOD).truncated(11.0), "q1"),
-    ],
-)
-def test_bad_spectra_are_named(call, name):
-    with pytest.raises(ValueError, match=name):
-        call()

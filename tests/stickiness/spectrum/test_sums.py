@@ -5,7 +5,7 @@ import pytest
 
 from stickiness import surface
 from stickiness.persson import Persson
-from stickiness.spectrum import SelfAffine, Shells, Tabulated, combine
+from stickiness.spectrum import SelfAffine, Tabulated, combine
 
 L = 2 * np.pi
 ONE = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
@@ -92,18 +92,9 @@ def test_knots_apart_by_rounding_are_one():
         assert theory.gap_cumulative(np.inf, 0.1) + theory.area_fraction(0.1) == pytest.approx(1)
 
 
-def test_bad_parts_are_named():
-    with pytest.raises(ValueError, match="lattice_spectrum"):
-        combine(ONE, Shells([1.0], [1.0]))
-    with pytest.raises(ValueError, match="takes spectra one by one, .* got float"):
-        combine(ONE, 1.0)
-
-
 def test_truncation():
     both = combine(ONE, OTHER)
     assert repr(both) == f"Sum({ONE!r}, {OTHER!r})"
     cut = both.truncated(30.0)
     assert cut.h_rms**2 == pytest.approx(float(both.variance_below(30.0)), rel=1e-12)
     assert cut.truncated(1.5).h_rms ** 2 == pytest.approx(ONE.variance_below(1.5), rel=1e-12)
-    with pytest.raises(ValueError, match="q1"):
-        both.truncated(0.5)
