@@ -1,13 +1,11 @@
 """From a surface and a material to a verdict by one call."""
 
-import doctest
 import warnings
 
 import numpy as np
 import pytest
 
 from stickiness import surface
-from stickiness.criteria import verdict as module
 from stickiness.criteria.pair import TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
@@ -219,7 +217,3 @@ def test_measured_heights_give_the_verdict_of_their_spectrum():
     # One realisation, and a cutoff below the Nyquist wave number, are worth some ten per cent.
     ratio = of_heights.margins["persson_tosatti"] / of_spectrum.margins["persson_tosatti"]
     assert ratio == pytest.approx(1, rel=0.4)
-
-
-def test_example_in_the_documentation():
-    assert doctest.testmod(module).failed == 0
