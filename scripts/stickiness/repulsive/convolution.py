@@ -28,22 +28,13 @@ _U = np.uint64  # an index that cannot be negative: the compiler need not check
 
 
 class _Count(threading.local):
-    """Points of all convolutions of this thread so far."""
+    """Points of all convolutions of this thread so far, and memory of their spectra by shape."""
 
-    points = 0
+    def __init__(self):
+        self.points, self.memory = 0, WeakValueDictionary()
 
 
 COUNT = _Count()
-
-
-class _Spectra(threading.local):
-    """Memory of the spectra of this thread's convolutions, by shape, while any of them lives."""
-
-    def __init__(self):
-        self.memory = WeakValueDictionary()
-
-
-_SPECTRA = _Spectra()
 
 
 class _Convolution:
@@ -63,9 +54,9 @@ class _Convolution:
     def _share_spectrum(self, rows, columns):
         """Spectrum in memory of all convolutions of this shape: none uses it between calls."""
         size = rows * _stride(columns) * self._numbers.itemsize
-        memory = _SPECTRA.memory.get(self.shape)
+        memory = COUNT.memory.get(self.shape)
         if memory is None or memory.size < size:
-            memory = _SPECTRA.memory[self.shape] = aligned_zeros(size, np.uint8)
+            memory = COUNT.memory[self.shape] = aligned_zeros(size, np.uint8)
         self._memory = memory  # a view would not keep it, but what it is a view of
         self._flat = memory[:size].view(self._numbers)
         return self._flat.reshape(rows, -1)
@@ -175,7 +166,9 @@ class Real(_Convolution):
     def _multiply(self, symbol, bench, strip):
         self._spectrum[max(strip.start, self._modes) : strip.stop] = 0
         _run(bench.columns_forward, self._spectrum[strip], bench.work)
-        _scale(symbol[strip], bench.work.view(self._dtype))
+        half = symbol.shape[1]
+        bench.work[:, :half] *= symbol[strip]
+        bench.work[:, half:] *= symbol[strip, self.shape[0] - half : 0 : -1]
         _run(bench.columns_backward, bench.work, self._spectrum[strip])
 
 
@@ -235,20 +228,6 @@ class Packed(_Convolution):
         _combine(*factors, bench.after, bench.product, self.shape[0])
         bench.columns_backward.execute()
         _turn(spectrum, group, strip, True)
-
-
-@compiled
-def _scale(symbol, values):
-    """Multiply rows of complex numbers, real and imaginary parts in turn, by a symbol."""
-    rows, half = symbol.shape
-    n = values.shape[1] // 2
-    for r in range(rows):
-        for k in range(half):
-            values[r, 2 * k] *= symbol[r, k]
-            values[r, 2 * k + 1] *= symbol[r, k]
-        for k in range(half, n):
-            values[r, 2 * k] *= symbol[r, n - k]
-            values[r, 2 * k + 1] *= symbol[r, n - k]
 
 
 @compiled

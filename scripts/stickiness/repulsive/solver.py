@@ -26,10 +26,9 @@ _MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
 _MAX_UNSURE_ITERATIONS = 150
-# A guess for the next grid needs no more than this of h_rms, and of the rms step between points:
-# contact on a surface of very short waves depends on heights far below h_rms.
-_COARSE_TOLERANCE, _COARSE_TOLERANCE_OF_STEP = 3e-3, 0.05
-_LEAST_COARSE_TOLERANCE = 1e-4  # of h_rms, in single precision
+# Of h_rms, at most and in single precision at least, and of the rms step from point to point: a
+# guess for the next grid needs no more.
+_COARSE_TOLERANCES, _COARSE_TOLERANCE_OF_STEP = (1e-4, 3e-3), 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,7 +283,7 @@ def _guess_from_coarser_grids(problem, work):
     coarse = replace(problem, heights=heights, sides=sides)
     guess = _guess_from_coarser_grids(coarse, work)
     step = half_space.measure_slope(heights, heights.shape)
-    tol = min(_COARSE_TOLERANCE, max(_LEAST_COARSE_TOLERANCE, _COARSE_TOLERANCE_OF_STEP * step))
+    tol = np.clip(_COARSE_TOLERANCE_OF_STEP * step, *_COARSE_TOLERANCES)
     state = active_set.relax(coarse, guess, tol=tol, max_iterations=200, rough=True)
     work.append(state.fft_pairs * heights.size)
     if problem.periodic:
