@@ -236,7 +236,7 @@ def test_threads_do_not_change_a_bit(scaled_pressure, options):
         assert (contact.shift, contact.residual) == (alone.shift, alone.residual)
 
 
-@pytest.mark.parametrize(("pressure", "arrays"), [(0.02, 6.8), (2.0, 9.0)])
+@pytest.mark.parametrize(("pressure", "arrays"), [(0.02, 7.0), (2.0, 9.0)])
 def test_memory_in_arrays_of_the_grid(pressure, arrays):
     """Beside the heights; kept operators of coarser grids and small buffers are one of them."""
     heights = rough(512, 0.8, seed=1)
