@@ -17,7 +17,7 @@ SUFFIXES = {
     "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
-FEWEST = 8  # seeds from which on a slope fitted to them is better than none
+FEWEST = 8  # seeds from which on a slope fitted to them is better than a ratio
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
 
@@ -29,7 +29,7 @@ class Coarse:
     controls: xr.DataArray  # long waves of these seeds
     elsewhere: xr.DataArray  # and of many more
     # For the seeds of the mean, by default their values on the coarsest grid. From another model
-    # it is not proportional to the values: its coefficient is a slope, and needs `FEWEST` seeds.
+    # it is not proportional to the values: from `FEWEST` seeds on its coefficient is a slope.
     twin: xr.DataArray | None = None
 
 
@@ -62,10 +62,20 @@ def discretisation_error(values):
 def ensemble_mean(values, more=None):
     """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
 
-    Plain without them, for a single seed, and in entries that are not finite in every seed.
+    Plain without them, for a single seed, and in entries that are not finite in every seed. Seeds
+    that are missing on the finest grid alone make the mean of the next one, which the others take
+    to the finest.
     """
+    both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
+    if both.any() and not both.all():
+        few, twin = (values[{"seed": both, "resolution": k}].transpose("seed", ...) for k in (-1, -2))
+        best, error = ensemble_mean(values.isel(resolution=slice(-1)), more)
+        level = multilevel.Estimate(best.values, error.values, np.nan)
+        one_sign = np.logical_or(*((sign * twin >= 0).all("seed").values for sign in (1, -1)))
+        found = multilevel.corrected_mean(few.values, twin.values, level, one_sign)
+        return best.copy(data=found.mean), error.copy(data=found.standard_error)
     plain, count = (mean(values), standard_error(values)), values.sizes["seed"]
-    if more is None or count == 1 or (more.twin is not None and count < FEWEST):
+    if more is None or count == 1:
         return plain
     few = fine(values).transpose("seed", ...)
     twin, slopes = more.twin, {"fewest": FEWEST}
@@ -118,7 +128,6 @@ def fine(values):
 
 
 def scatter(values):
-    count = values.sizes["seed"]
-    if count == 1:
+    if values.sizes["seed"] == 1:
         return values.mean("seed") * np.nan
-    return values.std("seed", ddof=1) / np.sqrt(count)
+    return values.std("seed", ddof=1) / np.sqrt(values.count("seed"))
