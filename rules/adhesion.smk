@@ -87,8 +87,10 @@ rule average_adhesive:
         laws=ERROR_MODELS,
         ensemble=lambda wildcards: f"{RESULTS}/contact/ensembles/{case_of(wildcards)}.nc",
         realisations=realisations_in_full,
+        alone=same_without_adhesion,
     output:
         averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
+        edges=f"{RESULTS}/adhesion/edges/{{adhesion}}.nc",
         limit=f"{RESULTS}/adhesion/dmt/{{adhesion}}.nc",
     log:
         f"{RESULTS}/logs/average_adhesive/adhesion/full/{{adhesion}}.log",
@@ -104,25 +106,6 @@ rule average_adhesive:
         code=source_hash("adhesion/average_adhesive.py"),
     script:
         "../scripts/adhesion/average_adhesive.py"
-
-
-rule compare_edges:
-    input:
-        averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
-        realisations=realisations_in_full,
-        alone=same_without_adhesion,
-    output:
-        f"{RESULTS}/adhesion/edges/{{adhesion}}.nc",
-    log:
-        f"{RESULTS}/logs/compare_edges/adhesion/edges/{{adhesion}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/compare_edges/adhesion/edges/{{adhesion}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        code=source_hash("adhesion/compare_edges.py"),
-    script:
-        "../scripts/adhesion/compare_edges.py"
 
 
 # The committed table is a copy of this one, so that models can be chosen before anything is solved.

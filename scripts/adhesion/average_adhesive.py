@@ -14,10 +14,18 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion import dmt_sum
+from adhesion import compare_edges, dmt_sum
 from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
 from common import conventions
-from common.adhesion_sets import AXES, MISSING, OUTSIDE, axes, pressure_at, solver_error
+from common.adhesion_sets import (
+    AXES,
+    MISSING,
+    OUTSIDE,
+    axes,
+    count_points,
+    pressure_at,
+    solver_error,
+)
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
@@ -88,7 +96,7 @@ def main(job):
     dmt_sum.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    made, seeds = datasets.parameters(ensemble), []
+    made, seeds, states = datasets.parameters(ensemble), [], None
     dataset = take_dmt_sum(limit)
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
@@ -108,6 +116,12 @@ def main(job):
     title = "adhesive contact averaged over realisations, by the model chosen"
     parameters = {**made, **datasets.parameters(limit), "seeds": seeds}
     datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
+    edges = xr.Dataset()
+    if states:
+        alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
+        edges = compare_edges.compare_seeds(states, alone, dataset, parameters)
+    title = "attraction at equal area of contact, simulation and model of the edges"
+    datasets.write(edges, job.output.edges, title=title, parameters=parameters)
 
 
 def take_dmt_sum(limit):
@@ -206,7 +220,7 @@ def add_pixels(states, made):
     That is the upper limit of a Poisson count: 2.3 if no pixel turned, of which scatter knows
     nothing. Where pixels turn in strips along the edges, scatter is larger and is the error.
     """
-    pixels = fine(states.area_alone).count("seed") * (made["grid_points"] * made["refine"]) ** 2
+    pixels = fine(states.area_alone).count("seed") * count_points(made)
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
     return states.assign({n: states[n] + unseen / pixels for n in STATES if "area" in n})

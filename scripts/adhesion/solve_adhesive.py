@@ -3,7 +3,7 @@
 At a prescribed mean gap the whole attraction shows; a press would jump where the pressure falls on
 closing. Every state is solved on every second point of the grid of the surface and, of some seeds,
 on all of them, but for what the grid does not resolve, attraction so strong that the window closes
-altogether, and where the DMT sum is good enough.
+altogether, and where the DMT sum is good enough. Long ranges may do with grids half as fine.
 """
 
 import itertools
@@ -57,6 +57,7 @@ VARIABLES = {
 # one pixel more or less.
 TIGHTEST, LOOSEST = 1e-7, 1e-5
 SHARE = 0.01  # tolerance over the strength of the law in units of the flattening pressure
+FINE = 8  # points per shortest wavelength of which half are enough for long ranges
 
 
 def main(job):
@@ -64,16 +65,25 @@ def main(job):
     adhesion = job.params.adhesion
     length, refine = float(surfaces.window_length), adhesion.get("refine", 1)
     points = refine * surfaces.sizes["x"]
-    chosen = combinations(adhesion, length / points, np.array(job.params.full))
     finest = refine * pixels(surfaces)
     steps = job.params.steps
     finenesses = [finest / step for step in steps]
     resolution = xr.DataArray(finenesses, dims="resolution", name="resolution")
+    ranges = axes(adhesion)[2].values
+    wide = (ranges >= adhesion.get("half_from", np.inf)) & (finest >= FINE)
+    coarser = np.where(wide, 2, 1)
+    pixel = xr.DataArray(length / points * coarser, dims=AXES[2])
+    chosen = combinations(adhesion, pixel, np.array(job.params.full))
 
     def solve(heights):
-        fine = resample(heights, points)
-        solved = [states(fine[::step, ::step], length, adhesion, chosen) for step in steps]
-        return xr.concat(solved, resolution, coords="minimal")
+        fine, parts = resample(heights, points), []
+        for factor in np.unique(coarser):
+            here = coarser == factor
+            asked = adhesion | {"range_over_h_rms": ranges[here]}
+            grids = [fine[:: factor * step, :: factor * step] for step in steps]
+            solved = [states(grid, length, asked, chosen[:, :, here]) for grid in grids]
+            parts.append(xr.concat(solved, resolution, coords="minimal"))
+        return xr.concat(parts, AXES[2]) if len(parts) > 1 else parts[0]
 
     title = "adhesive contact of realisations at given mean gaps"
     parameters = {
@@ -82,6 +92,7 @@ def main(job):
         "q0_h_rms": roughness(adhesion),
         "law": adhesion["law"],
         "refine": refine,
+        "coarser": coarser.tolist(),
         "pixel": length / points,
         "strongest": adhesion_sets.STRONGEST,
         "coarsest": edge_zone.COARSEST,

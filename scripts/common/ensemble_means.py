@@ -68,7 +68,9 @@ def ensemble_mean(values, more=None):
     """
     both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
     if both.any() and not both.all():
-        few, twin = (values[{"seed": both, "resolution": k}].transpose("seed", ...) for k in (-1, -2))
+        few, twin = (
+            values[{"seed": both, "resolution": k}].transpose("seed", ...) for k in (-1, -2)
+        )
         best, error = ensemble_mean(values.isel(resolution=slice(-1)), more)
         level = multilevel.Estimate(best.values, error.values, np.nan)
         one_sign = np.logical_or(*((sign * twin >= 0).all("seed").values for sign in (1, -1)))
