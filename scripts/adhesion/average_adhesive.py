@@ -16,16 +16,8 @@ from scipy import special
 
 from adhesion import compare_edges, dmt_sum
 from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
-from common import conventions
-from common.adhesion_sets import (
-    AXES,
-    MISSING,
-    OUTSIDE,
-    axes,
-    count_points,
-    pressure_at,
-    solver_error,
-)
+from common import adhesion_sets, conventions
+from common.adhesion_sets import AXES, MISSING, OUTSIDE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
@@ -144,7 +136,7 @@ def average(states, full, ensemble, limit, made):
     adhesion = datasets.parameters(limit)
     missing = states.external_pressure.isnull() & states.area_alone.notnull()
     whole = ~missing.any(["seed", "resolution"]) | ~full
-    both = states.seed[fine(states.area_alone).notnull().all("pressure")]  # solved on either grid
+    both = adhesion_sets.seeds_on_both(states)
     wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
     states = add_dmt(states, full)
     in_limit = dmt_sum.find_linear(adhesion, ensemble)
@@ -206,7 +198,8 @@ def average(states, full, ensemble, limit, made):
 
 def controls_of(adhesion, linear, solved):
     """What goes with states and slopes in the DMT sum, of an ensemble or its coarse solutions."""
-    found, (pressures, _, ranges) = quantities_of(adhesion, linear, solved), axes(adhesion)
+    pressures, _, ranges = adhesion_sets.axes(adhesion)
+    found = quantities_of(adhesion, linear, solved)
     alone, like = solved.sel(pressure=pressures), xr.zeros_like(found.attraction)
     within = alone.attractive_area.rename(range=ranges.name).interp({ranges.name: ranges})
     areas = dict.fromkeys(AREAS, alone.area_fraction) | {"attractive_area": within}
@@ -220,7 +213,7 @@ def add_pixels(states, made):
     That is the upper limit of a Poisson count: 2.3 if no pixel turned, of which scatter knows
     nothing. Where pixels turn in strips along the edges, scatter is larger and is the error.
     """
-    pixels = fine(states.area_alone).count("seed") * count_points(made)
+    pixels = fine(states.area_alone).count("seed") * adhesion_sets.count_points(made)
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
     return states.assign({n: states[n] + unseen / pixels for n in STATES if "area" in n})

@@ -10,7 +10,7 @@ import xarray as xr
 
 from adhesion.dmt_sum import integrate_law
 from common import conventions
-from common.adhesion_sets import AXES, count_points, pressure_at, roughness, solver_error
+from common.adhesion_sets import count_points, pressure_at, roughness, seeds_on_both, solver_error
 from common.ensemble_means import ensemble_mean, fine
 from common.error_budgets import SIMULATED
 from stickiness.criteria import equivalent_sphere
@@ -41,8 +41,8 @@ def compare_seeds(adhesive, alone, averages, adhesion):
         xr.concat([compare(*pair, adhesion, grid) for pair in pairs], "seed") for grid in (0, -1)
     )
     states = xr.concat(grids, adhesive.resolution)
-    both = fine(adhesive.area_alone).notnull().all(set(adhesive.area_alone.dims) & set(AXES))
-    resolved = fine(states.effect)[{"seed": both}].notnull().all("seed")
+    both = seeds_on_both(adhesive)
+    resolved = fine(states.effect).sel(seed=both).notnull().all("seed")
     resolved &= averages.dmt_ratio.notnull()
     found = {name: ensemble_mean(states[name].where(resolved)) for name in states}
     dataset = xr.Dataset({name: mean for name, (mean, _) in found.items()})
@@ -50,7 +50,7 @@ def compare_seeds(adhesive, alone, averages, adhesion):
     for name in QUOTED:
         change = abs(states[name].diff("resolution").mean(["seed", "resolution"]))
         solver = solver_error(adhesive) * dataset[name]
-        error = students_t(int(both.sum())) * found[name][1]
+        error = students_t(both.size) * found[name][1]
         dataset = with_budget(
             dataset,
             name,

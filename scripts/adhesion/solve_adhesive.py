@@ -120,11 +120,13 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
     path = solver.load_path(heights, length, pressures.values, tol=min(TIGHTEST, loosest))
     for i, contact in enumerate(path):
         alone.append((contact.area_fraction, contact.mean_gap, subpixel.edge_gap(contact.gap)))
+        units = [scaled_law(adhesion, adhesion["law"], 1.0, range_) for range_ in ranges.values]
+        sums = [dmt.adhesive_pressure(contact.gap, law) for law in units]
+        values["attraction_dmt"][i] = np.outer(lengths, sums)  # in proportion to the length
         weaker = {}  # by range, the last state with weak adhesion
         for j, k in itertools.product(range(lengths.size), range(ranges.size)):
             law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
-            attraction = dmt.adhesive_pressure(contact.gap, law)
-            values["attraction_dmt"][i, j, k] = attraction
+            attraction = values["attraction_dmt"][i, j, k]
             if chosen[i, j, k] and attraction <= adhesion_sets.STRONGEST * contact.mean_pressure:
                 weak = attraction <= adhesion_sets.NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None

@@ -9,6 +9,7 @@ import logging
 import numpy as np
 import xarray as xr
 
+from common.ensemble_means import fine
 from stickiness import adhesive
 from stickiness.accuracy.model_choice import roughness
 from stickiness.traction_laws import LAWS
@@ -43,6 +44,12 @@ def count_points(made):
     """Points of the finest grid by range, from the parameters of a file of states."""
     side = made["grid_points"] * made["refine"]
     return (side / xr.DataArray(made["coarser"], dims=AXES[2])) ** 2
+
+
+def seeds_on_both(states):
+    """Seeds whose states are solved on the finest grid, too."""
+    known = fine(states.area_alone).notnull()
+    return states.seed[known.all(set(known.dims) - {"seed"})]
 
 
 def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
