@@ -5,7 +5,7 @@ the case says otherwise. It is the plain one over the seeds, or if there are coa
 many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
@@ -63,19 +63,12 @@ def ensemble_mean(values, more=None):
     """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
 
     Plain without them, for a single seed, and in entries that are not finite in every seed. Seeds
-    that are missing on the finest grid alone make the mean of the next one, which the others take
-    to the finest.
+    that are missing on the finest grid alone make the mean on the next one, which the others take
+    to the finest where that is surer than the mean of these others.
     """
     both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
     if both.any() and not both.all():
-        few, twin = (
-            values[{"seed": both, "resolution": k}].transpose("seed", ...) for k in (-1, -2)
-        )
-        best, error = ensemble_mean(values.isel(resolution=slice(-1)), more)
-        level = multilevel.Estimate(best.values, error.values, np.nan)
-        one_sign = np.logical_or(*((sign * twin >= 0).all("seed").values for sign in (1, -1)))
-        found = multilevel.corrected_mean(few.values, twin.values, level, one_sign)
-        return best.copy(data=found.mean), error.copy(data=found.standard_error)
+        return _mean_from_half(values, both, more)
     plain, count = (mean(values), standard_error(values)), values.sizes["seed"]
     if more is None or count == 1:
         return plain
@@ -92,6 +85,22 @@ def ensemble_mean(values, more=None):
     return (
         best.copy(data=np.where(finite, found.mean, best.values)),
         error.copy(data=np.where(finite, found.standard_error, error.values)),
+    )
+
+
+def _mean_from_half(values, both, more):
+    """As `ensemble_mean`, with the seeds that are solved on both of the finest grids."""
+    others = values[{"seed": both}]
+    best, error = ensemble_mean(others, more and replace(more, twin=more.twin[{"seed": both}]))
+    half = ensemble_mean(values.isel(resolution=slice(-1)), more)
+    few, twin = (others[{"resolution": k}].transpose("seed", ...).values for k in (-1, -2))
+    one_sign = np.all(twin >= 0, axis=0) | np.all(twin <= 0, axis=0)
+    level = multilevel.Estimate(*(part.values for part in half), np.nan)
+    found = multilevel.corrected_mean(few, twin, level, one_sign)
+    surer = found.standard_error < error.values
+    return (
+        best.copy(data=np.where(surer, found.mean, best.values)),
+        error.copy(data=np.where(surer, found.standard_error, error.values)),
     )
 
 
