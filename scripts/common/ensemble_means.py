@@ -62,12 +62,12 @@ def discretisation_error(values):
 def ensemble_mean(values, more=None):
     """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
 
-    Plain without them, for a single seed, and in entries that are not finite in every seed. Seeds
-    that are missing on the finest grid alone make the mean on the next one, which the others take
-    to the finest where that is surer than the mean of these others.
+    Plain without them, for a single seed, and in entries that are not finite in every seed. If some
+    seeds are missing on the finest grid alone, all seeds give the mean on the next one. The others
+    correct it, wherever that has a smaller standard error than the mean of the others.
     """
     both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
-    if both.any() and not both.all():
+    if both.any() and not both.all() and values.sizes["resolution"] > 1:
         return _mean_from_half(values, both, more)
     plain, count = (mean(values), standard_error(values)), values.sizes["seed"]
     if more is None or count == 1:
@@ -90,8 +90,10 @@ def ensemble_mean(values, more=None):
 
 def _mean_from_half(values, both, more):
     """As `ensemble_mean`, with the seeds that are solved on both of the finest grids."""
-    others = values[{"seed": both}]
-    best, error = ensemble_mean(others, more and replace(more, twin=more.twin[{"seed": both}]))
+    others, fewer = values[{"seed": both}], more
+    if more is not None and more.twin is not None:
+        fewer = replace(more, twin=more.twin[{"seed": both}])
+    best, error = ensemble_mean(others, fewer)
     half = ensemble_mean(values.isel(resolution=slice(-1)), more)
     few, twin = (others[{"resolution": k}].transpose("seed", ...).values for k in (-1, -2))
     one_sign = np.all(twin >= 0, axis=0) | np.all(twin <= 0, axis=0)
