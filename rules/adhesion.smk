@@ -34,13 +34,13 @@ def seeds_in_full(adhesion):
     return seeds_of(asked["case"])[: asked.get("seeds")]
 
 
-def steps_of_grids(wildcards):
-    """Points of the grid of a surface by which its adhesive states are solved, for a file.
+def seeds_by_grids(wildcards):
+    """Seeds of a file, by the steps on the grid of a surface at which their states are solved.
 
-    Half the grid is enough for every second file: grids differ by about as much on every surface.
+    Half the grid is enough for every second seed: grids differ by about as much on every surface.
     """
-    number = plan.seeds_in(wildcards.part)[0] // plan.SEEDS_A_FILE
-    return [2] if number % 2 else [2, 1]
+    seeds, count = plan.seeds_in(wildcards.part), plan.SEEDS_A_FILE // 2
+    return [[[2, 1], seeds[:count]], [[2], seeds[count:]]]
 
 
 def realisations_in_full(wildcards):
@@ -73,10 +73,9 @@ rule solve_adhesive:
         mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
         runtime=minutes(4.1, adhesion_size, adhesive_states),
     params:
-        seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         adhesion=parameters_in_full,
         full=points_in_full,
-        steps=steps_of_grids,
+        grids=seeds_by_grids,
         code=source_hash("adhesion/solve_adhesive.py"),
     script:
         "../scripts/adhesion/solve_adhesive.py"

@@ -8,6 +8,7 @@ altogether, and where the DMT sum is good enough. Long ranges may do with grids 
 
 import itertools
 import logging
+from functools import partial
 
 import numpy as np
 import xarray as xr
@@ -66,17 +67,16 @@ def main(job):
     length, refine = float(surfaces.window_length), adhesion.get("refine", 1)
     points = refine * surfaces.sizes["x"]
     finest = refine * pixels(surfaces)
-    steps = job.params.steps
-    finenesses = [finest / step for step in steps]
-    resolution = xr.DataArray(finenesses, dims="resolution", name="resolution")
     ranges = axes(adhesion)[2].values
     wide = (ranges >= adhesion.get("half_from", np.inf)) & (finest >= FINE)
     coarser = np.where(wide, 2, 1)
     pixel = xr.DataArray(length / points * coarser, dims=AXES[2])
     chosen = combinations(adhesion, pixel, np.array(job.params.full))
 
-    def solve(heights):
+    def solve(steps, heights):
         fine, parts = resample(heights, points), []
+        finenesses = [finest / step for step in steps]
+        resolution = xr.DataArray(finenesses, dims="resolution", name="resolution")
         for factor in np.unique(coarser):
             here = coarser == factor
             asked = adhesion | {"range_over_h_rms": ranges[here]}
@@ -85,10 +85,12 @@ def main(job):
             parts.append(xr.concat(solved, resolution, coords="minimal"))
         return xr.concat(parts, AXES[2]) if len(parts) > 1 else parts[0]
 
+    grids = [(partial(solve, steps), surfaces, seeds) for steps, seeds in job.params.grids if seeds]
+    dataset = xr.concat([each_seed(*each) for each in grids], "seed", join="outer")
     title = "adhesive contact of realisations at given mean gaps"
     parameters = {
         **datasets.parameters(surfaces),
-        "seeds": list(job.params.seeds),
+        "seeds": dataset.seed.values.tolist(),
         "q0_h_rms": roughness(adhesion),
         "law": adhesion["law"],
         "refine": refine,
@@ -97,7 +99,7 @@ def main(job):
         "strongest": adhesion_sets.STRONGEST,
         "coarsest": edge_zone.COARSEST,
     }
-    dataset = conventions.annotate(each_seed(solve, surfaces, job.params.seeds), **VARIABLES)
+    dataset = conventions.annotate(dataset, **VARIABLES)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
