@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from references.contact import wavenumbers
 
 from stickiness import repulsive
 from stickiness.repulsive import dilute_contact, half_space
@@ -15,7 +16,7 @@ ROW = (0.5, 1.0)  # rectangle with square pixels if it has twice as many columns
 def rough(shape, seed, sides=(1.0, 1.0), shortest=8):
     """Self-affine heights of unit rms slope, of some pixels per shortest wave."""
     rng = np.random.default_rng(seed)
-    q = half_space.wavenumbers(shape, sides) / (2 * np.pi)
+    q = wavenumbers(shape, sides)[:, : shape[1] // 2 + 1] / (2 * np.pi)
     inside = (q > 0) & (q <= shape[0] / sides[0] / shortest)
     amplitude = np.where(inside, np.where(inside, q, 1.0) ** SPREAD, 0.0)
     heights = np.fft.irfft2(np.fft.rfft2(rng.standard_normal(shape)) * amplitude, shape)
