@@ -14,7 +14,7 @@ from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, par
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 DIFFERENCE, NOTHING = "theory over simulation less 1", "nothing simulated within the range"
-VARIABLES = {"theory_mean_gap": "mean gap over h_rms by theory"} | {
+VARIABLES = {"theory_mean_gap": "mean gap over h_rms that theory predicts"} | {
     f"{name}_difference": ("1", f"{DIFFERENCE}: {conventions.VARIABLES[name][1]}", NOTHING)
     for name in COMPARED
 }
