@@ -14,9 +14,9 @@ import numpy as np
 import xarray as xr
 from scipy import special
 
-from adhesion import dmt_sum
+from adhesion import compare_edges, dmt_sum
 from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
-from common import conventions
+from common import adhesion_sets, conventions
 from common.adhesion_sets import AXES, MISSING, OUTSIDE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
@@ -33,7 +33,6 @@ STATES = {
     "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
     "attractive_area": "area within the range, not in contact, over nominal area",
 }
-# Slopes and fits have as their control the quantity of the DMT sum of the same name.
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",
@@ -50,6 +49,7 @@ RATIOS = {
     "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
     "weak_ratio": "fall of the pressure by adhesion at equal mean gap over its weak limit",
 }
+# Slopes and fits have as their control the quantity of the DMT sum of the same name.
 CONTROLS = {n: n.removesuffix("_net").removesuffix("_direct") for n in SLOPES | FITS}
 ALL = STATES | SLOPES | FITS | RATIOS
 NET = [name for name in ALL if "net" in name.split("_")]
@@ -88,7 +88,7 @@ def main(job):
     dmt_sum.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    made, seeds = datasets.parameters(ensemble), []
+    made, seeds, states = datasets.parameters(ensemble), [], None
     dataset = take_dmt_sum(limit)
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
@@ -108,6 +108,12 @@ def main(job):
     title = "adhesive contact averaged over realisations, by the model chosen"
     parameters = {**made, **datasets.parameters(limit), "seeds": seeds}
     datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
+    edges = xr.Dataset()
+    if states:
+        alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
+        edges = compare_edges.compare_seeds(states, alone, dataset, parameters)
+    title = "attraction at equal area of contact, simulation and model of the edges"
+    datasets.write(edges, job.output.edges, title=title, parameters=parameters)
 
 
 def take_dmt_sum(limit):
@@ -128,7 +134,9 @@ def take_dmt_sum(limit):
 def average(states, full, ensemble, limit, made):
     """Means over the realisations: full simulations, or the DMT sum where there are none."""
     adhesion = datasets.parameters(limit)
-    whole = fine(states.external_pressure).notnull().all("seed") | ~full
+    missing = states.external_pressure.isnull() & states.area_alone.notnull()
+    whole = ~missing.any(["seed", "resolution"]) | ~full
+    both = adhesion_sets.seeds_on_both(states)
     wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
     states = add_dmt(states, full)
     in_limit = dmt_sum.find_linear(adhesion, ensemble)
@@ -143,8 +151,8 @@ def average(states, full, ensemble, limit, made):
     reported = whole & (wide | ~full)
     resolved = dict.fromkeys(STATES | SLOPES, reported) | dict.fromkeys(RATIOS, reported & full)
     resolved |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
-    # The DMT sum of the coarsest solutions: of these seeds, and of many more.
-    quantities = partial(quantities_of, adhesion, in_limit)
+    # Of the coarsest solutions: of these seeds, and of many more.
+    quantities = partial(controls_of, adhesion, in_limit)
     controls = coarse(ensemble, quantities)
     twins = controls and quantities(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
     solver = solver_error(states)
@@ -152,20 +160,23 @@ def average(states, full, ensemble, limit, made):
     dataset, source = xr.Dataset(), xr.DataArray(list(SOURCES), dims="source", name="source")
     for name in ALL:
         values, more = states[name].where(resolved[name]), None
-        if controls and name in CONTROLS:
-            control = CONTROLS[name]
-            more = replace(controls, values=controls.values[control], twin=twins[control])
-        dataset = add_errors(dataset, name, values, more, plain=True)
+        # What adhesion takes off the pressure is in proportion to the control.
+        fixed = values.pressure if name == "external_pressure" else 0.0
+        if controls and name in twins:
+            more = replace(controls, values=controls.values[name], twin=twins[name])
+        dataset = add_errors(dataset, name, values - fixed, more, plain=True)
+        dataset[name] = dataset[name] + fixed
         value, at_worst = dataset[name], solver
         if "pressure" not in value.dims:
             at_worst = solver.max("pressure")
         scale = abs(value) + value.pressure if name == "external_pressure" else abs(value)
         unseen = abs(fine(fuller[name] - states[name]).mean("seed"))
         # For the seeds solved in full, which is more than enough for multilevel means.
-        sampling = students_t(states.sizes["seed"]) * dataset[f"{name}_standard_error"]
+        sampling = students_t(both.size) * dataset[f"{name}_standard_error"]
         model = 0.0
         if f"{name}_equal_area" in states:
-            model = fine(states[f"{name}_equal_area"] - states[name]).mean("seed", skipna=False)
+            model = fine(states[f"{name}_equal_area"] - states[name]).sel(seed=both)
+            model = model.mean("seed", skipna=False)
         elif name == "weak_ratio":
             error = limit.attraction_weak_error.sel(source="model", drop=True)
             model = error / limit.attraction_weak * value
@@ -185,13 +196,24 @@ def average(states, full, ensemble, limit, made):
     return dataset.assign(residual=residual, iterations=fine(states.iterations).mean("seed"))
 
 
+def controls_of(adhesion, linear, solved):
+    """What goes with states and slopes in the DMT sum, of an ensemble or its coarse solutions."""
+    pressures, _, ranges = adhesion_sets.axes(adhesion)
+    found = quantities_of(adhesion, linear, solved)
+    alone, like = solved.sel(pressure=pressures), xr.zeros_like(found.attraction)
+    within = alone.attractive_area.rename(range=ranges.name).interp({ranges.name: ranges})
+    areas = dict.fromkeys(AREAS, alone.area_fraction) | {"attractive_area": within}
+    states = {"external_pressure": -found.attraction} | {n: a + like for n, a in areas.items()}
+    return xr.Dataset(states | {name: found[control] for name, control in CONTROLS.items()})
+
+
 def add_pixels(states, made):
     """States with as much more area as the count of turned pixels cannot rule out.
 
     That is the upper limit of a Poisson count: 2.3 if no pixel turned, of which scatter knows
     nothing. Where pixels turn in strips along the edges, scatter is larger and is the error.
     """
-    pixels = states.sizes["seed"] * (made["grid_points"] * made["refine"]) ** 2
+    pixels = fine(states.area_alone).count("seed") * adhesion_sets.count_points(made)
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
     return states.assign({n: states[n] + unseen / pixels for n in STATES if "area" in n})
@@ -235,8 +257,8 @@ def add_slopes(states, ensemble, linear):
 
 def ratio_of_means(values, limit):
     """Ratio of the means over seeds, as samples that scatter about it to first order."""
-    mean_limit = limit.mean("seed", skipna=False)
-    best = values.mean("seed", skipna=False) / mean_limit
+    mean_limit = limit.where(values.notnull()).mean("seed")
+    best = values.mean("seed") / mean_limit
     return best + (values - best * limit) / mean_limit
 
 

@@ -10,11 +10,9 @@ import xarray as xr
 
 from adhesion.dmt_sum import integrate_law
 from common import conventions
-from common.adhesion_sets import pressure_at, roughness, solver_error
+from common.adhesion_sets import count_points, pressure_at, roughness, seeds_on_both, solver_error
+from common.ensemble_means import ensemble_mean, fine
 from common.error_budgets import SIMULATED
-from common.job import start
-from common.model_surfaces import read_all
-from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
 from stickiness.error_budget import ErrorComponent, with_budget
 from stickiness.statistics import students_t
@@ -34,27 +32,25 @@ VARIABLES = {
     "over_model": ("1", "simulation over model, mean over realisations", MISSING),
 }
 QUOTED = ("effect", "over_model")
-NEEDED = ("external_pressure", "repulsive_area", "attraction_dmt", "area_alone")
 
 
-def main(job):
-    averages = datasets.read(job.input.averages, ["dmt_ratio", "q0_h_rms"])
-    adhesion = datasets.parameters(averages)
-    adhesive = read_all(job.input.realisations, NEEDED)
-    alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
+def compare_seeds(adhesive, alone, averages, adhesion):
+    """Compare all realisations, and average them where their averages are reported."""
     pairs = [[each.sel(seed=seed) for each in (adhesive, alone)] for seed in adhesive.seed]
-    coarse, states = (
+    grids = (
         xr.concat([compare(*pair, adhesion, grid) for pair in pairs], "seed") for grid in (0, -1)
     )
-    resolved = states.effect.notnull().all("seed") & averages.dmt_ratio.notnull()
-    dataset = states.mean("seed").where(resolved).assign(q0_h_rms=averages.q0_h_rms)
-    dataset = conventions.annotate(dataset, **VARIABLES)
-    seeds = states.sizes["seed"]
+    states = xr.concat(grids, adhesive.resolution)
+    both = seeds_on_both(adhesive)
+    resolved = fine(states.effect).sel(seed=both).notnull().all("seed")
+    resolved &= averages.dmt_ratio.notnull()
+    found = {name: ensemble_mean(states[name].where(resolved)) for name in states}
+    dataset = xr.Dataset({name: mean for name, (mean, _) in found.items()})
+    dataset = conventions.annotate(dataset.assign(q0_h_rms=averages.q0_h_rms), **VARIABLES)
     for name in QUOTED:
-        fine = states[name]
-        change = abs((fine - coarse[name]).mean("seed", skipna=False))
-        solver = solver_error(adhesive) * fine.mean("seed")
-        error = students_t(seeds) * fine.std("seed", ddof=1) / np.sqrt(seeds)
+        change = abs(states[name].diff("resolution").mean(["seed", "resolution"]))
+        solver = solver_error(adhesive) * dataset[name]
+        error = students_t(both.size) * found[name][1]
         dataset = with_budget(
             dataset,
             name,
@@ -63,8 +59,7 @@ def main(job):
             sampling=ErrorComponent(error, "Student's t"),
             **SIMULATED,
         )
-    title = "attraction at equal area of contact, simulation and model of the edges"
-    datasets.write(dataset, job.output[0], title=title, parameters=adhesion)
+    return dataset
 
 
 def compare(adhesive, alone, adhesion, grid):
@@ -90,8 +85,7 @@ def compare(adhesive, alone, adhesion, grid):
     tau = xr.apply_ufunc(equivalent_sphere.edge_strength, place, over_mean_pressure)
     model = xr.apply_ufunc(equivalent_sphere.effect, place, tau).where(known)
     effect = (load - adhesive.external_pressure) / (strength * attractive)
-    points = (adhesion["grid_points"] * adhesion["refine"]) ** 2
-    drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * points
+    drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * count_points(adhesion)
     reported = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
     return xr.Dataset(
         {
@@ -102,7 +96,3 @@ def compare(adhesive, alone, adhesion, grid):
             "over_model": (effect / model).where(reported),
         }
     )
-
-
-if __name__ == "__main__":
-    main(start(globals(), "compare_edges", adhesion="dmt_error"))

@@ -5,7 +5,7 @@ the case says otherwise. It is the plain one over the seeds, or if there are coa
 many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
@@ -17,7 +17,7 @@ SUFFIXES = {
     "standard_error": "standard error of the ensemble mean",
     "discretisation_error": "change from half the resolution",
 }
-FEWEST = 8  # seeds from which on a slope fitted to them is better than none
+FEWEST = 8  # seeds from which on a slope fitted to them is better than a ratio
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
 
@@ -29,7 +29,7 @@ class Coarse:
     controls: xr.DataArray  # long waves of these seeds
     elsewhere: xr.DataArray  # and of many more
     # For the seeds of the mean, by default their values on the coarsest grid. From another model
-    # it is not proportional to the values: its coefficient is a slope, and needs `FEWEST` seeds.
+    # it is not proportional to the values: from `FEWEST` seeds on its coefficient is a slope.
     twin: xr.DataArray | None = None
 
 
@@ -62,10 +62,15 @@ def discretisation_error(values):
 def ensemble_mean(values, more=None):
     """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
 
-    Plain without them, for a single seed, and in entries that are not finite in every seed.
+    Plain without them, for a single seed, and in entries that are not finite in every seed. If some
+    seeds are missing on the finest grid alone, all seeds give the mean on the next one. The others
+    correct it, wherever that has a smaller standard error than the mean of the others.
     """
+    both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
+    if both.any() and not both.all() and values.sizes["resolution"] > 1:
+        return _mean_from_half(values, both, more)
     plain, count = (mean(values), standard_error(values)), values.sizes["seed"]
-    if more is None or count == 1 or (more.twin is not None and count < FEWEST):
+    if more is None or count == 1:
         return plain
     few = fine(values).transpose("seed", ...)
     twin, slopes = more.twin, {"fewest": FEWEST}
@@ -80,6 +85,24 @@ def ensemble_mean(values, more=None):
     return (
         best.copy(data=np.where(finite, found.mean, best.values)),
         error.copy(data=np.where(finite, found.standard_error, error.values)),
+    )
+
+
+def _mean_from_half(values, both, more):
+    """As `ensemble_mean`, with the seeds that are solved on both of the finest grids."""
+    others, fewer = values[{"seed": both}], more
+    if more is not None and more.twin is not None:
+        fewer = replace(more, twin=more.twin[{"seed": both}])
+    best, error = ensemble_mean(others, fewer)
+    half = ensemble_mean(values.isel(resolution=slice(-1)), more)
+    few, twin = (others[{"resolution": k}].transpose("seed", ...).values for k in (-1, -2))
+    one_sign = np.all(twin >= 0, axis=0) | np.all(twin <= 0, axis=0)
+    level = multilevel.Estimate(*(part.values for part in half), np.nan)
+    found = multilevel.corrected_mean(few, twin, level, one_sign)
+    surer = found.standard_error < error.values
+    return (
+        best.copy(data=np.where(surer, found.mean, best.values)),
+        error.copy(data=np.where(surer, found.standard_error, error.values)),
     )
 
 
@@ -118,7 +141,6 @@ def fine(values):
 
 
 def scatter(values):
-    count = values.sizes["seed"]
-    if count == 1:
+    if values.sizes["seed"] == 1:
         return values.mean("seed") * np.nan
-    return values.std("seed", ddof=1) / np.sqrt(count)
+    return values.std("seed", ddof=1) / np.sqrt(values.count("seed"))

@@ -66,8 +66,8 @@ def read_first(path):
 
 
 def read_all(paths, variables):
-    """The realisations of all files, with the attributes of the first."""
-    return xr.concat([datasets.read(path, variables) for path in paths], "seed")
+    """The realisations of all files, NaN where one lacks a grid; attributes of the first."""
+    return xr.concat([datasets.read(path, variables) for path in paths], "seed", join="outer")
 
 
 def gather_fields(states, pressures, surface, **texts):

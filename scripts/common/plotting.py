@@ -81,6 +81,7 @@ def open_figure(outputs, rows, height, **grid):
         with datasets.whole_file(path) as temporary:
             undated = {"CreationDate": None} if temporary.suffix == ".pdf" else {}
             figure.savefig(temporary, metadata=undated)
+        figure.set_layout_engine("none")  # further files keep what the first has laid out
     plt.close(figure)
 
 

@@ -122,7 +122,7 @@ def test_equal_area_is_found_on_the_load_curve(heights):
 
 def test_a_change_of_no_pixel_is_not_a_certain_zero(heights):
     """Adhesion too weak to turn a pixel: what may have gone unseen covers what is in proportion."""
-    made = {"grid_points": len(heights), "refine": 1}
+    made = {"grid_points": len(heights), "refine": 1, "coarser": [1]}
     strong, weak = (
         solved(heights, law="exponential", adhesion_length_over_range=[length])
         for length in (1e-2, 1e-6)
@@ -142,7 +142,8 @@ def test_a_change_of_no_pixel_is_not_a_certain_zero(heights):
 
 @pytest.mark.parametrize("turned", [0, 1, 3, 40])
 def test_pixels_unseen_are_the_limit_of_a_poisson_count(turned):
-    made, area = {"grid_points": 10, "refine": 2}, (("seed", "resolution"), np.full((8, 1), 0.5))
+    made, area = {"grid_points": 10, "refine": 4}, (("seed", "resolution"), np.full((8, 1), 0.5))
+    made["coarser"] = [2]  # half of the grid
     states = xr.Dataset(dict.fromkeys(average_adhesive.STATES, area) | {"area_alone": area})
     states["repulsive_area"] = states.repulsive_area + turned / (8 * 400)
     more = average_adhesive.add_pixels(states, made).repulsive_area - states.repulsive_area

@@ -37,8 +37,8 @@ def test_simulation_of_spheres_is_the_model_of_the_edges():
         },
         coords=dict(zip(dims, (at, lengths, ranges), strict=True)),
     ).expand_dims(resolution=[8.0])
-    made = {"law": "maugis", "grid_points": 512, "refine": 1, "q0_h_rms": q0_h_rms}
-    made |= {dims[1]: lengths, dims[2]: ranges, "pressures": at}
+    made = {"law": "maugis", "grid_points": 512, "refine": 1, "coarser": [1, 1]}
+    made |= {"q0_h_rms": q0_h_rms, dims[1]: lengths, dims[2]: ranges, "pressures": at}
     found = compare_edges.compare(adhesive, alone, made, -1)
     np.testing.assert_allclose(found.effect, found.effect_model, rtol=1e-3)
     few = compare_edges.compare(adhesive, alone, made | {"grid_points": 64}, -1)

@@ -122,3 +122,16 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     both = ensembles.join_coarse([files["first"], files["second"]])
     xr.testing.assert_equal(both, whole)
     assert both.sizes["other"] == 20
+
+
+def test_seeds_on_half_the_grid_correct_a_mean_where_they_go_with_it():
+    """Fine values are 0.8 times those of half the grid, or have nothing to do with them."""
+    half, noise = np.random.default_rng(2).exponential(size=(2, 8, 2))
+    both = np.stack([half, 0.8 * half + noise * [1e-6, 1.0]], axis=1)
+    both[4:, 1] = np.nan
+    values = xr.DataArray(both, dims=("seed", "resolution", "pressure"))
+    best, error = ensemble_means.ensemble_mean(values)
+    want, plain = 0.8 * half.mean(0), values[:4, 1].mean("seed")
+    np.testing.assert_allclose(best, [want[0], plain[1]], rtol=1e-5)
+    scatter = 0.8 * half[:, 0].std(ddof=1) / np.sqrt(8), both[:4, 1, 1].std(ddof=1) / 2
+    np.testing.assert_allclose(error, scatter, rtol=1e-5)

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from helpers.jobs import make_job
 
 from cases import answer_case
 from contact import solve_coarse, solve_repulsive
@@ -42,13 +43,8 @@ def test_crests_of_a_wave_in_partial_contact(pressure):
     assert np.isnan(slope_within_contact(heights, contact.gap + 1, length))
 
 
-def job(folder, inputs, params, output, **wildcards):
-    return SimpleNamespace(
-        input=SimpleNamespace(**inputs),
-        params=SimpleNamespace(**params),
-        output=[str(folder / output)],
-        wildcards=SimpleNamespace(case="mine", **wildcards),
-    )
+def job(path, params, **inputs):
+    return make_job(path, params, {"case": "mine", "model_surface": "some"}, **inputs)
 
 
 @pytest.fixture(scope="module")
@@ -58,17 +54,16 @@ def folder(tmp_path_factory):
     solver = {"pressures": LOADS, "tolerance": 1e-6, "gaps": None, "measured": ["contact_slope"]}
     for seeds in ([1, 2], [3]):
         path, made = folder / f"surfaces{seeds[0]}.nc", {"seeds": seeds, "pixels_per_wavelength": 4}
-        asked = made | {"surface": ASKED}
-        synthesise_surface.main(job(folder, {}, asked, path.name, model_surface="some"))
-        solved.append(str(folder / f"solved{seeds[0]}.nc"))
-        solve_repulsive.main(job(folder, {"surfaces": str(path)}, solver | made, solved[-1]))
+        synthesise_surface.main(job(path, made | {"surface": ASKED}))
+        solved.append(folder / f"solved{seeds[0]}.nc")
+        solve_repulsive.main(job(solved[-1], solver | made, surfaces=path))
     params = solver | {"surface": ASKED, "after": 0, "seeds": 40, "descriptor_seeds": 64}
-    solve_coarse.main(job(folder, {}, params, "coarse.nc"))
-    inputs = {"realisations": solved, "coarse": [str(folder / "coarse.nc")], "laws": TABLE}
+    solve_coarse.main(job(folder / "coarse.nc", params))
     settings = {"pixels_per_wavelength": 4, "tolerance": 1e-6, "seeds": 3, "coarse_seeds": 40}
     plan = {"quantities": WANTED, "pressures": LOADS, "simulated": True, "settings": settings}
     plan |= {"surface": ASKED, "accuracy": None}
-    asked = job(folder, inputs, {"plan": plan}, "")
+    inputs = {"realisations": solved, "coarse": [folder / "coarse.nc"], "laws": TABLE}
+    asked = job(folder / "answer.nc", {"plan": plan}, **inputs)
     files = {name: str(folder / f"{name}.nc") for name in ("means", "kappa", "answer")}
     asked.output = SimpleNamespace(**files)
     answer_case.main(asked)

@@ -1,10 +1,9 @@
 """Contact of measured heights that were made periodic."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.jobs import make_job
 
 from common import conventions
 from real_surfaces import contact_measured
@@ -99,12 +98,8 @@ def pressed(periodic_file, tmp_path_factory):
     datasets.write(known, folder / "in.nc", title="a", parameters={})
     gaps = {"minimum": 0.01, "maximum": 1.0, "per_decade": 4}
     settings = {"pixels_per_wavelength": 8, "tolerance": 1e-6, "gamma": 0.45}
-    job = SimpleNamespace(
-        input=SimpleNamespace(surface=folder / "in.nc"),
-        output=[folder / "out.nc"],
-        wildcards=SimpleNamespace(real_surface="plate"),
-        params=SimpleNamespace(surface=asked_of(periodic_file), gaps=gaps, **settings),
-    )
+    params = {"surface": asked_of(periodic_file), "gaps": gaps} | settings
+    job = make_job(folder / "out.nc", params, {"real_surface": "plate"}, surface=folder / "in.nc")
     contact_measured.main(job)
     return datasets.read(folder / "out.nc")
 

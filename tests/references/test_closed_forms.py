@@ -12,9 +12,6 @@ R, W = 2.0, 3e-5  # any radius and adhesion length; the model is scaled by R^2 W
 AMPLITUDE, WAVELENGTH = 0.02, 1.5
 
 
-# --- without adhesion -------------------------------------------------------------------------
-
-
 def test_westergaard_balances_its_load():
     wave = Westergaard(0.02, 3.0, 0.007)
     x = (np.arange(200_000) + 0.5) / 200_000 * 3.0
@@ -75,9 +72,6 @@ def test_highest_summit_of_a_wave_off_the_grid():
     assert summit.height == pytest.approx(0.4, rel=1e-12)
     assert summit.position[0] == pytest.approx(1.23, abs=1e-9)
     assert summit.curvatures == pytest.approx((0.1 * k**2, 0.3 * (2 * k) ** 2), rel=1e-9)
-
-
-# --- adhesive spheres -------------------------------------------------------------------------
 
 
 def quadrature(breaks):
@@ -169,9 +163,6 @@ def test_maugis_tends_to_dmt_and_jkr(force):
     assert abs(inner) < 1e-6 * middle
     assert soft.pull_off.force == pytest.approx(jkr.pull_off_force, rel=1e-5)
     assert stiff.pull_off.force == pytest.approx(dmt.pull_off_force, rel=1e-3)
-
-
-# --- adhesive waves ---------------------------------------------------------------------------
 
 
 def wave_of(alpha):

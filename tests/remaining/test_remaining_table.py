@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.jobs import make_job
 
 from common import remaining_table
 from remaining import measure_remaining, tabulate_remaining
@@ -13,16 +14,11 @@ ASKED = {"hurst": 0.8, "magnification": 4, "window": 2, "points": 64, "seeds": [
 ASKED |= {"energies": [0.6, 1.5], "zones": [0.05, 0.8]}
 
 
-def run(script, **job):
-    script.main(SimpleNamespace(**job))
-
-
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
     path = tmp_path_factory.mktemp("H0.8_zeta4_test") / "seed5.nc"
-    params = SimpleNamespace(surface=ASKED, law="exponential", squeeze=0.1)
-    job = {"params": params, "wildcards": SimpleNamespace(seed="5"), "output": [str(path)]}
-    run(measure_remaining, **job)
+    params = {"surface": ASKED, "law": "exponential", "squeeze": 0.1}
+    measure_remaining.main(make_job(path, params, {"seed": "5"}))
     return path
 
 
@@ -46,7 +42,8 @@ def test_shares_and_work_of_adhesion_of_a_file(measured):
 @pytest.mark.slow
 def test_table_has_every_point_with_its_theories(measured, tmp_path):
     path = tmp_path / "remaining.csv"
-    run(tabulate_remaining, input=[str(measured)], output=[path, tmp_path / "remaining.md"])
+    job = SimpleNamespace(input=[str(measured)], output=[path, tmp_path / "remaining.md"])
+    tabulate_remaining.main(job)
     table = remaining_table.read(path)
     assert len(table) == 2
     assert set(table["set"]) == {measured.parent.name}

@@ -10,9 +10,6 @@ from stickiness.criteria import equivalent_sphere
 LAWS = (adhesive.Maugis, adhesive.Exponential, adhesive.LennardJones)
 
 
-# --- areas and densities of given gaps -----------------------------------------------------
-
-
 HERTZ = Hertz(1.0, 4 / 3)  # of unit radius a = R = 1
 
 
@@ -81,9 +78,6 @@ def test_local_exponent_of_edge_gaps_is_two_thirds():
     )
 
 
-# --- weak limit ----------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("range_", [0.003, 0.1, 3.0])
 def test_weak_limit_of_a_sphere_is_what_reciprocity_gives(range_):
     """Hertzian contacts of a sphere of radius 1 at three approaches, and a constant traction."""
@@ -131,9 +125,6 @@ def test_weak_limit_of_a_power_of_the_gap_is_exact_between_any_loads():
     found = dmt.weak_attraction(loads, gaps, -0.3 * loads**0.7)
     # d potential/d ln(load) over d gap/d ln(load)
     np.testing.assert_allclose(found, 0.21 * loads**0.7 / [[1], [2]], rtol=1e-12)
-
-
-# --- strip of the boundary -----------------------------------------------------------------
 
 
 def test_boundary_strip_of_a_disc_and_a_square():

@@ -7,6 +7,7 @@ from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, un
 from stickiness.accuracy import model_choice, multilevel
 from stickiness.adhesive import edge_zone
 from stickiness.criteria import a_v_table, equivalent_sphere, formulas
+from stickiness.criteria.verdict import verdict
 from stickiness.measured import instrument_spectrum, levelling, periodic, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
@@ -40,6 +41,11 @@ def press(heights=HEIGHTS, length=SIDE, pressure=0.1, **options):
 
 def average(fine, coarse, many):
     return multilevel.multilevel_mean(fine, coarse, many, ONES, ONES)
+
+
+def judge(surface=None, h_rms=1e-6, **changes):
+    surface = band(q0=6e4, q1=6e8, h_rms=h_rms) if surface is None else surface
+    return verdict(surface, **{"modulus": 1e5, "work_of_adhesion": 0.05, "range": 3e-10} | changes)
 
 
 MISUSES = [
@@ -172,6 +178,13 @@ MISUSES = [
     (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
     (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
     (lambda: share.tough_share(0.0), "energy_ratio must"),
+    (lambda: judge(modulus=-1.0), "modulus must"),
+    (lambda: judge(poisson=0.7), "poisson must be above -1 and at most 0.5, got 0.7"),
+    (lambda: judge(length=1e-4), "length is of measured heights"),
+    (lambda: judge(a_v=(3.0, 4.0, 5.0)), "low <= value <= high"),
+    (lambda: judge(h_rms=1e-8, range=3e-7), "range = 3e-07 is more than 10 times the rms height"),
+    (lambda: judge(HEIGHTS), "length is missing"),
+    (lambda: judge(np.ones((8, 16)), length=1e-3), r"both sides of heights of the shape \(8, 16\)"),
     (lambda: share.tough_share(-1.0), "energy_ratio must"),
     (lambda: share.tough_share(np.nan), "energy_ratio must"),
     (lambda: share.tough_share(np.inf), "energy_ratio must"),

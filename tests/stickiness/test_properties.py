@@ -31,9 +31,6 @@ def pressed(heights, load, length=2 * np.pi):
     return repulsive.solve(heights, length, load, tol=TOL)
 
 
-# --- scale ---
-
-
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore:heights of")  # whose unit is not the length's
 @given(seeds, hursts, loads, factors, factors)
@@ -73,9 +70,6 @@ def test_a_measured_law_does_not_know_the_unit(seed, hurst, log_unit, log_flat):
     assert other.psd(1 / unit) == pytest.approx(one.psd(1.0) * height**2 * unit**2, rel=1e-6)
 
 
-# --- order ---
-
-
 @given(st.floats(-6, 6), st.floats(-12, 12), st.floats(1.001, 1e6))
 @example(2.0, 0.0, 2.0)
 def test_effect_falls_with_the_tabor_parameter_of_the_edge(log_t, log_tau, more):
@@ -107,9 +101,6 @@ def test_order_with_load_and_range(seed, n, hurst, load, more, log_range, subpix
     assert tractions[0] <= tractions[1] * (1 + 1e-12)
 
 
-# --- conservation, determinism ---
-
-
 @given(seeds, grids, hursts, loads)
 def test_mean_pressure_complementarity_and_energy(seed, n, hurst, load):
     h = heights_of(seed, n, hurst)
@@ -135,9 +126,6 @@ def test_probabilities_add_up_to_one(hurst, decades, load, correction):
     theory = Persson(rough, correction=correction)
     total = theory.area_fraction(load) + theory.gap_cumulative(np.inf, load)
     assert total == pytest.approx(1, abs=1e-8)
-
-
-# --- symmetry ---
 
 
 @given(seeds, grids, loads, st.tuples(st.integers(0, 30), st.integers(0, 30)), st.booleans())

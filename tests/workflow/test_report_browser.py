@@ -24,21 +24,10 @@ pytestmark = [
     pytest.mark.workflow,
     pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path (apt install chromium)"),
 ]
-FLAGS = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--disable-dev-shm-usage",
-    "--hide-scrollbars",
-    "--host-resolver-rules=MAP * ~NOTFOUND",
-    "--enable-logging=stderr",
-    "--virtual-time-budget=5000",
-]
+FLAGS = "--headless --no-sandbox --disable-gpu --disable-quic --disable-dev-shm-usage"
+FLAGS += " --disable-sync --no-first-run --disable-background-networking --disable-component-update"
+FLAGS += " --hide-scrollbars --enable-logging=stderr --virtual-time-budget=5000"
+FLAGS = [*FLAGS.split(), "--host-resolver-rules=MAP * ~NOTFOUND"]
 A4 = 680  # CSS pixels between the margins of 15 mm
 PROBE = """
 const drawn = () => new Promise((done) => setTimeout(done, 1000));

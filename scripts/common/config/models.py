@@ -212,6 +212,7 @@ class AdhesionSet(Adhesive):
     accuracy: f.Share = optional("allowed relative error of 1/kappa_ad, for model: auto")
     seeds: f.Count = optional("largest number of realisations that are simulated in full")
     refine: Literal[1, 2, 4] = optional("refinement of the case's grid; default 1")
+    half_from: f.Positive = optional("range over h_rms from which half the grid will do")
     maps: AdhesiveMaps = optional("states whose fields are kept")
 
     def _problems(self, context):
@@ -219,7 +220,7 @@ class AdhesionSet(Adhesive):
             yield "accuracy is missing; model: auto chooses by it, relative in 1/kappa_ad"
         if self.model != "auto" and self.accuracy is not None:
             yield f"accuracy = {self.accuracy:g} needs model: auto, which chooses by it"
-        for key in ("seeds", "refine", "maps"):
+        for key in ("seeds", "refine", "half_from", "maps"):
             if self.model == "dmt" and getattr(self, key) is not None:
                 yield f"{key} is of the full model; leave it out with model: dmt"
 

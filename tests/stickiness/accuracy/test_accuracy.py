@@ -177,9 +177,6 @@ def solved(n, seed):
     return contact.area_fraction - dmt.boundary_strip(contact.gap == 0), contact.mean_gap
 
 
-# --- sampling, and what lies beyond the measurement ---------------------------------------------
-
-
 @pytest.mark.parametrize("seeds", [2, 3, 4, 8])
 def test_plain_errors_of_few_skewed_seeds_cover_nine_in_ten(seeds):
     """Log-normal samples of scatter 0.4; 1.645 standard errors would cover 63, 74, 78 and 84 %."""
@@ -267,9 +264,6 @@ def test_grid_error_is_the_smaller_of_law_and_case_within_the_measurement():
     assert grid_error(made_up(), *where, 0.5) == pytest.approx(2 / 64)
     assert grid_error(made_up(), *where, 0.01) == 0.01
     assert grid_error(made_up(), "area", Surface(0.8, 128.0), 0.1, 8, 0.5) == 0.5
-
-
-# --- the worst of several errors ----------------------------------------------------------------
 
 
 def test_joint_error_by_hand():

@@ -14,9 +14,6 @@ POINT = {"h_rms": 2.0, "q0": 0.03, "adhesion_length": 0.011, "range": 0.3}
 MATERIALS = Path(__file__).parents[3] / "config" / "materials.yaml"
 
 
-# --- Violano et al. ------------------------------------------------------------------------
-
-
 def test_traction_ratio_from_gaps_that_obey_the_law():
     # Gaps with the density P(u) = a_V p/(q0 h h) (u/h)^(-1/3), drawn as quantiles, and the general
     # DMT integral must give the closed form.
@@ -86,9 +83,6 @@ def test_limits_sit_on_the_threshold():
     assert criteria.violano(h, q0, 0.05 / (0.99 * modulus), eps, 2.8).sticky is True
 
 
-# --- Pastewka and Robbins ------------------------------------------------------------------
-
-
 def test_pastewka_robbins_as_printed():
     slope, curvature, length, eps = 0.3, 2.0, 0.05, 1.1
     delta = eps * np.sqrt(24 * length / eps)
@@ -123,9 +117,6 @@ def test_power_law_a_v_is_the_limit_of_a_broad_spectrum(hurst):
     assert a_v == pytest.approx(
         criteria.pastewka_robbins_a_v_power_law(hurst, magnification), rel=max(rel, 1e-6)
     )
-
-
-# --- others --------------------------------------------------------------------------------
 
 
 def test_fuller_tabor():

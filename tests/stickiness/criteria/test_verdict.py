@@ -180,23 +180,6 @@ def test_slopes_that_are_not_small_are_warned_of(slope, warned):
     assert [str(one.message) for one in caught] == warned * [f"{text} lengths both in m"]
 
 
-@pytest.mark.parametrize(
-    ("of", "change", "message"),
-    [
-        (ROUGH, {"modulus": -1.0}, "modulus"),
-        (ROUGH, {"poisson": 0.7}, "poisson must be above -1 and at most 0.5, got 0.7"),
-        (ROUGH, {"length": 1e-4}, "length is of measured heights"),
-        (ROUGH, {"a_v": (3.0, 4.0, 5.0)}, "low <= value <= high"),
-        (SMOOTH, {"range": 3e-7}, "range = 3e-07 is more than 10 times the rms height"),
-        (np.zeros((8, 8)), {}, "length is missing"),
-        (np.ones((8, 16)), {"length": 1e-3}, r"both sides of heights of the shape \(8, 16\)"),
-    ],
-)
-def test_bad_arguments_name_what_is_wrong(of, change, message):
-    with pytest.raises(ValueError, match=message):
-        verdict(of, **GEL | change)
-
-
 def test_lengths_scale():
     """Without a length of its own the verdict is that of a surface and range twice as large."""
     larger = SelfAffine(hurst=0.8, q0=3e4, q1=3e8, h_rms=2e-6)

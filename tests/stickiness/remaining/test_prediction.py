@@ -6,7 +6,7 @@ import pytest
 from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.prediction import HYSTERESIS, UNLIKE
-from stickiness.spectrum import SelfAffine
+from stickiness.spectrum import SelfAffine, combine
 from stickiness.surface import realised_spectrum, synthesise
 
 TOUGH = {"adhesion_length": 1.0, "range": 1e-3}
@@ -94,6 +94,13 @@ def test_limits_are_wider_for_surfaces_with_a_direction():
     surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), anisotropy_error_factor=UNLIKE)
     length = surface.threshold(TOUGH["range"], 0.2, 1)
     assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
+
+
+def test_two_rough_solids_are_one_surface_of_their_sum():
+    pair, one = combine(rough(), rough()), rough(h_rms=2**0.5)
+    found, same = (predict(spectrum, **TOUGH) for spectrum in (pair, one))
+    assert found.separation == pytest.approx(same.separation, rel=1e-9)
+    assert found.separation_limits == pytest.approx(same.separation_limits, rel=1e-9)
 
 
 def test_limits_widen_steadily_with_the_direction():
