@@ -11,7 +11,7 @@ of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577,
 import numpy as np
 from scipy import fft, sparse
 
-from stickiness.repulsive import convolution, half_space
+from stickiness.repulsive import convolution, free_edges, half_space
 from stickiness.repulsive.preconditioner import close_gap
 
 # Beyond these two limits the whole grid is as cheap.
@@ -53,7 +53,8 @@ def select_candidates(grid, last, points, below, image, shift):
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid.shape, grid.sides, likely.size):
         return None
-    split = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid)
+    kind = _Split if grid.periodic else _FreeSplit
+    split = half_space.keep(kind, grid.shape, tuple(grid.sides), grid.solid)
     pairs = _pair(likely, grid.shape, split)
     return None if pairs is None else Candidates(grid, likely, split, *pairs)
 
@@ -64,12 +65,12 @@ class Candidates:
     def __init__(self, grid, points, split, near, beside):
         self.points = points
         self._grid, self._split, self._near, self._beside = grid, split, near, beside
-        self._splines = _splines(points, grid.shape, split.coarse)
+        self._splines = _splines(points, grid.shape, split)
         self._transpose = self._splines.T
 
     def compliance(self, pressure):
         """Displacement of all candidates, in single precision."""
-        self._grid.spent += 1 / _SPACING**2
+        self._grid.spent += self._split.share
         image = self._splines @ self._split.convolve(self._transpose @ pressure)
         return _multiply(self._near, pressure, image)
 
@@ -128,14 +129,16 @@ class Candidates:
 class _Split:
     """Short and long waves of the compliance of a periodic solid on a grid."""
 
+    periodic, share = True, 1 / _SPACING**2  # of the points of the grid, in a convolution
+
     def __init__(self, shape, sides, solid):
         self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
+        self.places = [(m / n, 0) for m, n in zip(self.coarse, shape, strict=True)]
         width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
         # Near pairs do not feel how large the cell is.
-        table, patch = (_TABLE, _TABLE), [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
-        q = half_space.effective_wavenumbers(table, patch, solid)
-        self.near = _truncate_kernel(_invert(q) * (1 - _long(table, patch, width)), _REACH)
-        self.beside = _truncate_kernel(q / 2, _BESIDE)
+        table, patch, q = _patch(shape, sides, solid)
+        self.near = _truncate_kernel(_tabulate(_invert(q) * (1 - _long(table, patch, width))), _REACH)
+        self.beside = _truncate_kernel(_tabulate(q / 2), _BESIDE)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.fftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
@@ -150,6 +153,24 @@ class _Split:
         return self._image.ravel()
 
 
+class _FreeSplit(free_edges.Split):
+    """The same of an unbounded half-space."""
+
+    periodic, places = False, [(1 / free_edges.SPACING, 1)] * 2
+
+    def __init__(self, shape, sides, solid):
+        pixel = tuple(a / n for a, n in zip(sides, shape, strict=True))
+        super().__init__(shape, pixel, np.float32, free_edges.COARSE)
+        rest = self.rest([_REACH] * 2)
+        self.near = _truncate_kernel(rest, _REACH)
+        self.beside = _truncate_kernel(_tabulate(_patch(shape, sides, solid)[2] / 2), _BESIDE)
+
+
+def _patch(shape, sides, solid):
+    table, patch = (_TABLE, _TABLE), [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
+    return table, patch, half_space.effective_wavenumbers(table, patch, solid)
+
+
 def _long(shape, lengths, width):
     """Share of a wave that counts as long: the rest falls off with distance to the power -5."""
     x = (width * half_space.wavenumbers(shape, lengths)) ** 2
@@ -160,10 +181,14 @@ def _invert(q):
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
-def _truncate_kernel(symbol, reach):
+def _tabulate(symbol):
+    return np.fft.irfft2(symbol, (_TABLE, _TABLE))
+
+
+def _truncate_kernel(kernel, reach):
     """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
-    kernel = np.fft.irfft2(symbol, (_TABLE, _TABLE)).astype(np.float32)
-    first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
+    kernel = kernel.astype(np.float32)
+    first, second = np.arange(_REACH + 1)[:, None], np.abs(np.arange(-_REACH, _REACH + 1))
     return np.where(np.hypot(first, second) <= reach, kernel[first, second], 0), kernel[0, 0]
 
 
@@ -181,7 +206,8 @@ def _pair(points, shape, split):
     size, width, span = points.size, shape[1] + 2 * _REACH, np.int32(2 * _REACH + 1)
     row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
-    left, right = np.flatnonzero(column >= shape[1] - _REACH), np.flatnonzero(column < _REACH)
+    beside = _REACH if split.periodic else 0
+    left, right = np.flatnonzero(column >= shape[1] - beside), np.flatnonzero(column < beside)
     index = np.concatenate([np.arange(size, dtype=np.int32), left, right], dtype=np.int32)
     places = row[index] * np.int32(width) + column[index] + np.int32(_REACH)
     places[size : size + left.size] -= np.int32(shape[1])
@@ -191,7 +217,11 @@ def _pair(points, shape, split):
     # In every row the neighbours are a run of points: the half of a disk holds every pair once.
     down = np.arange(_REACH + 1, dtype=np.int32)[:, None]
     half = np.sqrt(_REACH**2 - down**2).astype(np.int32)
-    corner = (row + down) % np.int32(shape[0]) * np.int32(width) + column
+    corner = row + down
+    if split.periodic:
+        corner %= np.int32(shape[0])
+    corner *= np.int32(width)
+    corner += column
     begin, end = corner + (np.int32(_REACH) - half), corner + (half + np.int32(_REACH + 1))
     begin[0] += _REACH + 1
     begin, end = (np.searchsorted(places, a.ravel()).reshape(a.shape).T for a in (begin, end))
@@ -218,11 +248,12 @@ def _symmetric(kernel_and_diagonal, offset, columns, starts):
     return upper, upper.T, diagonal
 
 
-def _splines(points, shape, coarse):
+def _splines(points, shape, split):
     """Cubic B-splines around the points of the coarse grid, at some of the fine one: a row each."""
     columns, weights = np.zeros((points.size, 1), np.int32), np.ones((points.size, 1), np.float32)
-    for n, m, at in zip(shape, coarse, np.divmod(points, shape[1]), strict=True):
-        left, t = np.divmod(at[:, None] * (m / n), 1)
+    coarse = split.coarse
+    for m, (ratio, first), at in zip(coarse, split.places, np.divmod(points, shape[1]), strict=True):
+        left, t = np.divmod(at[:, None] * ratio + first, 1)
         u = 1 - t
         w = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6
         here = (left.astype(np.int32) + np.arange(-1, 3, dtype=np.int32)) % np.int32(m)
