@@ -23,6 +23,7 @@ _SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid 
 _REACH = 10  # of near pairs, in pixels
 _BESIDE = 3  # and of the stiffness that preconditions
 _TABLE = 64  # pixels along the sides of the table of near pairs
+_PATCH = (_TABLE, _TABLE)
 #: Penetrations up to this multiple of the rms gap in contact may yet vanish.
 ADMITTED_PENETRATION = 0.7
 _MAX_SET_CHANGES = 30  # changes of the set in a correction
@@ -53,24 +54,27 @@ def select_candidates(grid, last, points, below, image, shift):
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid.shape, grid.sides, likely.size):
         return None
-    kind = _Split if grid.periodic else _FreeSplit
-    split = half_space.keep(kind, grid.shape, tuple(grid.sides), grid.solid)
-    pairs = _pair(likely, grid.shape, split)
-    return None if pairs is None else Candidates(grid, likely, split, *pairs)
+    split, places = (_split if grid.periodic else _enclose)(grid, likely)
+    pairs = _pair(places, split, _MAX_PAIRS * grid.heights.size)
+    return None if pairs is None else Candidates(grid, likely, places, split, *pairs)
 
 
 class Candidates:
-    """Points that may touch (flat, increasing), and the approximate compliance among them."""
+    """Points that may touch (flat, increasing), and the approximate compliance among them.
 
-    def __init__(self, grid, points, split, near, beside):
+    `places` are these points on the grid of the `split`.
+    """
+
+    def __init__(self, grid, points, places, split, near, beside):
         self.points = points
         self._grid, self._split, self._near, self._beside = grid, split, near, beside
-        self._splines = _splines(points, grid.shape, split)
+        self._portion = np.prod(split.shape) / grid.heights.size
+        self._splines = _splines(places, split)
         self._transpose = self._splines.T
 
     def compliance(self, pressure):
         """Displacement of all candidates, in single precision."""
-        self._grid.spent += self._split.share
+        self._grid.spent += self._split.share * self._portion
         image = self._splines @ self._split.convolve(self._transpose @ pressure)
         return _multiply(self._near, pressure, image)
 
@@ -132,13 +136,15 @@ class _Split:
     periodic, share = True, 1 / _SPACING**2  # of the points of the grid, in a convolution
 
     def __init__(self, shape, sides, solid):
+        self.shape = shape
         self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
         self.places = [(m / n, 0) for m, n in zip(self.coarse, shape, strict=True)]
         width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
         # Near pairs do not feel how large the cell is.
-        table, patch, q = _patch(shape, sides, solid)
-        self.near = _truncate_kernel(_tabulate(_invert(q) * (1 - _long(table, patch, width))), _REACH)
-        self.beside = _truncate_kernel(_tabulate(q / 2), _BESIDE)
+        patch = [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
+        q = half_space.effective_wavenumbers(_PATCH, patch, solid)
+        near = np.fft.irfft2(_invert(q) * (1 - _long(_PATCH, patch, width)), _PATCH)
+        self.near, self.beside = _truncate_kernel(near, _REACH), _stiffness_beside(q)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.fftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
@@ -158,17 +164,26 @@ class _FreeSplit(free_edges.Split):
 
     periodic, places = False, [(1 / free_edges.SPACING, 1)] * 2
 
-    def __init__(self, shape, sides, solid):
-        pixel = tuple(a / n for a, n in zip(sides, shape, strict=True))
+    def __init__(self, shape, pixel, solid):
         super().__init__(shape, pixel, np.float32, free_edges.COARSE)
         rest = self.rest([_REACH] * 2)
-        self.near = _truncate_kernel(rest, _REACH)
-        self.beside = _truncate_kernel(_tabulate(_patch(shape, sides, solid)[2] / 2), _BESIDE)
+        self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
+        patch = [_TABLE * a for a in pixel]
+        self.beside = _stiffness_beside(half_space.effective_wavenumbers(_PATCH, patch, solid))
 
 
-def _patch(shape, sides, solid):
-    table, patch = (_TABLE, _TABLE), [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
-    return table, patch, half_space.effective_wavenumbers(table, patch, solid)
+def _split(grid, points):
+    """Split of a periodic grid, and its points."""
+    return half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid), points
+
+
+def _enclose(grid, points):
+    """Split of a rectangle with free edges that holds the points, and their places in it."""
+    row, column = np.divmod(points, grid.shape[1])
+    row, column = row - row.min(), column - column.min()
+    shape = int(row.max()) + 1, int(column.max()) + 1
+    pixel = tuple(a / n for a, n in zip(grid.sides, grid.shape, strict=True))
+    return _FreeSplit(shape, pixel, grid.solid), row * shape[1] + column
 
 
 def _long(shape, lengths, width):
@@ -181,14 +196,14 @@ def _invert(q):
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
-def _tabulate(symbol):
-    return np.fft.irfft2(symbol, (_TABLE, _TABLE))
+def _stiffness_beside(q):
+    return _truncate_kernel(np.fft.irfft2(q / 2, _PATCH), _BESIDE)
 
 
 def _truncate_kernel(kernel, reach):
     """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
     kernel = kernel.astype(np.float32)
-    first, second = np.arange(_REACH + 1)[:, None], np.abs(np.arange(-_REACH, _REACH + 1))
+    first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
     return np.where(np.hypot(first, second) <= reach, kernel[first, second], 0), kernel[0, 0]
 
 
@@ -201,8 +216,9 @@ def _multiply(matrix, values, image):
     return image
 
 
-def _pair(points, shape, split):
+def _pair(points, split, most):
     """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
+    shape = split.shape
     size, width, span = points.size, shape[1] + 2 * _REACH, np.int32(2 * _REACH + 1)
     row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
@@ -227,7 +243,7 @@ def _pair(points, shape, split):
     begin, end = (np.searchsorted(places, a.ravel()).reshape(a.shape).T for a in (begin, end))
     count = (end - begin).ravel()
     ends = np.cumsum(count)
-    if ends[-1] > _MAX_PAIRS * shape[0] * shape[1]:
+    if ends[-1] > most:
         return None
     entry = np.arange(ends[-1], dtype=np.int32)
     entry += np.repeat((begin.ravel() - ends + count).astype(np.int32), count)
@@ -248,11 +264,12 @@ def _symmetric(kernel_and_diagonal, offset, columns, starts):
     return upper, upper.T, diagonal
 
 
-def _splines(points, shape, split):
+def _splines(points, split):
     """Cubic B-splines around the points of the coarse grid, at some of the fine one: a row each."""
     columns, weights = np.zeros((points.size, 1), np.int32), np.ones((points.size, 1), np.float32)
     coarse = split.coarse
-    for m, (ratio, first), at in zip(coarse, split.places, np.divmod(points, shape[1]), strict=True):
+    at_axes = np.divmod(points, split.shape[1])
+    for m, (ratio, first), at in zip(coarse, split.places, at_axes, strict=True):
         left, t = np.divmod(at[:, None] * ratio + first, 1)
         u = 1 - t
         w = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6

@@ -58,12 +58,18 @@ class Split:
     def _smooth(self, pixels):
         """Mean of ``erf(r/w)/(pi r)`` over a pixel, by Gauss's rule, times its area."""
         nodes, weights = np.polynomial.legendre.leggauss(3)
-        x, y = (np.asarray(m) * a for m, a in zip(pixels, self.pixel, strict=True))
-        total, nearest = 0.0, 1e-9 * self._width  # in the middle the quotient has a limit
+        pixels = [np.asarray(m) for m in pixels]
+        near = tuple(slice(np.searchsorted(m * a, 6 * self._width)) for m, a in zip(pixels, self.pixel, strict=True))
+        total = 0.0
         for (a, u), (b, v) in product(zip(nodes / 2, weights / 2, strict=True), repeat=2):
-            r = np.hypot.outer(x + a * self.pixel[0], y + b * self.pixel[1])
-            np.maximum(r, nearest, out=r)
-            total += u * v * special.erf(r / self._width) / r
+            x, y = (((m + c) * side)**2 for m, c, side in zip(pixels, (a, b), self.pixel, strict=True))
+            r = np.add.outer(x, y)
+            np.sqrt(r, out=r)
+            np.maximum(r, 1e-9 * self._width, out=r)  # in the middle the quotient has a limit
+            smooth = special.erf(r[near] / self._width)
+            np.divide(u * v, r, out=r)
+            r[near] *= smooth
+            total += r
         return total * (self.pixel[0] * self.pixel[1] / np.pi)
 
     def rest(self, reach):
