@@ -106,7 +106,7 @@ class _Grid:
     def displace(self, field, points, pressure):
         """Displacement by pressure on some points; `image` of the field holds it."""
         operator = field.operator
-        if not self.splits or not dilute_contact.is_worthwhile(self.shape, self.sides, points.size):
+        if not self.splits or not dilute_contact.is_worthwhile(self, points.size):
             return field.apply(operator.compliance, points, pressure, self.rows(points))
         operator.displace(points, pressure, field.image.reshape(self.shape))
         return field.image
@@ -142,7 +142,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
             return full
-    dilute = dilute_contact.is_worthwhile(grid.shape, grid.sides, points.size)
+    dilute = dilute_contact.is_worthwhile(grid, points.size)
     best = precondition = candidates = None
     iterations, stalled, loose, changed = 0, 0, _REDUCTION_WHILE_CHANGING, points.size
     while True:

@@ -17,6 +17,7 @@ from stickiness.repulsive.preconditioner import close_gap
 # Beyond these two limits the whole grid is as cheap.
 _MAX_CANDIDATES = 0.012  # of all points
 _MAX_PAIRS = 0.8  # near pairs, per point of the grid
+_FREE_FACTOR = 2  # of both with free edges, where convolutions are on four times the points
 _CANDIDATE_GAP = 1.0  # of the rms gap in contact: candidates are what lies below
 _SPACING = 4  # of the grid of long waves, in pixels
 _SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 0.013
@@ -32,11 +33,16 @@ _BEST_REDUCTION = 0.002  # and one that it can still make, if it is the last
 _REDUCTION_WHILE_CHANGING = 0.1  # and one between changes of the set
 
 
-def is_worthwhile(shape, sides, count):
+def is_worthwhile(grid, count):
     """Whether corrections among `count` candidates pay on a grid, of about square pixels."""
-    pixel = [a / n for a, n in zip(sides, shape, strict=True)]
+    pixel = [a / n for a, n in zip(grid.sides, grid.shape, strict=True)]
     square = max(pixel) < 1.5 * min(pixel)
-    return square and min(shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * shape[0] * shape[1]
+    return square and min(grid.shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * _points(grid)
+
+
+def _points(grid):
+    """Points of a grid, as many as convolutions on it cost."""
+    return grid.heights.size * (1 if grid.periodic else _FREE_FACTOR)
 
 
 def select_candidates(grid, last, points, below, image, shift):
@@ -52,10 +58,10 @@ def select_candidates(grid, last, points, below, image, shift):
     if last is not None:
         likely[last.points] = True
     likely = np.flatnonzero(likely)
-    if not is_worthwhile(grid.shape, grid.sides, likely.size):
+    if not is_worthwhile(grid, likely.size):
         return None
     split, places = (_split if grid.periodic else _enclose)(grid, likely)
-    pairs = _pair(places, split, _MAX_PAIRS * grid.heights.size)
+    pairs = _pair(places, split, _MAX_PAIRS * _points(grid))
     return None if pairs is None else Candidates(grid, likely, places, split, *pairs)
 
 

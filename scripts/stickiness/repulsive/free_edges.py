@@ -59,10 +59,15 @@ class Split:
         """Mean of ``erf(r/w)/(pi r)`` over a pixel, by Gauss's rule, times its area."""
         nodes, weights = np.polynomial.legendre.leggauss(3)
         pixels = [np.asarray(m) for m in pixels]
-        near = tuple(slice(np.searchsorted(m * a, 6 * self._width)) for m, a in zip(pixels, self.pixel, strict=True))
+        near = tuple(
+            slice(np.searchsorted(m * a, 6 * self._width))
+            for m, a in zip(pixels, self.pixel, strict=True)
+        )
         total = 0.0
         for (a, u), (b, v) in product(zip(nodes / 2, weights / 2, strict=True), repeat=2):
-            x, y = (((m + c) * side)**2 for m, c, side in zip(pixels, (a, b), self.pixel, strict=True))
+            x, y = (
+                ((m + c) * side) ** 2 for m, c, side in zip(pixels, (a, b), self.pixel, strict=True)
+            )
             r = np.add.outer(x, y)
             np.sqrt(r, out=r)
             np.maximum(r, 1e-9 * self._width, out=r)  # in the middle the quotient has a limit
@@ -132,47 +137,52 @@ def _blur(values, size):
     return np.cos(np.outer(wave, np.arange(values.size) - middle)) @ values
 
 
+# Slices tell the compiler that no index is negative, so that it uses vector instructions.
 @compiled
 def _spread(points, values, weights, columns, coarse):
     """Spread values over the coarse points beside them: the transpose of `_interpolate`."""
     spacing, order = weights.shape
     for k in range(points.size):
         i, j = divmod(points[k], columns)
+        along = weights[j % spacing]
         for u in range(order):
             value = values[k] * weights[i % spacing, u]
+            part = coarse[i // spacing + u, j // spacing :]
             for v in range(order):
-                coarse[i // spacing + u, j // spacing + v] += value * weights[j % spacing, v]
+                part[v] += value * along[v]
 
 
 @compiled
 def _interpolate(coarse, weights, out):
     spacing, order = weights.shape
     row = np.empty(coarse.shape[1], coarse.dtype)
+    fine = np.empty(row.size - order + 1, coarse.dtype)
     for i in range(out.shape[0]):
         row[:] = 0
         for u in range(order):
-            weight = weights[i % spacing, u]
+            weight, part = weights[i % spacing, u], coarse[i // spacing + u]
             for j in range(row.size):
-                row[j] += weight * coarse[i // spacing + u, j]
-        for j in range(row.size - order + 1):
-            for f in range(min(spacing, out.shape[1] - spacing * j)):
-                value = row[j] * weights[f, 0]
-                for v in range(1, order):
-                    value += row[j + v] * weights[f, v]
-                out[i, spacing * j + f] = value
+                row[j] += weight * part[j]
+        for f in range(spacing):
+            fine[:] = 0
+            for v in range(order):
+                weight, part = weights[f, v], row[v:]
+                for j in range(fine.size):
+                    fine[j] += weight * part[j]
+            part = out[i, f::spacing]
+            part[:] = fine[: part.size]
 
 
 @compiled
 def _add_rest(starts, columns, values, near, half, out):
     """Add the displacement near each point; `starts`: the first point in each row."""
-    rows, size = out.shape
     reach, middle = near.shape[0] - 1, near.shape[1] // 2
-    for i in range(rows):
-        row = out[i]
-        for k in range(max(0, i - reach), min(rows, i + reach + 1)):
+    for i in range(out.shape[0]):
+        for k in range(max(0, i - reach), min(out.shape[0], i + reach + 1)):
             kernel, width = near[abs(i - k)], half[abs(i - k)]
             for t in range(starts[k], starts[k + 1]):
                 first, value = max(0, columns[t] - width), values[t]
-                left = middle - columns[t] + first
-                for j in range(min(size, columns[t] + width + 1) - first):
-                    row[first + j] += value * kernel[left + j]
+                row = out[i, first : columns[t] + width + 1]
+                part = kernel[middle - columns[t] + first :]
+                for j in range(row.size):
+                    row[j] += value * part[j]
