@@ -8,7 +8,7 @@ import pytest
 from stickiness.adhesive import preconditioner as smoother
 from stickiness.adhesive import problem, softening_descent, solver
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, preconditioner
+from stickiness.repulsive import convolution, half_space, preconditioner
 
 SIZE = 60
 RNG = np.random.default_rng(1)
@@ -16,9 +16,19 @@ MASKS = {"above", "free", "points"}
 NUMBERS = {"bound", "factor", "length", "mean", "pressure", "reach", "unit", "weight"}
 LOOPS = [
     function
-    for module in (smoother, problem, softening_descent, solver, convolution, preconditioner)
+    for module in (
+        smoother,
+        problem,
+        softening_descent,
+        solver,
+        convolution,
+        half_space,
+        preconditioner,
+    )
     for function in vars(module).values()
-    if hasattr(function, "__wrapped__") and function.__module__ == module.__name__
+    if inspect.isfunction(function)
+    and hasattr(function, "__wrapped__")
+    and function.__module__ == module.__name__
 ]
 IN_DOUBLE = (problem._unloaded, problem._react, solver._sum_up)
 
@@ -31,18 +41,26 @@ def interpolation():
     return preconditioner._interpolation(12, 3), preconditioner._interpolation(5, 2)
 
 
+def transposed():
+    return [
+        preconditioner._transpose(*axis, m) for axis, m in zip(interpolation(), (3, 2), strict=True)
+    ]
+
+
+GROUP = np.array([1, 3, 6, 8])
 # Arguments of loops over grids of more than one dimension.
 ON_GRIDS = {
     smoother._add_around: (single(6, 10), single(3, 5), single(10)),
     smoother._spread: (single(3, 5), np.float32(0.3), single(6, 10), single(6, 10), single(6)),
-    convolution._combine: (*single(2, 4, 5), *single(2, 4, 10), single(10)),
-    preconditioner._add_to_coarse: (
-        *single(2, 12, 5),
-        *interpolation(),
-        single(3, 5),
-        single(3, 2),
+    half_space._double: (1, 3, single(4, 3), single(8, 6)),
+    convolution._scale: (single(4, 6), single(4, 20)),
+    convolution._turn: (single(16, 9), GROUP, single(4, 16), True),
+    convolution._combine: (*single(2, 4, 6), *(single(2, 4, 10) + 1j * single(2, 4, 10)), 10),
+    preconditioner._add_to_coarse: (1, *single(2, 12, 5), *transposed(), single(2, 2)),
+    preconditioner._interpolate_along: (single(3, 2), interpolation()[1], single(3, 5)),
+    preconditioner._interpolate_between: (
+        *(6, single(3, 5), interpolation()[0], single(12, 5), single(4, 5)),
     ),
-    preconditioner._interpolate: (single(3, 2), *interpolation(), single(3, 5), *single(2, 12, 5)),
     preconditioner._interpolate_at: (
         *(np.array([0, 7, 59]), single(3, 2), *interpolation(), single(3)),
     ),

@@ -36,9 +36,9 @@ class Smoother:
         if self.halved:
             # Squared transfer of full weighting, summed over the aliases along each axis; that is
             # B^T / 16, and interpolation is B / 4.
-            weights = [(1 + np.cos(np.pi * np.fft.fftfreq(n)) ** 2) / 2 for n in shape]
+            weights = [(1 + np.cos(np.pi * np.fft.rfftfreq(n)) ** 2) / 2 for n in shape]
             symbol -= self._constant
-            symbol /= 64 * np.outer(weights[1][: symbol.shape[0]], weights[0])
+            symbol /= 64 * np.outer(weights[1], weights[0])
         self._convolution = convolution.choose(shape, np.float32)
         self._every = np.arange(shape[0])
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))

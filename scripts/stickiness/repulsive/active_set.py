@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stickiness.repulsive import convolution, dilute_contact, half_space
+from stickiness.repulsive import convolution, dilute_contact, half_space, sharing
 from stickiness.repulsive.preconditioner import Preconditioner, close_gap
 from stickiness.solids import HALF_SPACE, Solid
 
@@ -25,6 +25,7 @@ _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
 _FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
 _SINGLE_PRECISION_LIMIT = 1e-4  # of the largest height: a smaller residual needs double precision
 _SPLIT_LIMIT = 1e-9  # of the largest height: a smaller tolerance needs convolutions
+_LARGEST_KEPT = 2**22  # points: beyond this memory is dearer than the time to make operators again
 # Updates without progress …
 _STALLED_UPDATES_TO_TIGHTEN = 8  # … after which the set is solved ten times tighter
 _MAX_STALLED_DILUTE = 2  # … after which corrections among few points are given up
@@ -44,8 +45,8 @@ class Problem:
 
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""
-        shape = self.heights.shape
-        return half_space.half_space(shape, self.sides, dtype, self.solid, self.periodic)
+        kind = self.heights.shape, self.sides, dtype, self.solid, self.periodic
+        return half_space.half_space(*kind, kept=self.heights.size <= _LARGEST_KEPT)
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,18 +63,22 @@ class State:
 
 
 class _Field:
-    """A field that is zero but at some points, and its image under an operator."""
+    """A field that is zero but at some points, replaced by its image under an operator."""
 
     def __init__(self, operator, memory):
         self.operator, self.shape = operator, operator.shape
-        # Shared: zeros are zeros in any precision, and an image is read before the next is made.
-        self.field, self.image = (part.view(operator.dtype)[: part.size] for part in memory)
+        self.image = memory.view(operator.dtype)[: self.shape[0] * self.shape[1]]
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
-        self.field[points] = values
-        operation(self.field.reshape(self.shape), self.image.reshape(self.shape), rows_in, rows_out)
-        self.field[points] = 0
+        image = self.image.reshape(self.shape)
+
+        def clear(rows):
+            image[rows_in[rows]] = 0
+
+        sharing.spread(clear, rows_in.size, self.shape[1])
+        sharing.put(self.image, points, values)
+        operation(image, image, rows_in, rows_out)
         return self.image
 
 
@@ -84,12 +89,13 @@ class _Grid:
         self.heights, self.shape = problem.heights, problem.heights.shape
         self.solid, self.sides, self.periodic = problem.solid, problem.sides, problem.periodic
         self.active = np.zeros(self.heights.size, bool)
-        dtype = np.float32 if rough else np.float64
-        memory = [convolution.aligned_zeros(self.heights.size, dtype) for _ in range(2)]
-        self.exact = _Field(problem.operator(dtype), memory)
+        # One array in double precision, or two in single: an image is read before the next is made.
+        memory = convolution.aligned_zeros(self.heights.size, np.float64)
+        self.scratch = memory.view(np.float32)[self.heights.size :]
+        self.exact = _Field(problem.operator(np.float32 if rough else np.float64), memory)
         self.quick = self.exact if rough else _Field(problem.operator(np.float32), memory)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
-        largest = float(np.abs(self.heights).max())
+        largest = max(float(self.heights.max()), -float(self.heights.min()))
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
@@ -112,18 +118,19 @@ class _Grid:
         return field.image
 
     def rows(self, points):
-        hit = np.zeros(self.shape[0], bool)
-        hit[points // self.shape[1]] = True
-        return np.flatnonzero(hit)
+        """Rows that hold some of the points, given in increasing order."""
+        begins = np.searchsorted(points, np.arange(self.shape[0] + 1) * self.shape[1])
+        return np.flatnonzero(np.diff(begins))
 
 
-def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False):
+def relax(problem, guess, *, tol, max_iterations, rough=False):
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
-    Starts from a guess of the `gap` (single precision), from one of the `pressure` (any positive
-    mean), or from a uniform pressure on the highest points. `rough`: single precision suffices,
-    `tol` is well above 1e-5.
+    Starts from a `guess` of the "gap" (single precision), which is taken out of the mapping so that
+    its memory is free, from one of the "pressure" (any positive mean), or from a uniform pressure
+    on the highest points. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
+    gap, pressure = guess.pop("gap", None), guess.get("pressure")
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
     max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
@@ -132,7 +139,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
     total = load * heights.size
     if gap is not None:
         points, pressure = _predicted_from_gap(grid, gap, load)
-        gap = None  # frees the memory, if nobody else holds it
+        gap = None  # frees the memory
     elif pressure is not None:
         points, pressure = _predicted_from_pressure(grid, pressure, total)
     else:
@@ -205,6 +212,7 @@ def relax(problem, *, tol, max_iterations, gap=None, pressure=None, rough=False)
             precondition = None
         changed += admitted.size
         field = grid.quick if residual > grid.single_limit else grid.exact
+    candidates = precondition = None  # frees memory
     return _state(grid, best, field, pressure, iterations)
 
 
@@ -226,14 +234,18 @@ def _gap(grid, field, points, pressure):
     The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
     """
     image = grid.displace(field, points, pressure)
-    np.subtract(image, grid.heights.ravel(), out=image, casting="same_kind")
-    gaps = image[points].astype(float, copy=False)
+    heights = grid.heights.ravel()
+
+    def lower(chunk):
+        np.subtract(image[chunk], heights[chunk], out=image[chunk], casting="same_kind")
+
+    sharing.spread(lower, image.size)
+    gaps = sharing.take(image, points).astype(float, copy=False)
     shift = float(-gaps.mean())
     gaps += shift
-    below = np.flatnonzero(image < -shift)
-    grid.active[points] = True
-    below = below[~grid.active[below]]
-    grid.active[points] = False
+    sharing.put(grid.active, points, True)
+    below = sharing.find(lambda c: (image[c] < -shift) & ~grid.active[c], image.size)
+    sharing.put(grid.active, points, False)
     depth = float(-(image[below].min() + shift)) if below.size else 0.0
     return shift, gaps, below, max(float(np.abs(gaps).max()), depth)
 
@@ -253,16 +265,23 @@ def _predicted_from_gap(grid, gap, load):
     """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
     operator, shape = grid.quick.operator, grid.shape
     surface = grid.quick.image.reshape(shape)  # scratch: not in use here
-    np.add(gap, grid.heights, out=surface, casting="same_kind")
-    pressure = operator.stiffness(surface)
-    pressure += np.float32(load)
-    np.multiply(gap, np.float32(PREDICTION * operator.mean_stiffness), out=surface)
-    np.maximum(surface, 0, out=surface)
-    points = np.flatnonzero(pressure > surface)
+    gap, heights, flat = gap.ravel(), grid.heights.ravel(), surface.ravel()
+
+    def add(chunk):
+        np.add(gap[chunk], heights[chunk], out=flat[chunk], casting="same_kind")
+
+    sharing.spread(add, gap.size)
+    pressure = operator.stiffness(surface, grid.scratch.reshape(shape)).ravel()
+    weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
+
+    def touches(chunk):
+        return pressure[chunk] + mean > np.maximum(gap[chunk] * weight, 0)
+
+    points = sharing.find(touches, gap.size)
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
-    pressure = pressure.ravel()[points].astype(float)
-    return points, _balanced(np.maximum(pressure, 0), load * gap.size)
+    touching = (sharing.take(pressure, points) + mean).astype(float)
+    return points, _balanced(np.maximum(touching, 0), load * gap.size)
 
 
 def _predicted_from_pressure(grid, pressure, total):
@@ -270,9 +289,10 @@ def _predicted_from_pressure(grid, pressure, total):
     points = np.flatnonzero(flat > 0)
     field = grid.exact if grid.periodic else grid.quick
     shift, *_ = _gap(grid, field, points, _balanced(flat[points], total))
-    threshold = field.image + shift
+    threshold = field.image
+    threshold += threshold.dtype.type(shift)
     threshold *= PREDICTION * field.operator.mean_stiffness * (flat.sum() / total)
-    predicted = np.flatnonzero(flat > np.maximum(threshold, 0))
+    predicted = np.flatnonzero(flat > np.maximum(threshold, 0, out=threshold))
     if predicted.size:
         points = predicted
     return points, _balanced(flat[points], total)
@@ -287,14 +307,11 @@ def _balanced(pressure, total):
 
 
 def _joined(grid, field, points, pressure, extra, shift):
-    grid.active[points] = True
-    grid.active[extra] = True
-    joined = np.flatnonzero(grid.active)
-    grid.active[joined] = False
-    spread = np.zeros(joined.size)
+    at = np.searchsorted(points, extra)
+    joined = np.insert(points, at, extra)
     # In the precision of the grid, be it single.
-    spread[np.searchsorted(joined, points)] = pressure.astype(grid.exact.field.dtype, copy=False)
-    gaps = field.image[joined].astype(float, copy=False)
+    spread = np.insert(pressure.astype(grid.exact.image.dtype, copy=False), at, 0).astype(float)
+    gaps = sharing.take(field.image, joined).astype(float, copy=False)
     gaps += shift
     return joined, spread, gaps
 
@@ -304,10 +321,15 @@ def _state(grid, best, field, last, iterations):
     # The image may belong to a later, worse iterate, or be in single precision.
     if pressure is not last or field is not grid.exact:
         shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
-    gap, filled = grid.exact.image, grid.exact.field
-    gap += gap.dtype.type(shift)
-    np.maximum(gap, 0, out=gap)
-    gap[touching] = 0
-    filled[touching] = pressure
+    gap = grid.exact.image
+    filled = np.zeros_like(gap)
+
+    def lift(chunk):
+        gap[chunk] += gap.dtype.type(shift)
+        np.maximum(gap[chunk], 0, out=gap[chunk])
+
+    sharing.spread(lift, gap.size)
+    sharing.put(gap, touching, 0)
+    sharing.put(filled, touching, pressure)
     fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size
     return State(*fields, shift, area, residual, iterations, grid.pairs)

@@ -1,25 +1,30 @@
-"""Blocked convolutions of a real periodic field with an even kernel, on one thread.
+"""Blocked convolutions of a real periodic field with an even kernel.
 
 The transform of a large grid is bound by memory, not by arithmetic. Rows are therefore transformed
 a block at a time, then a few wavenumbers at a time along the other axis, multiplied by the symbol
 of the kernel and transformed back while they are in cache. Rows that hold nothing, or of which
-nothing is wanted, are left out.
+nothing is wanted, are left out. Threads share the blocks (`sharing`).
 
 All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on a busy machine.
 """
 
 import threading
+from functools import partial
+from types import SimpleNamespace
+from weakref import WeakValueDictionary
 
 import numpy as np
 import pyfftw
 
 from stickiness.compiled import compiled
+from stickiness.repulsive import sharing
 
 _FLAGS = ("FFTW_ESTIMATE", "FFTW_DESTROY_INPUT")
 _ROWS = 64  # rows transformed at a time along axis 1
 _STRIP = 2**12  # numbers transformed at a time along axis 0 on either side of a mirror: 32 kB
 _CACHED = 2**14  # complex numbers transformed at a time along axis 0: 256 kB
 _ALIGNED = 64  # bytes
+_U = np.uint64  # an index that cannot be negative: the compiler need not check
 
 
 class _Count(threading.local):
@@ -31,26 +36,41 @@ class _Count(threading.local):
 COUNT = _Count()
 
 
+class _Spectra(threading.local):
+    """Memory of the spectra of this thread's convolutions, by shape, while any of them lives."""
+
+    def __init__(self):
+        self.memory = WeakValueDictionary()
+
+
+_SPECTRA = _Spectra()
+
+
 class _Convolution:
     """Transforms of blocks of rows, into a `_spectrum` that subclasses multiply by the symbol."""
 
     _packed = False
 
     def __init__(self, shape, dtype, modes):
-        self.shape, self._dtype = shape, dtype
+        self.shape, self._dtype, self._modes = shape, dtype, modes
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
-        self._real = pyfftw.zeros_aligned((self._rows, shape[1]), dtype)
-        self._half = self._zeros(self._rows, modes)
-        self._buffer = self._real.view(self._numbers) if self._packed else self._real
-        self._rows_forward = _plan(self._buffer, self._half, "FFTW_FORWARD")
-        self._rows_backward = _plan(self._half, self._buffer, "FFTW_BACKWARD")
+        self._benches = {}  # one for each of the threads that share the work
 
-    def _zeros(self, rows, columns):
-        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)[:, :columns]
+    def _padded(self, rows, columns):
+        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)
+
+    def _share_spectrum(self, rows, columns):
+        """Spectrum in memory of all convolutions of this shape: none uses it between calls."""
+        size = rows * _stride(columns) * self._numbers.itemsize
+        memory = _SPECTRA.memory.get(self.shape)
+        if memory is None or memory.size < size:
+            memory = _SPECTRA.memory[self.shape] = aligned_zeros(size, np.uint8)
+        self._memory = memory  # a view would not keep it, but what it is a view of
+        return memory[:size].view(self._numbers).reshape(rows, -1)
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
-        """Convolve `field` into `out`, another array, with what `symbol` returned.
+        """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
 
         `rows_in`, `rows_out`: increasing indices of the rows that are not zero, and of those
         wanted, all by default. Both arrays may be the corner of the grid that holds these rows:
@@ -61,23 +81,51 @@ class _Convolution:
         rows_out = np.arange(len(out)) if rows_out is None else rows_out
         if rows_in.size < self.shape[0]:
             self._spectrum[...] = 0
-        for span, count, direct in self._blocks(field, rows_in):
-            if direct:
-                _run(self._rows_forward, field[span].view(self._numbers), self._by_rows[span])
-                continue
-            width = field.shape[1]
-            self._real[:count, :width] = field[span]
-            self._real[:count, width:] = 0
-            _run(self._rows_forward, self._buffer, self._half)
-            self._by_rows[span] = self._half[:count]
-        self._multiply(symbol)
-        for span, count, direct in self._blocks(out, rows_out):
-            if direct:
-                _run(self._rows_backward, self._by_rows[span], out[span].view(self._numbers))
-                continue
-            self._half[:count] = self._by_rows[span]
-            _run(self._rows_backward, self._half, self._buffer)
-            out[span] = self._real[:count, : out.shape[1]]
+        self._share(partial(self._forward, field), self._blocks(field, rows_in))
+        self._share(partial(self._multiply, symbol), self._parts)
+        self._share(partial(self._backward, out), self._blocks(out, rows_out))
+        for bench in self._benches.values():  # whose plans would keep the fields in memory
+            bench.rows_forward.update_arrays(bench.buffer, bench.half)
+            bench.rows_backward.update_arrays(bench.half, bench.buffer)
+
+    def _share(self, work, parts):
+        def do(worker, part):
+            if worker not in self._benches:
+                self._benches[worker] = self._make_bench()
+            work(self._benches[worker], part)
+
+        sharing.share(do, parts, self.shape[0] * self.shape[1])
+
+    def _make_bench(self):
+        """Buffers and plans of one thread."""
+        bench = SimpleNamespace(
+            real=pyfftw.zeros_aligned((self._rows, self.shape[1]), self._dtype),
+            half=self._padded(self._rows, self._modes)[:, : self._modes],
+        )
+        bench.buffer = bench.real.view(self._numbers) if self._packed else bench.real
+        bench.rows_forward = _plan(bench.buffer, bench.half, "FFTW_FORWARD")
+        bench.rows_backward = _plan(bench.half, bench.buffer, "FFTW_BACKWARD")
+        return bench
+
+    def _forward(self, field, bench, block):
+        span, count, direct = block
+        if direct:
+            _run(bench.rows_forward, field[span].view(self._numbers), self._by_rows[span])
+            return
+        width = field.shape[1]
+        bench.real[:count, :width] = field[span]
+        bench.real[:count, width:] = 0
+        _run(bench.rows_forward, bench.buffer, bench.half)
+        self._by_rows[span] = bench.half[:count]
+
+    def _backward(self, out, bench, block):
+        span, count, direct = block
+        if direct:
+            _run(bench.rows_backward, self._by_rows[span], out[span].view(self._numbers))
+            return
+        bench.half[:count] = self._by_rows[span]
+        _run(bench.rows_backward, bench.half, bench.buffer)
+        out[span] = bench.real[:count, : out.shape[1]]
 
     def _blocks(self, field, rows):
         """Index of each block of rows, its size, and whether FFTW may work on it where it is."""
@@ -101,25 +149,33 @@ class Real(_Convolution):
         n0, modes = shape[0], shape[1] // 2 + 1
         super().__init__(shape, dtype, modes)
         self._strip = max(1, min(modes, _CACHED // n0))
-        self._spectrum = self._zeros(-(-modes // self._strip) * self._strip, n0)
+        self._spectrum = self._share_spectrum(-(-modes // self._strip) * self._strip, n0)[:, :n0]
         self._by_rows = self._spectrum[:modes].T
-        self._work = pyfftw.zeros_aligned((self._strip, n0), self._numbers)
-        first = self._spectrum[: self._strip]
-        self._columns_forward = _plan(first, self._work, "FFTW_FORWARD")
-        self._columns_backward = _plan(self._work, first, "FFTW_BACKWARD")
+        starts = range(0, self._spectrum.shape[0], self._strip)
+        self._parts = [slice(start, start + self._strip) for start in starts]
 
     def symbol(self, values):
-        """Prepare a symbol, normalised values of shape ``(n1 // 2 + 1, n0)``, for `apply`."""
-        padded = np.zeros(self._spectrum.shape, self._dtype)
+        """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
+
+        It is even along both axes, so that these are the wave numbers that are not negative.
+        """
+        padded = np.zeros((self._spectrum.shape[0], values.shape[1]), self._dtype)
         padded[: values.shape[0]] = values
         return padded
 
-    def _multiply(self, symbol):
-        for start in range(0, self._spectrum.shape[0], self._strip):
-            strip = slice(start, start + self._strip)
-            _run(self._columns_forward, self._spectrum[strip], self._work)
-            np.multiply(self._work, symbol[strip], out=self._work)
-            _run(self._columns_backward, self._work, self._spectrum[strip])
+    def _make_bench(self):
+        bench = super()._make_bench()
+        bench.work = pyfftw.zeros_aligned((self._strip, self.shape[0]), self._numbers)
+        first = self._spectrum[: self._strip]
+        bench.columns_forward = _plan(first, bench.work, "FFTW_FORWARD")
+        bench.columns_backward = _plan(bench.work, first, "FFTW_BACKWARD")
+        return bench
+
+    def _multiply(self, symbol, bench, strip):
+        self._spectrum[max(strip.start, self._modes) : strip.stop] = 0
+        _run(bench.columns_forward, self._spectrum[strip], bench.work)
+        _scale(symbol[strip], bench.work.view(self._dtype))
+        _run(bench.columns_backward, bench.work, self._spectrum[strip])
 
 
 class Packed(_Convolution):
@@ -137,64 +193,93 @@ class Packed(_Convolution):
     def __init__(self, shape, dtype):
         n0, modes = shape[0], shape[1] // 2
         super().__init__(shape, dtype, modes)
-        self._groups = list(_mirrored(modes, max(8, _STRIP // n0)))
-        widest = max(group[-1][1].stop for group in self._groups)
-        self._spectrum = self._by_rows = self._zeros(n0, modes)
-        self._before, self._after, self._product = (
-            pyfftw.zeros_aligned((widest, n0), self._numbers) for _ in range(3)
-        )
-        self._mirror = np.empty(2 * n0, dtype)
-        self._columns_forward = _plan(self._before, self._after, "FFTW_FORWARD")
-        self._columns_backward = _plan(self._product, self._before, "FFTW_BACKWARD")
+        groups = list(_mirrored(modes, max(8, _STRIP // n0)))
+        self._widest = max(group.size for group in groups)
+        ends = np.cumsum([group.size for group in groups]).tolist()  # of their rows in a symbol
+        self._parts = [
+            (group, slice(end - group.size, end)) for group, end in zip(groups, ends, strict=True)
+        ]
+        self._spectrum = self._share_spectrum(-(-n0 // 8) * 8, modes)
+        self._by_rows = self._spectrum[:, :modes]
+
+    def _make_bench(self):
+        bench = super()._make_bench()
+        n0 = self.shape[0]
+        before, after, product = (self._padded(self._widest, n0) for _ in range(3))
+        bench.columns_forward = _plan(before[:, :n0], after[:, :n0], "FFTW_FORWARD")
+        bench.columns_backward = _plan(product[:, :n0], before[:, :n0], "FFTW_BACKWARD")
+        bench.before, bench.after, bench.product = before, after, product
+        return bench
 
     def symbol(self, values):
         """Prepare a symbol, as `Real.symbol` does."""
-        modes, n0 = values.shape[0] - 1, values.shape[1]
-        direct = np.empty((modes, n0), self._dtype)
-        crossed = np.empty((modes, n0), self._dtype)
-        start = 0
+        modes, half = values.shape[0] - 1, values.shape[1]
+        direct = np.empty((modes, half), self._dtype)
+        crossed = np.empty((modes, half), self._dtype)
         # Half the sum, half the difference, and twice for a transform of half the points.
-        for strip in (strip for group in self._groups for strip, _ in group):
-            k = np.arange(strip.start, strip.stop)
-            rows = slice(start, start + k.size)
-            angle = np.pi * k[:, None] / modes
-            difference = values[k] - values[modes - k]
-            direct[rows] = values[k] + values[modes - k] - difference * np.sin(angle)
+        for group, rows in self._parts:
+            angle = np.pi * group[:, None] / modes
+            difference = values[group] - values[modes - group]
+            direct[rows] = values[group] + values[modes - group] - difference * np.sin(angle)
             crossed[rows] = difference * np.cos(angle)
-            start += k.size
         return direct, crossed
 
-    def _multiply(self, symbol):
-        direct, crossed = symbol
-        start = 0
-        for group in self._groups:
-            for strip, place in group:
-                self._before[place] = self._spectrum[:, strip].T
-            self._columns_forward.execute()
-            rows = slice(start, start + group[-1][1].stop)
-            values, product = (field.view(self._dtype) for field in (self._after, self._product))
-            _combine(direct[rows], crossed[rows], values, product, self._mirror)
-            self._columns_backward.execute()
-            start = rows.stop
-            for strip, place in group:
-                self._spectrum[:, strip] = self._before[place].T
+    def _multiply(self, symbol, bench, part):
+        group, rows = part
+        # Numbers that are only moved count as real ones of their size.
+        spectrum, strip = self._spectrum.view(float), bench.before.view(float)
+        _turn(spectrum, group, strip, False)
+        bench.columns_forward.execute()
+        factors = (factor[rows] for factor in symbol)
+        _combine(*factors, bench.after, bench.product, self.shape[0])
+        bench.columns_backward.execute()
+        _turn(spectrum, group, strip, True)
 
 
 @compiled
-def _combine(direct, crossed, values, product, mirror):
-    """``a z_k + i b conj(z_-k)`` of the first rows of a group; real and imaginary parts in turn.
-
-    A group is closed under k -> -k: its rows mirror one another in reverse. Reversing real and
-    imaginary parts along with the numbers turns z into i conj(z).
-    """
-    rows, n = direct.shape
+def _scale(symbol, values):
+    """Multiply rows of complex numbers, real and imaginary parts in turn, by a symbol."""
+    rows, half = symbol.shape
+    n = values.shape[1] // 2
     for r in range(rows):
-        mirror[0], mirror[1] = values[rows - 1 - r, 1], values[rows - 1 - r, 0]
-        for t in range(2, 2 * n):
-            mirror[t] = values[rows - 1 - r, 2 * n + 1 - t]
+        for k in range(half):
+            values[r, 2 * k] *= symbol[r, k]
+            values[r, 2 * k + 1] *= symbol[r, k]
+        for k in range(half, n):
+            values[r, 2 * k] *= symbol[r, n - k]
+            values[r, 2 * k + 1] *= symbol[r, n - k]
+
+
+@compiled
+def _turn(spectrum, group, strip, back):
+    """Copy columns of a group into rows, or `back`, a cache line of each at a time."""
+    for start in range(0, spectrum.shape[0], 8):
+        for r in range(group.size):
+            for k in range(8):
+                at, column = _U(start + k), _U(group[r])
+                if back:
+                    spectrum[at, column] = strip[r, at]
+                else:
+                    strip[r, at] = spectrum[at, column]
+
+
+@compiled
+def _combine(direct, crossed, values, product, n):
+    """``a z_k + i b conj(z_-k)`` of the first n numbers of the first rows of a group.
+
+    A group is closed under k -> -k: its rows mirror one another in reverse.
+    """
+    rows, half = direct.shape
+    for r in range(rows):
+        a, b, z, back, out = direct[r], crossed[r], values[r], values[rows - 1 - r], product[r]
+        mirror = back[0]
         for k in range(n):
-            for t in (2 * k, 2 * k + 1):
-                product[r, t] = direct[r, k] * values[r, t] + crossed[r, k] * mirror[t]
+            if k > 0:
+                mirror = back[_U(n - k)]
+            at = _U(k if k < half else n - k)
+            out[k] = complex(
+                a[at] * z[k].real + b[at] * mirror.imag, a[at] * z[k].imag + b[at] * mirror.real
+            )
 
 
 def aligned_zeros(size, dtype):
@@ -209,15 +294,15 @@ def choose(shape, dtype):
 
 
 def _mirrored(modes, width):
-    """Groups of wavenumbers closed under k -> -k modulo `modes`: slices and places in a buffer."""
-    yield [(slice(0, 1), slice(0, 1))]
+    """Groups of wavenumbers closed under k -> -k modulo `modes`; each is the mirror of its end."""
+    yield np.array([0])
     start = 1
     while 2 * (start + width) <= modes:
-        mirror = slice(modes - start - width + 1, modes - start + 1)
-        yield [(slice(start, start + width), slice(0, width)), (mirror, slice(width, 2 * width))]
+        first = np.arange(start, start + width)
+        yield np.concatenate([first, modes - first[::-1]])
         start += width
     if start <= modes - start:
-        yield [(slice(start, modes - start + 1), slice(0, modes - 2 * start + 1))]
+        yield np.arange(start, modes - start + 1)
 
 
 def _plan(source, target, direction):

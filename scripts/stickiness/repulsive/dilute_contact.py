@@ -11,7 +11,8 @@ of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577,
 import numpy as np
 from scipy import fft, sparse
 
-from stickiness.repulsive import convolution, free_edges, half_space
+from stickiness.compiled import compiled
+from stickiness.repulsive import convolution, free_edges, half_space, sharing
 from stickiness.repulsive.preconditioner import close_gap
 
 # Beyond these two limits the whole grid is as cheap.
@@ -57,6 +58,7 @@ def select_candidates(grid, last, points, below, image, shift):
     likely[points] = True
     if last is not None:
         likely[last.points] = True
+        vars(last).clear()  # frees memory
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid, likely.size):
         return None
@@ -149,12 +151,12 @@ class _Split:
         # Near pairs do not feel how large the cell is.
         patch = [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
         q = half_space.effective_wavenumbers(_PATCH, patch, solid)
-        near = np.fft.irfft2(_invert(q) * (1 - _long(_PATCH, patch, width)), _PATCH)
+        near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)))
         self.near, self.beside = _truncate_kernel(near, _REACH), _stiffness_beside(q)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
-        blur = [np.sinc(np.fft.fftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
-        symbol /= np.outer(blur[0], blur[1][: symbol.shape[1]]) * (shape[0] * shape[1])
+        blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
+        symbol /= np.outer(*blur) * (shape[0] * shape[1])
         self._convolution = convolution.choose(self.coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
         self._image = np.zeros(self.coarse, np.float32)
@@ -203,7 +205,12 @@ def _invert(q):
 
 
 def _stiffness_beside(q):
-    return _truncate_kernel(np.fft.irfft2(q / 2, _PATCH), _BESIDE)
+    return _truncate_kernel(_tabulate(q / 2), _BESIDE)
+
+
+def _tabulate(symbol):
+    """Kernel of a symbol, of which one quadrant is given."""
+    return np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH)
 
 
 def _truncate_kernel(kernel, reach):
@@ -215,9 +222,15 @@ def _truncate_kernel(kernel, reach):
 
 def _multiply(matrix, values, image):
     """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
-    upper, lower, diagonal = matrix
-    image = image + upper @ values
-    image += lower @ values
+    *halves, diagonal = matrix
+    products = {}
+
+    def multiply(_, half):
+        products[half] = halves[half] @ values
+
+    sharing.share(multiply, range(2), halves[0].nnz)
+    image = image + products[0]
+    image += products[1]
     image += diagonal * values
     return image
 
@@ -225,49 +238,64 @@ def _multiply(matrix, values, image):
 def _pair(points, split, most):
     """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
     shape = split.shape
-    size, width, span = points.size, shape[1] + 2 * _REACH, np.int32(2 * _REACH + 1)
+    size, width = points.size, shape[1] + 2 * _REACH
     row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
-    beside = _REACH if split.periodic else 0
+    beside, height = (_REACH, shape[0]) if split.periodic else (0, shape[0] + _REACH)
     left, right = np.flatnonzero(column >= shape[1] - beside), np.flatnonzero(column < beside)
     index = np.concatenate([np.arange(size, dtype=np.int32), left, right], dtype=np.int32)
     places = row[index] * np.int32(width) + column[index] + np.int32(_REACH)
     places[size : size + left.size] -= np.int32(shape[1])
     places[size + left.size :] += np.int32(shape[1])
     order = np.argsort(places, kind="stable")
-    places, index = places[order], index[order]
-    # In every row the neighbours are a run of points: the half of a disk holds every pair once.
-    down = np.arange(_REACH + 1, dtype=np.int32)[:, None]
-    half = np.sqrt(_REACH**2 - down**2).astype(np.int32)
-    corner = row + down
-    if split.periodic:
-        corner %= np.int32(shape[0])
-    corner *= np.int32(width)
-    corner += column
-    begin, end = corner + (np.int32(_REACH) - half), corner + (half + np.int32(_REACH + 1))
-    begin[0] += _REACH + 1
-    begin, end = (np.searchsorted(places, a.ravel()).reshape(a.shape).T for a in (begin, end))
-    count = (end - begin).ravel()
-    ends = np.cumsum(count)
-    if ends[-1] > most:
-        return None
-    entry = np.arange(ends[-1], dtype=np.int32)
-    entry += np.repeat((begin.ravel() - ends + count).astype(np.int32), count)
-    offset = np.repeat((down * span - corner).T.ravel(), count) + places[entry]
-    starts = np.concatenate([[0], ends[_REACH :: _REACH + 1]])
-    columns = index[entry]
-    near = _symmetric(split.near, offset, columns, starts)
-    beside = np.flatnonzero(split.beside[0].ravel()[offset])
-    starts = np.searchsorted(beside, starts)
-    return near, _symmetric(split.beside, offset[beside], columns[beside], starts)
+    where = places[order], index[order], row, column, height, width
+    near = _symmetric(split.near, _REACH, where, most)
+    return None if near is None else (near, _symmetric(split.beside, _BESIDE, where, np.inf))
 
 
-def _symmetric(kernel_and_diagonal, offset, columns, starts):
+def _symmetric(kernel_and_diagonal, reach, where, most):
+    """Half of a matrix of pairs within reach, its transpose and the diagonal; None of too many."""
     kernel, diagonal = kernel_and_diagonal
-    size = (starts.size - 1,) * 2
-    data = kernel.ravel()[offset], columns, starts.astype(np.int32)
-    upper = sparse.csr_array(data, shape=size)
+    starts = np.zeros(where[2].size + 1, np.int64)
+    none = np.empty(0, np.int32), np.empty(0, np.float32)
+    _find_pairs(*where, kernel, reach, starts, *none)
+    if starts[-1] > most:
+        return None
+    columns, values = (np.empty(starts[-1], part.dtype) for part in none)
+    _find_pairs(*where, kernel, reach, starts, columns, values)
+    upper = sparse.csr_array(
+        (values, columns, starts.astype(np.int32)), shape=(starts.size - 1,) * 2
+    )
     return upper, upper.T, diagonal
+
+
+@compiled
+def _find_pairs(places, index, row, column, height, width, kernel, reach, starts, columns, values):
+    """Find every pair of points once, at its first point; only count them if `columns` is empty.
+
+    `places` are the flat indices of the points, and of some again beyond the ends of rows, and
+    `index` says which points these are.
+    """
+    first, total = np.zeros(reach + 1, np.int64), 0
+    for k in range(row.size):
+        for down in range(reach + 1):
+            # In every row the neighbours are a run of points: half a disk holds every pair once.
+            half = int(np.sqrt(reach**2 - down**2))
+            place = (row[k] + down) % height * width + column[k] + _REACH
+            begin = place - half if down > 0 else place + 1
+            at = first[down]  # of the last point, not far from here
+            while at > 0 and places[at - 1] >= begin:
+                at -= 1
+            while at < places.size and places[at] < begin:
+                at += 1
+            first[down] = at
+            while at < places.size and places[at] <= place + half:
+                if columns.size > 0:
+                    columns[total] = index[at]
+                    values[total] = kernel[down, places[at] - place + _REACH]
+                total += 1
+                at += 1
+        starts[k + 1] = total
 
 
 def _splines(points, split):

@@ -15,7 +15,7 @@ import numpy as np
 from scipy import fft, interpolate, special
 
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution
+from stickiness.repulsive import convolution, sharing
 
 SPACING = 4  # of the grid of the smooth part, in pixels
 _MARGIN = 16  # points of that grid beyond twice its size: the inverse of a blur has decayed there
@@ -106,9 +106,14 @@ class Split:
         self._field[...] = 0
         _spread(points, values, self._weights, self.shape[1], self._field)
         self.convolve(self._field)
-        _interpolate(self._image, self._weights, out)
         starts = np.searchsorted(points, np.arange(self.shape[0] + 1) * self.shape[1])
-        _add_rest(starts, points % self.shape[1], values, *self._near, out)
+        near = starts, points % self.shape[1], values, *self._near
+
+        def fill(rows):
+            _interpolate(self._image, self._weights, rows.start, rows.stop, out)
+            _add_rest(*near, rows.start, rows.stop, out)
+
+        sharing.spread(fill, *self.shape)
 
 
 def displace_by_pixel(shape, pixel):
@@ -128,7 +133,7 @@ def even_symbol(operator, quadrant, divisor=1.0):
     """Symbol of a kernel even along both axes, given by a quadrant, over a spectrum."""
     spectrum = fft.dctn(quadrant, type=1, overwrite_x=True)
     spectrum /= np.multiply(divisor, operator.shape[0] * operator.shape[1])
-    return operator.symbol(np.concatenate([spectrum, spectrum[-2:0:-1]]).T)
+    return operator.symbol(spectrum.T)
 
 
 def _blur(values, size):
@@ -153,11 +158,12 @@ def _spread(points, values, weights, columns, coarse):
 
 
 @compiled
-def _interpolate(coarse, weights, out):
+def _interpolate(coarse, weights, begin, end, out):
+    """Interpolate some rows between the coarse points beside them."""
     spacing, order = weights.shape
     row = np.empty(coarse.shape[1], coarse.dtype)
     fine = np.empty(row.size - order + 1, coarse.dtype)
-    for i in range(out.shape[0]):
+    for i in range(begin, end):
         row[:] = 0
         for u in range(order):
             weight, part = weights[i % spacing, u], coarse[i // spacing + u]
@@ -174,10 +180,10 @@ def _interpolate(coarse, weights, out):
 
 
 @compiled
-def _add_rest(starts, columns, values, near, half, out):
-    """Add the displacement near each point; `starts`: the first point in each row."""
+def _add_rest(starts, columns, values, near, half, begin, end, out):
+    """Add to some rows the rest near each point; `starts`: the first point in each row."""
     reach, middle = near.shape[0] - 1, near.shape[1] // 2
-    for i in range(out.shape[0]):
+    for i in range(begin, end):
         for k in range(max(0, i - reach), min(out.shape[0], i + reach + 1)):
             kernel, width = near[abs(i - k)], half[abs(i - k)]
             for t in range(starts[k], starts[k + 1]):

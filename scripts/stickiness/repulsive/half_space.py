@@ -5,6 +5,7 @@ A pressure wave ``p_q`` (in units of E*) displaces a half-space by ``u_q = 2 p_q
 doi 10.1115/1.2833523), and a layer by S times that, see `solids`.
 """
 
+import math
 import threading
 from functools import cache, cached_property, lru_cache
 
@@ -12,7 +13,8 @@ import numpy as np
 from scipy import fft
 
 from stickiness.arguments import positive
-from stickiness.repulsive import convolution, free_edges
+from stickiness.compiled import compiled
+from stickiness.repulsive import convolution, free_edges, sharing
 from stickiness.repulsive.free_edges import displace_by_pixel
 from stickiness.solids import HALF_SPACE
 
@@ -37,21 +39,18 @@ def clear_caches():
 
 
 def wavenumbers(shape, lengths):
-    """Magnitudes ``|q|`` of a real transform's wavevectors, ``(shape[0], shape[1] // 2 + 1)``."""
-    q0 = 2 * np.pi * np.fft.fftfreq(shape[0], lengths[0] / shape[0])
-    q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
-    return np.hypot(q0[:, None], q1[None, :])
+    """Magnitudes ``|q|`` of one quadrant of wave vectors, ``(n0 // 2 + 1, n1 // 2 + 1)``."""
+    axes = zip(shape, lengths, strict=True)
+    return np.hypot.outer(*(2 * np.pi * np.fft.rfftfreq(n, length / n) for n, length in axes))
 
 
 def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
     """Wave numbers ``|q|``/S, zero at q = 0, at which a half-space is as stiff as the solid."""
     q = wavenumbers(shape, lengths)
     if solid != HALF_SPACE:
-        half = shape[0] // 2 + 1  # the other wave vectors mirror these
         q[0, 0] = 1.0
-        q[:half] /= solid.factor(q[:half])
+        q /= solid.factor(q)
         q[0, 0] = 0.0
-        q[half:] = q[1 : shape[0] - half + 1][::-1]
     return q
 
 
@@ -70,9 +69,12 @@ class HalfSpace:
         self._convolution = convolution.choose(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = effective_wavenumbers(self.shape, self.lengths, solid).T
-        index = np.arange(q.shape[0])  # waves mirror one another but for the first and a last
-        weight = np.where((index == 0) | (2 * index == n1), 1.0, 2.0)
-        self.mean_stiffness = float(weight @ q.sum(axis=1)) / (2 * n0 * n1)
+        # Waves mirror one another but for the first and a last along each axis.
+        across, along = (
+            np.where(np.arange(m) % (n / 2), 2.0, 1.0)
+            for m, n in zip(q.shape, (n1, n0), strict=True)
+        )
+        self.mean_stiffness = float(across @ q @ along) / (2 * n0 * n1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
         self._compliance = self._convolution.symbol(q)
@@ -149,11 +151,12 @@ class FreeHalfSpace(HalfSpace):
         self.pairs += self._split.share
 
 
-def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True):
-    """`HalfSpace` or `FreeHalfSpace` of a grid, kept for the next call of the same thread."""
+def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True, kept=True):
+    """`HalfSpace` or `FreeHalfSpace` of a grid; if `kept`, for the next call of the same thread."""
     kind = HalfSpace if periodic else FreeHalfSpace
     most = _MANY if periodic and solid == HALF_SPACE else _FEW
-    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid, most=most)
+    grid = tuple(shape), tuple(lengths), np.dtype(dtype), solid
+    return keep(kind, *grid, most=most) if kept else kind(*grid)
 
 
 def check_length(length, shape):
@@ -170,14 +173,18 @@ def check_length(length, shape):
 def measure_scale(heights):
     """Mean and root mean square about it, safe from overflow and underflow of the squares."""
     mean = float(heights.mean())
-    deviation = heights - mean
-    largest = max(float(deviation.max()), -float(deviation.min()))
+    largest = max(float(heights.max()) - mean, mean - float(heights.min()))
     # Heights that differ by rounding only are flat.
     if largest <= 8 * np.finfo(float).eps * abs(mean):
         return mean, 0.0
-    deviation /= largest
-    deviation *= deviation
-    return mean, largest * float(np.sqrt(np.mean(deviation)))
+    flat, squares = heights.ravel(), {}
+
+    def add(chunk):
+        deviation = (flat[chunk] - mean) / largest
+        squares[chunk.start] = float(np.sum(deviation * deviation))
+
+    sharing.spread(add, flat.size)
+    return mean, largest * math.sqrt(math.fsum(squares.values()) / flat.size)
 
 
 def measure_slope(heights, lengths):
@@ -209,24 +216,33 @@ def sample(field, shape):
 
 def interpolate(field, shape):
     """Interpolate a periodic field by cubics along both axes, onto a grid of any shape."""
+    if all(n == 2 * m for n, m in zip(shape, field.shape, strict=True)):
+        fine = np.empty(shape, field.dtype)
+        sharing.spread(lambda rows: _double(rows.start, rows.stop, field, fine), *field.shape)
+        return fine
     for axis, n in enumerate(shape):
-        if n == 2 * field.shape[axis]:
-            field = _double(field, axis)
-        elif n != field.shape[axis]:
+        if n != field.shape[axis]:
             field = _resample(field, n, axis)
     return field
 
 
-def _double(field, axis):
-    """Put a point between any two, on the cubic through its four neighbours."""
-    between = field + np.roll(field, -1, axis)
-    between *= 9
-    between -= np.roll(field, 1, axis)
-    between -= np.roll(field, -2, axis)
-    between /= 16
-    shape = list(field.shape)
-    shape[axis] *= 2
-    return np.stack([field, between], axis + 1).reshape(shape)
+@compiled
+def _double(start, stop, field, fine):
+    """Put points between those of some rows, on the cubics through their four neighbours."""
+    m0, m1 = field.shape
+    line = np.empty(m1 + 3, field.dtype)
+    for i in range(2 * start, 2 * stop):
+        k = i // 2
+        for j in range(m1):
+            line[j + 1] = field[k, j]
+            if i % 2:
+                near = field[k, j] + field[(k + 1) % m0, j]
+                far = field[(k - 1) % m0, j] + field[(k + 2) % m0, j]
+                line[j + 1] = (9 * near - far) / 16
+        line[0], line[m1 + 1], line[m1 + 2] = line[m1], line[1], line[2]
+        for j in range(m1):
+            fine[i, 2 * j] = line[j + 1]
+            fine[i, 2 * j + 1] = (9 * (line[j + 1] + line[j + 2]) - line[j] - line[j + 3]) / 16
 
 
 def _resample(field, n, axis):

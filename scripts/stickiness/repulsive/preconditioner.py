@@ -10,7 +10,7 @@ Modern Potential Theory*, 1972). A mean with such weights on a coarser grid appr
 import numpy as np
 
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, half_space
+from stickiness.repulsive import convolution, half_space, sharing
 
 _SPACING = 4  # of the grid of the extension, in pixels
 _SELF_WEIGHT = 8.0  # of a point of that grid; 1 is the weight of its neighbour, 2 to 16 do as well
@@ -63,14 +63,19 @@ class Preconditioner:
         self.mean = None
         if points.size < grid.heights.size:
             self.mean = half_space.keep(_Mean, tuple(grid.shape), tuple(grid.sides))
-            self.quick.field[points] = 1
-            self.mean.gather(self.quick.field.reshape(grid.shape))
-            self.quick.field[points] = 0
-            self.weights = np.ones(grid.shape, np.float32)
-            self.mean.spread(self.weights, self.weights)
-            self.weights += np.float32(_FAR_WEIGHT)
-            np.divide(1, self.weights, out=self.weights)
-            self.weights.ravel()[points] = 0
+            sharing.fill(grid.scratch, 0)
+            sharing.put(grid.scratch, points, 1)
+            self.mean.gather(grid.scratch.reshape(grid.shape))
+            self.weights = np.empty(grid.shape, np.float32)
+            self.mean.spread(None, self.weights)
+            flat = self.weights.ravel()
+
+            def invert(chunk):
+                flat[chunk] += np.float32(_FAR_WEIGHT)
+                np.divide(1, flat[chunk], out=flat[chunk])
+
+            sharing.spread(invert, flat.size)
+            sharing.put(flat, points, 0)
             grid.spent += 1 / _SPACING**2
 
     def __call__(self, residual):
@@ -78,24 +83,27 @@ class Preconditioner:
         quick, points = self.quick, self.points
         stiffness = quick.operator.stiffness
         if self.mean is None:
-            return quick.apply(stiffness, points, residual, self.rows, self.rows)[points]
-        field, image = quick.field.reshape(quick.shape), quick.image.reshape(quick.shape)
-        quick.field[points] = residual
+            image = quick.apply(stiffness, points, residual, self.rows, self.rows)
+            return sharing.take(image, points)
+        scratch = self.grid.scratch
+        field, image = scratch.reshape(quick.shape), quick.image.reshape(quick.shape)
+        sharing.fill(scratch, 0)
+        sharing.put(scratch, points, residual)
         self.mean.gather(field)
         self.mean.spread(self.weights, image)
-        quick.image[points] = residual
+        sharing.put(quick.image, points, residual)
         stiffness(image, field)
         self.mean.gather(field, self.weights)
         pressure = self.mean.at(points)
-        pressure += quick.field[points]
-        quick.field[:] = 0
+        pressure += sharing.take(scratch, points)
         self.grid.spent += 2 / _SPACING**2
         return pressure
 
     def compliance(self, values):
         """Displacement of the points under a pressure on them, both in single precision."""
         quick, rows = self.quick, self.rows
-        return quick.apply(quick.operator.compliance, self.points, values, rows, rows)[self.points]
+        image = quick.apply(quick.operator.compliance, self.points, values, rows, rows)
+        return sharing.take(image, self.points)
 
 
 class _Mean:
@@ -104,29 +112,47 @@ class _Mean:
     def __init__(self, shape, sides):
         coarse = tuple(-(-n // _SPACING) for n in shape)
         self._axes = [_interpolation(n, m) for n, m in zip(shape, coarse, strict=True)]
+        self._transposed = [
+            _transpose(*axis, m) for axis, m in zip(self._axes, coarse, strict=True)
+        ]
         steps = [a / m for a, m in zip(sides, coarse, strict=True)]
         axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
         square[0, 0] = 1 / _SELF_WEIGHT
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
         self._convolution = convolution.choose(coarse, np.float32)
-        self._symbol = self._convolution.symbol(symbol.T)
+        self._symbol = self._convolution.symbol(symbol[: coarse[0] // 2 + 1].T)
         self._rows = np.empty((coarse[0], shape[1]), np.float32)
         self._field, self._image = np.zeros((2, *coarse), np.float32)
 
     def gather(self, field, weights=None):
         """Take the sums of a field in single precision, or of its product with weights."""
-        _add_to_coarse(field, weights, *self._axes, self._rows, self._field)
+
+        def add(rows):
+            _add_to_coarse(rows.start, field, weights, *self._transposed, self._field[rows])
+
+        sharing.spread(add, len(self._field), _SPACING * field.shape[1])
         self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):
-        """Sums at all points of a grid, times weights."""
-        _interpolate(self._image, *self._axes, self._rows, weights, out)
+        """Sums at all points of a grid, times weights if any."""
+
+        def stretch(rows):
+            _interpolate_along(self._image[rows], self._axes[1], self._rows[rows])
+
+        def fill(rows):
+            _interpolate_between(rows.start, self._rows, self._axes[0], weights, out[rows])
+
+        sharing.spread(stretch, len(self._rows), _SPACING * out.shape[1])
+        sharing.spread(fill, *out.shape)
 
     def at(self, points):
         """Sums at some points, given by flat indices."""
         out = np.empty(points.size, np.float32)
-        _interpolate_at(points, self._image, *self._axes, out)
+        sharing.spread(
+            lambda chunk: _interpolate_at(points[chunk], self._image, *self._axes, out[chunk]),
+            points.size,
+        )
         return out
 
 
@@ -137,46 +163,69 @@ def _interpolation(n, m):
     return left % m, (left + 1) % m, (position - left).astype(np.float32)
 
 
-@compiled
-def _add_to_coarse(field, weights, axis0, axis1, rows, coarse):
-    """Transpose of an interpolation, of a field or of its product with weights."""
-    left, right, t = axis0
-    rows[...] = 0
-    for i in range(field.shape[0]):
-        a, b, later = left[i], right[i], t[i]
-        for j in range(field.shape[1]):
-            value = field[i, j] if weights is None else field[i, j] * weights[i, j]
-            rows[b, j] += later * value
-            rows[a, j] += value - later * value
-    left, right, t = axis1
-    coarse[...] = 0
-    for i in range(rows.shape[0]):
-        for j in range(rows.shape[1]):
-            later = t[j] * rows[i, j]
-            coarse[i, left[j]] += rows[i, j] - later
-            coarse[i, right[j]] += later
+def _transpose(left, right, t, m):
+    """For each of m points those interpolated from it, and with what weights; a row each."""
+    index = np.arange(left.size)
+    to, source = np.concatenate([left, right]), np.concatenate([index, index])
+    weights = np.concatenate([1 - t, t])
+    order = np.argsort(to, kind="stable")
+    count = np.bincount(to, minlength=m)
+    place = np.arange(to.size) - np.repeat(np.cumsum(count) - count, count)
+    points = np.zeros((m, count.max()), np.int64)
+    shares = np.zeros(points.shape, np.float32)
+    points[to[order], place], shares[to[order], place] = source[order], weights[order]
+    return points, shares
 
 
 @compiled
-def _interpolate(coarse, axis0, axis1, rows, weights, out):
-    left, right, t = axis1
-    for i in range(rows.shape[0]):
-        for j in range(rows.shape[1]):
-            a = coarse[i, left[j]]
-            rows[i, j] = a + t[j] * (coarse[i, right[j]] - a)
-    left, right, t = axis0
+def _add_to_coarse(first, field, weights, axis0, axis1, coarse):
+    """Transpose of an interpolation of a field, or times weights: rows from a first one on."""
+    (points0, shares0), (points1, shares1) = axis0, axis1
+    row = np.empty(field.shape[1], field.dtype)
+    for a in range(coarse.shape[0]):
+        row[:] = 0
+        for k in range(points0.shape[1]):
+            i, share = points0[first + a, k], shares0[first + a, k]
+            for j in range(row.size):
+                row[j] += share * (field[i, j] if weights is None else field[i, j] * weights[i, j])
+        for b in range(coarse.shape[1]):
+            total = np.float32(0)
+            for k in range(points1.shape[1]):
+                total += shares1[b, k] * row[points1[b, k]]
+            coarse[a, b] = total
+
+
+@compiled
+def _interpolate_along(coarse, axis, out):
+    """Interpolate rows along themselves."""
+    left, right, t = axis
     for i in range(out.shape[0]):
-        a, b, later = left[i], right[i], t[i]
         for j in range(out.shape[1]):
-            out[i, j] = (rows[a, j] + later * (rows[b, j] - rows[a, j])) * weights[i, j]
+            a = coarse[i, left[j]]
+            out[i, j] = a + t[j] * (coarse[i, right[j]] - a)
+
+
+@compiled
+def _interpolate_between(first, rows, axis, weights, out):
+    """Interpolate between rows, from a first one on; times weights of the whole grid if any."""
+    left, right, t = axis
+    for i in range(out.shape[0]):
+        a, b, later = left[first + i], right[first + i], t[first + i]
+        for j in range(out.shape[1]):
+            value = rows[a, j] + later * (rows[b, j] - rows[a, j])
+            out[i, j] = value if weights is None else value * weights[first + i, j]
 
 
 @compiled
 def _interpolate_at(points, coarse, axis0, axis1, out):
-    left0, right0, t0 = axis0
-    left1, right1, t1 = axis1
+    """Interpolate at some points, given by flat and increasing indices."""
+    (left0, right0, t0), (left1, right1, t1) = axis0, axis1
+    i, begin = 0, 0
     for k in range(points.size):
-        i, j = divmod(points[k], left1.size)
+        if points[k] >= begin + left1.size:
+            i = points[k] // left1.size
+            begin = i * left1.size
+        j = points[k] - begin
         a, b = left1[j], right1[j]
         upper = coarse[left0[i], a] + t1[j] * (coarse[left0[i], b] - coarse[left0[i], a])
         lower = coarse[right0[i], a] + t1[j] * (coarse[right0[i], b] - coarse[right0[i], a])

@@ -73,7 +73,6 @@ def preconditioned(shape, touching, solid):
     stiffness = np.array([apply(column) for column in unit])
     compliance = np.array([apply.compliance(column) for column in unit])
     np.testing.assert_allclose(stiffness, stiffness.T, atol=1e-4 * np.abs(stiffness).max())
-    assert not grid.quick.field.any()
     return project @ stiffness @ project @ compliance @ project
 
 

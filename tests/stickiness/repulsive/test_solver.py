@@ -176,6 +176,7 @@ def test_failure_carries_the_best_iterate(options, worst):
         ({"pressure": np.nan}, "pressure must be"),
         ({"max_iterations": 0}, "max_iterations must be"),
         ({"start": repulsive.solve(np.eye(4), 1.0, 0.1)}, "same grid"),
+        ({"threads": 0}, "threads must be an integer of at least 1, got 0"),
         ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
         ({"periodic": "free"}, "periodic must be True or False"),
         ({"periodic": False, "solid": Layer(0.1, 0.3)}, "periodic=False is for a half-space only"),
@@ -213,3 +214,21 @@ def test_rough_surface_at_vanishing_load_touches_at_its_summit(seed):
     # of the neighbouring cells grow with the size of the spot, as the cube root of the load.
     assert np.all(departures[1] < [0.05, 0.012, 0.06])
     assert departures[1][2] < 0.6 * departures[0][2]
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"solid": Layer(0.1, 0.3)}, {"periodic": False}],
+    ids=["half-space", "layer", "free edges"],
+)
+@pytest.mark.parametrize("scaled_pressure", [0.002, 0.1])
+def test_threads_do_not_change_a_bit(scaled_pressure, options):
+    heights = rough(384, seed=1)
+    alone, *shared = (
+        repulsive.solve(heights, 1.0, scaled_pressure * 2 * np.pi, threads=n, **options)
+        for n in (1, 2, 3)
+    )
+    for contact in shared:
+        np.testing.assert_array_equal(contact.pressure, alone.pressure)
+        np.testing.assert_array_equal(contact.gap, alone.gap)
+        assert (contact.shift, contact.residual) == (alone.shift, alone.residual)

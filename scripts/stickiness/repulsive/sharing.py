@@ -1,0 +1,97 @@
+"""Share work on parts of a grid among threads: the result is the same for any number of them.
+
+The parts never depend on the number of threads, and none reads what another writes. Transforms,
+compiled loops and numpy's operations on long arrays let other threads run meanwhile.
+"""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+
+import numpy as np
+
+_LEAST = 2**17  # points of a grid below which waking a thread costs what it saves
+_CHUNK = 2**15  # numbers of a field passed over at a time …
+_ROWS = 32  # … or rows
+
+
+class _Team(threading.local):
+    """Threads that help this one."""
+
+    helpers, pool = 0, None
+
+
+_TEAM = _Team()
+
+
+@contextmanager
+def threads(count):
+    """Let `share` use this many threads, within a ``with`` block and for this thread only."""
+    before = _TEAM.helpers, _TEAM.pool
+    with ThreadPoolExecutor(max(1, count - 1)) as pool:  # starts no thread before its first task
+        _TEAM.helpers, _TEAM.pool = count - 1, pool
+        try:
+            yield
+        finally:
+            _TEAM.helpers, _TEAM.pool = before
+
+
+def share(work, parts, points):
+    """Call ``work(worker, part)`` once for each of the `parts` of a grid with so many points.
+
+    No two threads are the same worker: they count from zero.
+    """
+    todo = iter(list(parts))  # whoever is free takes the next
+
+    def run(worker):
+        for part in todo:
+            work(worker, part)
+
+    helpers = _TEAM.helpers if points >= _LEAST else 0
+    others = [_TEAM.pool.submit(run, worker + 1) for worker in range(helpers)]
+    run(0)
+    for other in others:
+        other.result()
+
+
+def spread(work, size, width=None):
+    """Call ``work(chunk)`` for slices of so many numbers, or rows of a `width`."""
+    length = _ROWS if width else _CHUNK
+    chunks = (slice(start, min(start + length, size)) for start in range(0, size, length))
+    share(lambda _, chunk: work(chunk), chunks, size * (width or 1))
+
+
+def find(test, size):
+    """Indices among `size` numbers for which ``test(chunk)``, an array of truth values, holds."""
+    found = {}
+
+    def look(chunk):
+        found[chunk.start] = np.flatnonzero(test(chunk)) + chunk.start
+
+    spread(look, size)
+    return np.concatenate([found[start] for start in sorted(found)])
+
+
+def take(field, points):
+    """``field[points]``."""
+    values = np.empty(points.size, field.dtype)
+
+    def move(chunk):
+        values[chunk] = field[points[chunk]]
+
+    spread(move, points.size)
+    return values
+
+
+def put(field, points, values):
+    """``field[points] = values``, of an array or one number; no point twice."""
+
+    def move(chunk):
+        field[points[chunk]] = values[chunk] if np.ndim(values) else values
+
+    spread(move, points.size)
+
+
+def fill(field, value):
+    """``field[:] = value``."""
+    spread(lambda chunk: field[chunk].fill(value), field.size)
