@@ -4,7 +4,11 @@ PYTHON ?= python3
 CORES ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
-PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check -c envs/constraints.txt
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-compile \
+	-c envs/constraints.txt
+# All cores compile what pip, on one core, would have compiled. The tests of packages and a few
+# modules for other versions of Python do not matter.
+COMPILE := $(BIN)/python -m compileall -qq -j$(CORES) -x '/tests?/' $(VENV)/lib || true
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
 .PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures
@@ -59,22 +63,27 @@ benchmark: $(VENV)/.dev $(VENV)/.aspher  ## the contact solver beside its peers
 $(VENV)/bin/python:
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=…" if sys.version_info < (3, 11) else 0)'
 	$(PYTHON) -m venv $(VENV)
+	$(PIP) --upgrade pip
 
 $(VENV)/.run: envs/requirements.txt envs/constraints.txt | $(VENV)/bin/python
 	$(PIP) -r envs/requirements.txt
+	$(COMPILE)
 	touch $@
 
 $(VENV)/.dev: envs/dev.txt $(VENV)/.run
 	$(PIP) -r envs/dev.txt
+	$(COMPILE)
 	touch $@
 
 $(VENV)/.docs: envs/docs.txt $(VENV)/.run
 	$(PIP) -r envs/docs.txt
+	$(COMPILE)
 	touch $@
 
 # Reference codes for tests and benchmarks, which leave out those that do not install.
 $(VENV)/.peers: envs/peers.txt $(VENV)/.dev
 	-$(PIP) -r envs/peers.txt
+	$(COMPILE)
 	touch $@
 
 # Built from source, for minutes, and for the benchmark alone.

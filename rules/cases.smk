@@ -1,17 +1,8 @@
-# What each case asks for, with its errors by source.
+# What each case asks for, with its errors by source: means over its realisations, the slope of area
+# against load, and a_V if it is wanted; or Persson's theory.
 
-
-def behind_answer(wildcards):
-    """Files that the quantities of a case rest on, and no others."""
-    case, planned = wildcards.case, PLANS[wildcards.case]
-    if not planned.simulated:
-        return {"solved": f"{RESULTS}/persson/lattice/{case}.nc"}
-    files = {"solved": f"{RESULTS}/contact/ensembles/{case}.nc"}
-    if "a_v" in planned.quantities:
-        files["a_v"] = a_v_of_simulation(case)
-    if "kappa" in planned.quantities:
-        files["kappa"] = f"{RESULTS}/fits/kappa/{case}.nc"
-    return files
+SIMULATED_CASES = [case for case, planned in PLANS.items() if planned.simulated]
+WITH_A_V = [case for case in SIMULATED_CASES if "a_v" in PLANS[case].quantities]
 
 
 def describe_plan(wildcards):
@@ -29,19 +20,52 @@ def describe_plan(wildcards):
 
 rule answer_case:
     input:
-        unpack(behind_answer),
         laws=ERROR_MODELS,
+        realisations=realisations,
+        coarse=coarse_solutions,
     output:
-        f"{RESULTS}/cases/{{case}}.nc",
+        means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
+        kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
+        a_v=f"{RESULTS}/fits/a_v/ensembles/{{case}}.nc",
+        answer=f"{RESULTS}/cases/{{case}}.nc",
     log:
         f"{RESULTS}/logs/answer_case/cases/{{case}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/answer_case/cases/{{case}}.tsv"
+    wildcard_constraints:
+        case=choices(WITH_A_V),
     conda:
         "../envs/environment.yaml"
     params:
         plan=describe_plan,
-        fit_interval=config["a_v"]["windows"][0],
+        windows=config["a_v"]["windows"],
         code=source_hash("cases/answer_case.py"),
     script:
         "../scripts/cases/answer_case.py"
+
+
+use rule answer_case as answer_areas with:
+    output:
+        means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
+        kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
+        answer=f"{RESULTS}/cases/{{case}}.nc",
+    log:
+        f"{RESULTS}/logs/answer_areas/cases/{{case}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/answer_areas/cases/{{case}}.tsv"
+    wildcard_constraints:
+        case=choices(case for case in SIMULATED_CASES if case not in WITH_A_V),
+
+
+use rule answer_case as answer_by_theory with:
+    input:
+        laws=ERROR_MODELS,
+        theory=f"{RESULTS}/persson/lattice/{{case}}.nc",
+    output:
+        answer=f"{RESULTS}/cases/{{case}}.nc",
+    log:
+        f"{RESULTS}/logs/answer_by_theory/cases/{{case}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/answer_by_theory/cases/{{case}}.tsv"
+    wildcard_constraints:
+        case=choices(case for case in CASES if case not in SIMULATED_CASES),

@@ -118,29 +118,6 @@ rule contact_maps:
         "../scripts/contact/contact_maps.py"
 
 
-rule average_ensemble:
-    input:
-        laws=ERROR_MODELS,
-        realisations=realisations,
-        coarse=coarse_solutions,
-    output:
-        means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
-        kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
-    log:
-        f"{RESULTS}/logs/average_ensemble/contact/ensembles/{{case}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/average_ensemble/contact/ensembles/{{case}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        seeds=lambda wildcards: seeds_of(wildcards.case),
-        pressures=lambda wildcards: PLANS[wildcards.case].pressures,
-        quantities=lambda wildcards: PLANS[wildcards.case].quantities,
-        code=source_hash("contact/average_ensemble.py"),
-    script:
-        "../scripts/contact/average_ensemble.py"
-
-
 rule solve_ensemble:
     input:
         laws=ERROR_MODELS,

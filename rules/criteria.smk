@@ -14,7 +14,8 @@ rule map_criterion:
         **A_V_FILES,
         a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
-        f"{RESULTS}/criteria/map.nc",
+        map=f"{RESULTS}/criteria/map.nc",
+        compared=f"{RESULTS}/criteria/compared.nc",
     log:
         f"{RESULTS}/logs/map_criterion/criteria/map.log",
     benchmark:
@@ -23,30 +24,11 @@ rule map_criterion:
         "../envs/environment.yaml"
     params:
         map=config["criteria"]["map"],
+        compared=config["criteria"]["compared"],
         pressure=config["criteria"]["a_v"]["pressure"],
         code=source_hash("criteria/map_criterion.py"),
     script:
         "../scripts/criteria/map_criterion.py"
-
-
-rule compare_criteria:
-    input:
-        **A_V_FILES,
-        a_v_table=f"{RESULTS}/fits/a_v_table.nc",
-    output:
-        f"{RESULTS}/criteria/compared.nc",
-    log:
-        f"{RESULTS}/logs/compare_criteria/criteria/compared.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/compare_criteria/criteria/compared.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        compared=config["criteria"]["compared"],
-        pressure=config["criteria"]["a_v"]["pressure"],
-        code=source_hash("criteria/compare_criteria.py"),
-    script:
-        "../scripts/criteria/compare_criteria.py"
 
 
 def material_surfaces():
@@ -87,22 +69,3 @@ rule judge:
         code=source_hash("criteria/judge.py"),
     script:
         "../scripts/criteria/judge.py"
-
-
-rule judge_surface:
-    input:
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        material_surfaces=MATERIAL_SURFACES,
-    output:
-        f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
-    log:
-        f"{RESULTS}/logs/judge_surface/criteria/verdicts/{{real_surface}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/judge_surface/criteria/verdicts/{{real_surface}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        **JUDGED,
-        code=source_hash("criteria/judge_surface.py"),
-    script:
-        "../scripts/criteria/judge_surface.py"

@@ -11,6 +11,12 @@ rule predict_experiments:
             category="Experiments",
             caption="../report/experiments.rst",
         ),
+        png=report(
+            f"{RESULTS}/figures/experiments.png",
+            category="Figures",
+            caption="../report/experiments.rst",
+        ),
+        pdf=f"{RESULTS}/figures/experiments.pdf",
     log:
         f"{RESULTS}/logs/predict_experiments/experiments/experiments.log",
     benchmark:
@@ -22,25 +28,3 @@ rule predict_experiments:
         code=source_hash("experiments/predict_experiments.py"),
     script:
         "../scripts/experiments/predict_experiments.py"
-
-
-rule plot_experiments:
-    input:
-        f"{RESULTS}/experiments/experiments.nc",
-    output:
-        png=report(
-            f"{RESULTS}/figures/experiments.png",
-            category="Figures",
-            caption="../report/experiments.rst",
-        ),
-        pdf=f"{RESULTS}/figures/experiments.pdf",
-    log:
-        f"{RESULTS}/logs/plot_experiments/figures/experiments.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/plot_experiments/figures/experiments.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        code=source_hash("experiments/plot_experiments.py"),
-    script:
-        "../scripts/experiments/plot_experiments.py"

@@ -1,30 +1,10 @@
-# a_V of simulation, with its errors and what the fit interval does to it; where theory departs from
-# simulation; a_V in a table.
+# Where theory departs from simulation, the gamma with which it departs least, and a_V in a table.
 
 # Whatever is simulated for every quantity, with which theory is compared.
 SIMULATED = [*COMPLETE, *COMPARISONS]
 
 
-rule fit_a_v:
-    input:
-        laws=ERROR_MODELS,
-        areas=f"{RESULTS}/contact/ensembles/{{case}}.nc",
-    output:
-        f"{RESULTS}/fits/a_v/ensembles/{{case}}.nc",
-    log:
-        f"{RESULTS}/logs/fit_a_v/fits/a_v/ensembles/{{case}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fit_a_v/fits/a_v/ensembles/{{case}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        windows=config["a_v"]["windows"],
-        code=source_hash("fits/fit_a_v.py"),
-    script:
-        "../scripts/fits/fit_a_v.py"
-
-
-# One job for all: each takes less time than a job takes to start.
+# One job for all: each case takes less time than a job takes to start.
 if SIMULATED:
 
     rule compare_theory:
@@ -32,7 +12,8 @@ if SIMULATED:
             ensembles=several("contact/ensembles/{compared}.nc", compared=SIMULATED),
             theories=several("persson/lattice/{compared}.nc", compared=SIMULATED),
         output:
-            several("fits/theory/{compared}.nc", compared=SIMULATED),
+            comparisons=several("fits/theory/{compared}.nc", compared=SIMULATED),
+            gamma=f"{RESULTS}/fits/gamma.nc",
         log:
             f"{RESULTS}/logs/compare_theory/fits/theory.log",
         benchmark:
@@ -61,21 +42,3 @@ rule tabulate_a_v:
         code=source_hash("fits/tabulate_a_v.py"),
     script:
         "../scripts/fits/tabulate_a_v.py"
-
-
-rule fit_gamma:
-    input:
-        ensembles=several("contact/ensembles/{compared}.nc", compared=SIMULATED),
-        comparisons=several("fits/theory/{compared}.nc", compared=SIMULATED),
-    output:
-        f"{RESULTS}/fits/gamma.nc",
-    log:
-        f"{RESULTS}/logs/fit_gamma/fits/gamma.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fit_gamma/fits/gamma.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        code=source_hash("fits/fit_gamma.py"),
-    script:
-        "../scripts/fits/fit_gamma.py"

@@ -1,25 +1,44 @@
 # Persson's theory: on continuous spectra for the paper's sweeps, and on the discrete spectrum that the
 # cell of a simulated case really holds; a_V fitted to both.
 
+# What all theory depends on beside the surfaces and their loads.
+THEORY = {
+    "variants": config["theory"]["variants"],
+    "gamma": GAMMA,
+    "gaps": GAPS,
+    "windows": config["a_v"]["windows"],
+}
+# Cases and comparisons that are shown are evaluated together, every other case in a job of its own.
+SHOWN = {"cases": COMPLETE, "comparisons": list(COMPARISONS)}
+
+
+def describe_lattices(names):
+    """Surfaces and loads by the names of cases or comparisons, and whether they are simulated."""
+    return {
+        name: {
+            "surface": model_surface_of(name),
+            "pressures": pressures_of(name),
+            "simulated": name in COMPLETE or name in COMPARISONS,
+        }
+        for name in names
+    }
+
 
 rule persson_sweep:
     input:
         laws=ERROR_MODELS,
     output:
-        theory=f"{RESULTS}/persson/sweeps/{{sweep}}.nc",
-        a_v=f"{RESULTS}/fits/a_v/sweeps/{{sweep}}.nc",
+        theory=several("persson/sweeps/{sweep}.nc", sweep=SWEEPS),
+        a_v=several("fits/a_v/sweeps/{sweep}.nc", sweep=SWEEPS),
     log:
-        f"{RESULTS}/logs/persson_sweep/persson/sweeps/{{sweep}}.log",
+        f"{RESULTS}/logs/persson_sweep/persson/sweeps.log",
     benchmark:
-        f"{RESULTS}/benchmarks/persson_sweep/persson/sweeps/{{sweep}}.tsv"
+        f"{RESULTS}/benchmarks/persson_sweep/persson/sweeps.tsv"
     conda:
         "../envs/environment.yaml"
     params:
-        sweep=lambda wildcards: SWEEPS[wildcards.sweep],
-        variants=config["theory"]["variants"],
-        gamma=GAMMA,
-        gaps=GAPS,
-        windows=config["a_v"]["windows"],
+        **THEORY,
+        sweeps=list(SWEEPS.values()),
         code=source_hash("persson/persson_sweep.py"),
     script:
         "../scripts/persson/persson_sweep.py"
@@ -29,25 +48,47 @@ rule persson_lattice:
     input:
         laws=ERROR_MODELS,
     output:
-        theory=f"{RESULTS}/persson/lattice/{{compared}}.nc",
-        a_v=f"{RESULTS}/fits/a_v/lattice/{{compared}}.nc",
+        theory=[f"{RESULTS}/persson/lattice/{{case}}.nc"],
+        a_v=[f"{RESULTS}/fits/a_v/lattice/{{case}}.nc"],
     log:
-        f"{RESULTS}/logs/persson_lattice/persson/lattice/{{compared}}.log",
+        f"{RESULTS}/logs/persson_lattice/persson/lattice/{{case}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/persson_lattice/persson/lattice/{{compared}}.tsv"
+        f"{RESULTS}/benchmarks/persson_lattice/persson/lattice/{{case}}.tsv"
+    wildcard_constraints:
+        case=choices(case for case in CASES if case not in COMPLETE),
     conda:
         "../envs/environment.yaml"
     params:
-        surface=lambda wildcards: model_surface_of(wildcards.compared),
-        pressures=lambda wildcards: pressures_of(wildcards.compared),
-        windows=config["a_v"]["windows"],
-        simulated=lambda wildcards: wildcards.compared in SIMULATED,
-        variants=config["theory"]["variants"],
-        gamma=GAMMA,
-        gaps=GAPS,
+        **THEORY,
+        lattices=lambda wildcards: describe_lattices([wildcards.case]),
         code=source_hash("persson/persson_lattice.py"),
     script:
         "../scripts/persson/persson_lattice.py"
+
+
+for shown, names in SHOWN.items():
+    if names:
+
+        rule:
+            name:
+                f"persson_{shown}"
+            input:
+                laws=ERROR_MODELS,
+            output:
+                theory=several("persson/lattice/{name}.nc", name=names),
+                a_v=several("fits/a_v/lattice/{name}.nc", name=names),
+            log:
+                f"{RESULTS}/logs/persson_{shown}/persson/lattice.log",
+            benchmark:
+                f"{RESULTS}/benchmarks/persson_{shown}/persson/lattice.tsv"
+            conda:
+                "../envs/environment.yaml"
+            params:
+                **THEORY,
+                lattices=describe_lattices(names),
+                code=source_hash("persson/persson_lattice.py"),
+            script:
+                "../scripts/persson/persson_lattice.py"
 
 
 rule persson_table:

@@ -1,4 +1,4 @@
-# The report of all results, and a page for every real surface.
+# The report of all results, and for every real surface its verdicts and a page.
 
 PAGE_PARTS = [
     project_file(f"report/{part}")
@@ -80,8 +80,9 @@ rule write_surface:
         template=project_file("report/surface.html.j2"),
         parts=PAGE_PARTS,
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+        material_surfaces=MATERIAL_SURFACES,
     output:
+        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(
@@ -96,6 +97,7 @@ rule write_surface:
     conda:
         "../envs/environment.yaml"
     params:
+        **JUDGED,
         code=source_hash("report/write_surface.py"),
     script:
         "../scripts/report/write_surface.py"

@@ -1,4 +1,4 @@
-"""Answer a case: values of its quantities at its loads, and their errors by source."""
+"""Average a case, fit its a_V, and answer it: its quantities at its loads, with their errors."""
 
 import logging
 
@@ -8,7 +8,8 @@ import xarray as xr
 from common.conventions import VARIANT, annotate
 from common.error_budgets import Simulation, theory_parts
 from common.job import start
-from common.quantities import derive, quote, statistics
+from common.quantities import derive, quote, statistics, write_a_v
+from contact.ensembles import average_case
 from stickiness import datasets
 from stickiness.accuracy import error_models
 from stickiness.accuracy.error_models import Settings, Surface, read_models
@@ -34,15 +35,18 @@ def main(job):
     knobs = {}
     if plan["simulated"]:
         knobs = {"pixels": settings.pixels_per_wavelength, "tolerance": settings.tolerance}
-        files = {"ensemble": datasets.read(job.input.solved, ["area_fraction_mean"])}
-        for name in ("a_v", "kappa"):
-            if job.input.get(name):
-                files[name] = datasets.read(job.input[name], [f"{name}_standard_error"])
+        output = job.output
+        average_case(case, plan, job.input, output)
+        files = {"ensemble": datasets.read(output.means, ["area_fraction_mean"])}
+        files["kappa"] = datasets.read(output.kappa, ["kappa_standard_error"])
+        if "a_v" in plan["quantities"]:
+            write_a_v(output.means, output.a_v, job.params.windows, job.input.laws)
+            files["a_v"] = datasets.read(output.a_v, ["a_v_standard_error"])
         made = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
         found = [simulate(Simulation(models, made), column, files) for column in columns]
     else:
-        state = datasets.read(job.input.solved, ["area_fraction", "mean_gap", "attractive_area"])
-        state = derive(state.sel(variant=VARIANT), job.params.fit_interval)
+        state = datasets.read(job.input.theory, ["area_fraction", "mean_gap", "attractive_area"])
+        state = derive(state.sel(variant=VARIANT), job.params.windows[0])
         # By Persson's theory on the lattice spectrum.
         values = [quote(column, state) for column in columns]
         found = [
@@ -76,7 +80,7 @@ def main(job):
         dataset.attrs["missed"] = f"{case}: {text}"
         logging.warning("%s", text)
     title = "quantities of a case and their errors"
-    datasets.write(dataset, job.output[0], title=title, parameters={**plan, "case": case})
+    datasets.write(dataset, job.output.answer, title=title, parameters={**plan, "case": case})
 
 
 def simulate(simulation, column, files):

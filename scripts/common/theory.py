@@ -26,7 +26,7 @@ def between_corrections(values):
 
 
 def evaluate(theory, pressures, ranges):
-    """Contact by theory at every pressure, with P(u) between neighbouring ranges."""
+    """Contact that theory predicts at every pressure, with P(u) between neighbouring ranges."""
     gaps = middles(ranges)
     density = [theory.gap_density(gaps, load) for load in pressures]
     contact = contact_of(theory, pressures, ranges).assign_coords(gap=gaps)
@@ -34,7 +34,7 @@ def evaluate(theory, pressures, ranges):
 
 
 def contact_of(theory, pressures, ranges):
-    """Quantities of a contact by theory, under the names of `solve_repulsive`."""
+    """Quantities of a contact that theory predicts, under the names of `solve_repulsive`."""
     data = {
         "area_fraction": ("pressure", [float(theory.area_fraction(load)) for load in pressures]),
         "mean_gap": ("pressure", [float(theory.mean_gap(load)) for load in pressures]),

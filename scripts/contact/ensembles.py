@@ -1,4 +1,8 @@
-"""The file of an ensemble: means over the realisations of a case, with their errors."""
+"""The file of an ensemble: means in the limit of fine grids, with their errors.
+
+Coarse solutions of further seeds, if the case has them, are kept beside the values seed by seed:
+whatever is derived from those is averaged in the same way, as the slope of area against load is.
+"""
 
 from operator import itemgetter
 
@@ -9,7 +13,8 @@ from common.contact_curves import MEASURED_TEXTS
 from common.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
-from common.quantities import gap_density
+from common.model_surfaces import read_all
+from common.quantities import fit_kappa, gap_density
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import MEASURED, means_of
@@ -38,6 +43,25 @@ VARIABLES = {
     f"attractive_area_{EXTRAPOLATION}": f"{TEXTS['attractive_area']}: of the mean, extrapolated "
     "from below the edge gap",
 }
+
+
+def average_case(case, plan, inputs, output):
+    """Average the realisations of a case; write the means and the slope of area against load."""
+    averaged = choose_means(plan["quantities"])
+    optional = [name for name in OPTIONAL if name in averaged]
+    # The files may be those of another case with more seeds and loads.
+    loads, seeds = list(plan["pressures"]), list(range(1, plan["settings"]["seeds"] + 1))
+    realisations = read_all(inputs.realisations, (*NEEDED, *optional))
+    realisations = realisations.sel(seed=seeds, pressure=loads)
+    kept = (*COARSE, *optional)
+    others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
+    made = datasets.parameters(realisations) | {"seeds": seeds, "case": case}
+    write_means(realisations, join_coarse(others, kept), made, inputs.laws, output.means, averaged)
+    means = datasets.read(output.means)
+    title = "slope of the area-load relation"
+    parameters = {**datasets.parameters(means), "linear_up_to": conventions.LINEAR_UP_TO}
+    kappa = fit_kappa(means, read_models(inputs.laws))
+    datasets.write(kappa, output.kappa, title=title, parameters=parameters)
 
 
 def choose_means(quantities):

@@ -11,11 +11,8 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import logarithmic_grid
-from common.job import start
 from criteria.budgets import CLOSED, between
-from criteria.simulated_a_v import measure_a_v
 from stickiness import datasets
-from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.error_budget import with_budget
@@ -32,14 +29,12 @@ VARIABLES = {
 }
 
 
-def main(job):
-    asked, load = job.params.compared, job.params.pressure
-    table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    constant = measure_a_v(job.input, load)[0]
+def write_comparison(asked, load, table, constant, output):
+    """Write the thresholds; `constant` is the constant a_V of a broad spectrum."""
     dataset = datasets.annotate(compare(asked, load, table, constant), **VARIABLES)
     title = "adhesion at the threshold of stickiness by every criterion"
     parameters = {**asked, "pressure": load, "constant_a_v": constant}
-    datasets.write(add_budgets(dataset), job.output[0], title=title, parameters=parameters)
+    datasets.write(add_budgets(dataset), output, title=title, parameters=parameters)
 
 
 def compare(asked, load, table, constant):
@@ -93,7 +88,3 @@ def add_budgets(dataset):
         model = replace(model, error=model.error.where(value.criterion == REMAINING))
         dataset = with_budget(dataset, name, model=model, **CLOSED)
     return dataset
-
-
-if __name__ == "__main__":
-    main(start(globals(), "compare_criteria"))

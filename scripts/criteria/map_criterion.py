@@ -1,4 +1,7 @@
-"""Figure 5: roughness at the threshold of stickiness over range and adhesion length, and slopes."""
+"""Figures 5 and 9: thresholds of stickiness by the paper's criterion, and by all criteria.
+
+The map has the roughness at the threshold over range and adhesion length, and slopes.
+"""
 
 from dataclasses import replace
 from functools import partial
@@ -11,6 +14,7 @@ from common.conventions import logarithmic_grid
 from common.job import start
 from common.verdicts import SHARES
 from criteria.budgets import CLOSED, between_limits
+from criteria.compare_criteria import write_comparison
 from criteria.simulated_a_v import measure_a_v
 from stickiness import criteria, datasets, remaining
 from stickiness.criteria import equivalent_sphere
@@ -74,7 +78,8 @@ def main(job):
     title = "map of the stickiness criterion"
     parameters = {**asked, "pressure": pressure}
     dataset = with_budget(dataset, "h_rms_limit_constant", **parts)
-    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
+    datasets.write(dataset, job.output.map, title=title, parameters=parameters)
+    write_comparison(job.params.compared, pressure, table, a_v, job.output.compared)
 
 
 class Roughness:

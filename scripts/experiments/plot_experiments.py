@@ -5,12 +5,9 @@ from matplotlib.colors import ListedColormap
 
 from common import plotting
 from common.experiment_outcomes import COMPATIBLE, MARKS, SILENT
-from common.job import start
 from common.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
-from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 
-NEEDED = ("quantity", "predicted", "criterion_outcome", "criterion_roughness", "pull_off_curve")
 FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
 OBSERVED = ("observed_low", "observed_high")
 PREDICTED = ("predicted_lowest", "predicted", "predicted_highest")
@@ -21,12 +18,11 @@ NOTHING = 1e-4  # mJ/m^2, where what is predicted or observed to be none is draw
 OUTCOME_COLOURS = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
 
 
-def main(job):
-    dataset = datasets.read(job.input[0], NEEDED)
-    experiments = datasets.parameters(dataset)["experiments"]
+def draw(dataset, experiments, files):
+    """Write the figure of the predictions to files."""
     grid = {"left": 0.09, "right": 0.985, "top": 0.97, "bottom": 0.1, "wspace": 1.6, "hspace": 0.22}
     look = {"layout": "none", "gridspec_kw": grid | {"height_ratios": [1, 2]}}
-    with plotting.open_figure(job.output, "AAABBB;..CCCC", 9.2, **look) as panels:
+    with plotting.open_figure(files, "AAABBB;..CCCC", 9.2, **look) as panels:
         draw_pull_off(panels["A"], dataset, experiments)
         draw_works(panels["B"], dataset, experiments)
         draw_criteria(panels["C"], dataset, experiments)
@@ -115,7 +111,3 @@ def name_case(case, experiments):
     entry = experiments[experiment]
     label = entry["cases"][name]["label"]
     return f"{entry['short']}: {label}" if "short" in entry else label
-
-
-if __name__ == "__main__":
-    main(start(globals(), "plot_experiments"))

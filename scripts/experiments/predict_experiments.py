@@ -17,6 +17,7 @@ from common.config.entries import CONDITIONS, OBSERVED, conditions_of
 from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOMES, SILENT, SOME
 from common.job import start
 from common.templates import write_page
+from experiments import plot_experiments
 from stickiness import datasets
 from stickiness.criteria.a_v_table import surface_a_v
 from stickiness.criteria.pair import Pair
@@ -91,6 +92,7 @@ def main(job):
             for name, *codes in find_survivals(dataset).itertuples()
         ],
     )
+    plot_experiments.draw(dataset, experiments, (job.output.png, job.output.pdf))
 
 
 def find_survivals(dataset):

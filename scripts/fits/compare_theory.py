@@ -1,16 +1,20 @@
-"""Theory on the lattice spectra of cases against their simulation, with the errors of both."""
+"""Theory on the lattice spectra of cases against their simulation, with the errors of both.
+
+And the gamma of its corrections that agrees best.
+"""
 
 import xarray as xr
 
 from common import conventions
 from common.job import start
+from fits.fit_gamma import write_gamma
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, part, with_budget
 
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
 DIFFERENCE, NOTHING = "theory over simulation less 1", "nothing simulated within the range"
-VARIABLES = {"theory_mean_gap": "mean gap over h_rms by theory"} | {
+VARIABLES = {"theory_mean_gap": "mean gap over h_rms that theory predicts"} | {
     f"{name}_difference": ("1", f"{DIFFERENCE}: {conventions.VARIABLES[name][1]}", NOTHING)
     for name in COMPARED
 }
@@ -18,12 +22,13 @@ VARIABLES = {"theory_mean_gap": "mean gap over h_rms by theory"} | {
 
 def main(job):
     inputs = job.input.ensembles, job.input.theories
-    for ensemble, lattice, output in zip(*inputs, job.output, strict=True):
+    for ensemble, lattice, output in zip(*inputs, job.output.comparisons, strict=True):
         simulated = datasets.read(ensemble, [f"{name}_mean" for name in COMPARED])
         theory = datasets.read(lattice, [*COMPARED, *WINDOW])
         title = "theory on the lattice spectrum against simulation"
         parameters = datasets.parameters(simulated)
         datasets.write(compare(simulated, theory), output, title=title, parameters=parameters)
+    write_gamma(job.input.ensembles, job.output.comparisons, job.output.gamma)
 
 
 def compare(simulated, theory):

@@ -10,7 +10,6 @@ import xarray as xr
 from scipy.interpolate import CubicSpline
 
 from common.conventions import annotate
-from common.job import start
 from common.model_surfaces import cell_size, model_spectrum
 from stickiness import datasets
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
@@ -43,8 +42,9 @@ VARIABLES = {
 }
 
 
-def main(job):
-    files = zip(job.input.ensembles, job.input.comparisons, strict=True)
+def write_gamma(ensembles, comparisons, output):
+    """Write the gamma that agrees best with the means in files, and the comparisons behind it."""
+    files = zip(ensembles, comparisons, strict=True)
     read = ((datasets.read(one), datasets.read(other, ["window_holds"])) for one, other in files)
     cases = [found for both in read if (found := case(*both))]
     windows = [deviations.pop("window") for deviations in cases]
@@ -66,7 +66,7 @@ def main(job):
     title = "gamma of the corrections of Persson's theory by simulation"
     parameters = {"cases": len(cases), "ranges": RANGES, "loads": LOADS} | RANDOM
     gamma = add_budgets(annotate(dataset.drop_vars("spread"), **VARIABLES), dataset.spread)
-    datasets.write(gamma, job.output[0], title=title, parameters=parameters)
+    datasets.write(gamma, output, title=title, parameters=parameters)
 
 
 def case(ensemble, comparison):
@@ -175,7 +175,3 @@ def lowest(curves):
     at += curves.x[:-1].reshape(length.shape)
     at, values = (part.reshape(-1, *slope.shape[1:]) for part in (at, values))
     return np.exp(np.take_along_axis(at, values.argmin(axis=0)[None], axis=0)[0])
-
-
-if __name__ == "__main__":
-    main(start(globals(), "fit_gamma"))

@@ -16,8 +16,8 @@ THEORY = [f"{name}{ending}" for name in QUOTED for ending in ("", *budget.ENDING
 THEORY += ["edge_range", "quadrature_error"]
 APART = "ln of how far other variants and corrections of the theory are"
 VARIABLES = {
-    "a_v": "a_V by theory; to be held constant below edge_range",
-    "a_v_limit": "a_V by theory in the limit of infinite magnification",
+    "a_v": "a_V that theory predicts; to be held constant below edge_range",
+    "a_v_limit": "a_V that theory predicts in the limit of infinite magnification",
     "theory_below": f"{APART} below the quoted",
     "theory_below_limit": f"{APART} below the quoted, infinite magnification",
     "theory_above": f"{APART} above the quoted",

@@ -1,4 +1,4 @@
-"""Persson's theory on the lattice spectrum of the cell of a simulated case, and its a_V.
+"""Persson's theory on the lattice spectra of the cells of cases, and its a_V.
 
 The theory's Gaussian heights are unbounded, those of a cell end at its highest summit. Where theory
 predicts a mean gap near or above this summit, the cell has too few summits for a comparison.
@@ -30,27 +30,34 @@ VARIABLES = {
 
 
 def main(job):
-    surface = job.params.surface
+    lattices = job.params.lattices.items()
+    for one, *files in zip(lattices, job.output.theory, job.output.a_v, strict=True):
+        write_lattice(*one, job.params, job.input.laws, *files)
+
+
+def write_lattice(case, asked, params, laws, output, a_v):
+    """Write theory on the lattice spectrum of one case, and a_V fitted to it."""
+    surface = asked["surface"]
     lattice = lattice_spectrum(model_spectrum(surface), cell_size(surface))
-    pressures, ranges = np.sort(job.params.pressures), logarithmic_grid(job.params.gaps)
-    named = theories(lattice, job.params.variants, job.params.gamma)
+    pressures, ranges = np.sort(asked["pressures"]), logarithmic_grid(params.gaps)
+    named = theories(lattice, params.variants, params.gamma)
     parts = [evaluate(theory, pressures, ranges) for theory in named.values()]
     names = xr.DataArray(list(named), dims="variant", name="variant")
     dataset = xr.concat(parts, names).assign(rms_slope=lattice.rms_slope)
-    if job.params.simulated:
+    if asked["simulated"]:
         summit = highest_summit(surface)
         holds = dataset.mean_gap.isel(variant=0, drop=True) < summit - MARGIN
         window = {"highest_summit": summit, "margin": MARGIN, "window_holds": holds.astype("i1")}
         dataset = dataset.assign(window)
     dataset = annotate(dataset, **VARIABLES)
-    models = read_models(job.input.laws)
+    models = read_models(laws)
     for name in QUADRATURE:
         dataset = with_budget(dataset, name, **theory_parts(models, name, dataset[name], surface))
     title = "Persson's theory on the lattice spectrum of a case"
-    parameters = {**surface, "case": job.wildcards.compared, "gamma": job.params.gamma}
+    parameters = {**surface, "case": case, "gamma": params.gamma}
     dataset = add_kappa(dataset, models, surface)
-    datasets.write(dataset, job.output.theory, title=title, parameters=parameters)
-    write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
+    datasets.write(dataset, output, title=title, parameters=parameters)
+    write_a_v(output, a_v, params.windows, laws)
 
 
 def highest_summit(surface):
@@ -61,4 +68,4 @@ def highest_summit(surface):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "persson_lattice", compared="H0.8_zeta64"))
+    main(start(globals(), "persson_cases"))

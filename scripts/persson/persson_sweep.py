@@ -17,23 +17,29 @@ from stickiness.error_budget import with_budget
 
 
 def main(job):
-    sweep, ranges = job.params.sweep, logarithmic_grid(job.params.gaps)
+    for sweep, *files in zip(job.params.sweeps, job.output.theory, job.output.a_v, strict=True):
+        write_sweep(sweep, job.params, job.input.laws, *files)
+
+
+def write_sweep(sweep, params, laws, output, a_v):
+    """Write theory over one sweep, and a_V fitted to it."""
+    ranges = logarithmic_grid(params.gaps)
     axes = {name: np.array(sweep[name], dtype=float) for name in ("hurst", "magnification")}
     parts = []
     for at in product(*axes.values()):
         spectrum = model_spectrum(dict(zip(axes, map(float, at), strict=True)))
-        named = theories(spectrum, job.params.variants, job.params.gamma)
+        named = theories(spectrum, params.variants, params.gamma)
         parts += [evaluate_sweep(theory, sweep, ranges) for theory in named.values()]
     axes["variant"] = list(named)
     dataset = stack(parts, axes).sortby(list(axes)).transpose("variant", ...)
-    dataset, models = annotate(dataset), read_models(job.input.laws)
+    dataset, models = annotate(dataset), read_models(laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
         dataset = with_budget(dataset, name, **theory_parts(models, name, value))
     title = "Persson's theory on continuous self-affine spectra"
-    parameters = {**sweep, "variants": job.params.variants, "gamma": job.params.gamma}
-    datasets.write(dataset, job.output.theory, title=title, parameters=parameters)
-    write_a_v(job.output.theory, job.output.a_v, job.params.windows, job.input.laws)
+    parameters = {**sweep, "variants": params.variants, "gamma": params.gamma}
+    datasets.write(dataset, output, title=title, parameters=parameters)
+    write_a_v(output, a_v, params.windows, laws)
 
 
 def stack(parts, axes):
@@ -58,4 +64,4 @@ def evaluate_sweep(theory, sweep, ranges):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "persson_sweep", sweep="fig1a"))
+    main(start(globals(), "persson_sweep"))

@@ -32,10 +32,10 @@ START_TOLERANCE = 1e-4  # of the contact without adhesion, over h_rms
 VARIABLE_TEXTS = {
     "periodisation": "way in which the heights were made periodic",
     "resolution": "grid points per shortest wavelength, at least",
-    "theory_attractive_area": "attractive area by theory on the spectrum of these heights",
-    "theory_area_fraction": "contact area by theory on the spectrum of these heights",
+    "theory_attractive_area": "attractive area that theory predicts from their spectrum",
+    "theory_area_fraction": "contact area that theory predicts from their spectrum",
     "a_v": "a_V = A_ad/((3/2) p (range/h_rms)^(2/3))",
-    "theory_a_v": "a_V by theory on the spectrum of these heights",
+    "theory_a_v": "a_V that theory predicts from their spectrum",
     "h_rms": ("m", "rms height of the periodic surface"),
     "q1": ("1/m", "highest wave number of the heights pressed"),
     "adhesive_contact_area": "area at a gap of zero with adhesion, by pixels",

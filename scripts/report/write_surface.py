@@ -1,4 +1,7 @@
-"""Page of one surface: verdicts and their reasons, curves, contact, parameters and spectrum."""
+"""Verdict for every material on one surface, and the page of the surface.
+
+It has verdicts and their reasons, curves, contact, parameters and spectrum.
+"""
 
 import numpy as np
 import xarray as xr
@@ -9,6 +12,7 @@ from common.job import start
 from common.materials import describe_modulus, read_material
 from common.templates import write_page
 from common.verdicts import describe_moment, describe_pull_off, describe_share
+from criteria.verdicts import judge_materials, read_surfaces
 from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets
@@ -25,9 +29,7 @@ QUOTED_RANGE = 0.03  # over h_rms, at which a_V of the measured heights is quote
 def main(job):
     inputs = job.input
     surface = datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"])
-    verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin"])
-    pairs = verdicts.sel(surface=job.wildcards.real_surface)
-    entries = datasets.parameters(verdicts)["materials"]
+    entries, pairs = job.params.materials, judge(job).sel(surface=job.wildcards.real_surface)
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
     mine = [name for name in names if name not in provided.MATERIALS]
 
@@ -46,7 +48,7 @@ def main(job):
     write_page(
         inputs.template,
         job.output.page,
-        files=dict(inputs.items()),
+        files=dict(inputs.items()) | {"verdicts": job.output.verdicts},
         report=f"{job.output.page.rsplit('/', 2)[0]}/report.html",
         surface=surface,
         made=datasets.parameters(surface),
@@ -64,6 +66,18 @@ def main(job):
         bem=bem,
         library=interactive.library() if curves or contact else "",
     )
+
+
+def judge(job):
+    """Write the verdicts on the surface, and return them."""
+    surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
+    material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
+    (label,) = (datasets.parameters(surface)["label"] for surface in surfaces.values())
+    verdicts = judge_materials(surfaces, material_surfaces, job.params)
+    title = f"verdicts of the stickiness criteria: {label}"
+    parameters = {"materials": job.params.materials, "label": label}
+    datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
+    return datasets.read(job.output.verdicts)
 
 
 def describe_verdict(pair, entry):

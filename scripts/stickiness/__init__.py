@@ -32,8 +32,8 @@ Examples
 >>> heights = surface.synthesise(rough, n=128, length=25.13, seed=7)
 >>> contact = repulsive.solve(heights, length=25.13, pressure=0.1)
 >>> theory = persson.Persson(surface.lattice_spectrum(rough, 25.13))
->>> print(f"{contact.area_fraction:.2f} simulated, {theory.area_fraction(0.1):.2f} by theory")
-0.09 simulated, 0.08 by theory
+>>> print(f"{contact.area_fraction:.2f} simulated, {theory.area_fraction(0.1):.2f} predicted")
+0.09 simulated, 0.08 predicted
 """
 
 from importlib import import_module

@@ -204,7 +204,7 @@ def sum_modes(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:
     coefficients = np.zeros((n, n), dtype=complex)
     np.add.at(coefficients, (i % n, j % n), modes)
     np.add.at(coefficients, (-i % n, -j % n), modes.conj())
-    return fft.ifft2(coefficients).real * n**2
+    return fft.ifft2(coefficients, overwrite_x=True).real * n**2
 
 
 def _sum_shells(i: NDArray, j: NDArray, power: NDArray) -> tuple[NDArray, NDArray]:

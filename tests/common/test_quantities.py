@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cases import answer_case
-from contact import average_ensemble, solve_coarse, solve_repulsive
+from contact import solve_coarse, solve_repulsive
 from stickiness import datasets, repulsive, spectrum, surface
 from stickiness import error_budget as budget
 from stickiness.accuracy.quantities import slope_within_contact
@@ -52,8 +52,8 @@ def job(folder, inputs, params, output, **wildcards):
 
 
 @pytest.fixture(scope="module")
-def means(tmp_path_factory):
-    """File of a case from its surfaces to its means."""
+def folder(tmp_path_factory):
+    """Files of a case from its surfaces to its answer."""
     folder, solved = tmp_path_factory.mktemp("slope"), []
     solver = {"pressures": LOADS, "tolerance": 1e-6, "gaps": None, "measured": ["contact_slope"]}
     for seeds in ([1, 2], [3]):
@@ -65,16 +65,19 @@ def means(tmp_path_factory):
     params = solver | {"surface": ASKED, "after": 0, "seeds": 40, "descriptor_seeds": 64}
     solve_coarse.main(job(folder, {}, params, "coarse.nc"))
     inputs = {"realisations": solved, "coarse": [str(folder / "coarse.nc")], "laws": TABLE}
-    params = {"seeds": [1, 2, 3], "pressures": LOADS, "quantities": WANTED}
-    averaging = job(folder, inputs, params, "")
-    averaging.output = SimpleNamespace(means=folder / "means.nc", kappa=folder / "kappa.nc")
-    average_ensemble.main(averaging)
-    return folder / "means.nc"
+    settings = {"pixels_per_wavelength": 4, "tolerance": 1e-6, "seeds": 3, "coarse_seeds": 40}
+    plan = {"quantities": WANTED, "pressures": LOADS, "simulated": True, "settings": settings}
+    plan |= {"surface": ASKED, "accuracy": None}
+    asked = job(folder, inputs, {"plan": plan}, "")
+    files = {name: str(folder / f"{name}.nc") for name in ("means", "kappa", "answer")}
+    asked.output = SimpleNamespace(**files)
+    answer_case.main(asked)
+    return folder
 
 
 @pytest.mark.slow
-def test_slope_in_contact_is_averaged_with_its_errors(means):
-    ensemble = datasets.read(means)
+def test_slope_in_contact_is_averaged_with_its_errors(folder):
+    ensemble = datasets.read(folder / "means.nc")
     slope, whole = ensemble.contact_slope_mean, ensemble.rms_slope.mean()
     assert ((slope > 0.2 * whole) & (slope < 1.5 * whole)).all()
     assert (ensemble.contact_slope_standard_error > 0).all()
@@ -88,18 +91,12 @@ def test_slope_in_contact_is_averaged_with_its_errors(means):
 
 
 @pytest.mark.slow
-def test_case_is_answered_with_what_is_not_known(means):
-    folder = means.parent
-    settings = {"pixels_per_wavelength": 4, "tolerance": 1e-6, "seeds": 3, "coarse_seeds": 40}
-    plan = {"quantities": WANTED, "pressures": LOADS, "simulated": True, "settings": settings}
-    plan |= {"surface": ASKED, "accuracy": None}
-    inputs = SimpleNamespace(solved=str(means), laws=TABLE, get=lambda name: None)
-    asked = job(folder, {}, {"plan": plan, "fit_interval": [0.01, 0.1]}, "answer.nc")
-    asked.input = inputs
-    answer_case.main(asked)
+def test_case_is_answered_with_what_is_not_known(folder):
     answer = datasets.read(folder / "answer.nc")
     slope = answer.sel(column="contact_slope")
-    np.testing.assert_array_equal(slope.value, datasets.read(means).contact_slope_mean)
+    np.testing.assert_array_equal(
+        slope.value, datasets.read(folder / "means.nc").contact_slope_mean
+    )
     assert np.isnan(slope.value_total_error).all()
     assert budget.dominant(slope.isel(pressure=0), "value") == "solver"
     assert "contact_slope: not known, how this quantity" in answer.value_error.comment

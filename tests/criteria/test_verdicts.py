@@ -74,8 +74,11 @@ UNMEASURED = (np.nan,) * 3
 @pytest.mark.parametrize(
     ("low", "high", "grows", "quantiles", "expected"),
     [
-        ((0.9, 0.15), (1.0, 0.9), 0.1, UNMEASURED, "sticks"),  # the onset does not matter here
-        ((0.5, 0.0), (0.6, 0.0), 0.1, UNMEASURED, "depends"),
+        ((0.9, 0.8), (1.0, 0.9), 1.1, UNMEASURED, "sticks fully"),
+        ((0.9, 0.79), (1.0, 0.9), 0.1, UNMEASURED, "sticks"),  # the onset does not matter here
+        ((0.1, 0.1), (0.2, 0.1), 0.1, UNMEASURED, "sticks"),
+        ((0.5, 0.09), (1.0, 0.1), 1.1, UNMEASURED, "depends"),
+        ((0.0, 0.0), (0.1, 0.0), 0.1, UNMEASURED, "depends"),
         ((0.0, 0.0), (0.09, 0.0), 1.1, UNMEASURED, "adheres locally, does not hold"),
         ((0.0, 0.0), (0.09, 0.0), 0.9, UNMEASURED, "does not stick"),
         # On a measured surface the draws decide.

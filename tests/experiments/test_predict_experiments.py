@@ -21,6 +21,7 @@ from stickiness.spectrum import SelfAffine
 LENGTH, RANGE = 0.05 / 1e6, 0.3e-9
 LIMIT = seen("limiting_roughness", ["1 um", "2 um"])
 WORK = seen("work_of_separation", "30 mJ/m^2")
+FILES = {"dataset": "nc", "table": "md", "png": "png", "pdf": "pdf"}
 
 
 def spectrum(h_rms=1.0, **more):
@@ -34,7 +35,7 @@ def made(tmp_path_factory):
     folder = tmp_path_factory.mktemp("experiments")
     job = SimpleNamespace(
         input=SimpleNamespace(template="report/experiments.md.j2"),
-        output=SimpleNamespace(dataset=str(folder / "x.nc"), table=str(folder / "x.md")),
+        output=SimpleNamespace(**{name: str(folder / f"x.{end}") for name, end in FILES.items()}),
         params=SimpleNamespace(experiments=EXPERIMENTS),
     )
     experiments.main(job)

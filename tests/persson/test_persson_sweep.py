@@ -21,17 +21,17 @@ SHARED = {
 }
 
 
-def write(rule, path, params, **wildcards):
+def write(rule, path, params):
     """Run a rule's script, and read what it writes of the variant that is quoted."""
-    job = make_job(path, SHARED | params, wildcards, laws=LAWS)
-    job.output = SimpleNamespace(theory=path, a_v=path.with_name("a_v.nc"))
+    job = make_job(path, SHARED | params, laws=LAWS)
+    job.output = SimpleNamespace(theory=[path], a_v=[path.with_name("a_v.nc")])
     rule.main(job)
     return datasets.read(path).sel(variant=VARIANT).squeeze()
 
 
 def sweep(path, **loads):
     asked = {"hurst": [0.8], "magnification": [4]} | loads
-    return write(persson_sweep, path, {"sweep": asked})
+    return write(persson_sweep, path, {"sweeps": [asked]})
 
 
 @pytest.fixture(scope="module")
@@ -49,7 +49,7 @@ def test_a_sweep_reaches_its_gap_with_the_area_of_the_closed_form(swept):
 @pytest.mark.slow
 def test_a_large_window_holds_the_continuous_spectrum(swept, tmp_path):
     surface = {"hurst": 0.8, "magnification": 4, "window": 8}
-    params = {"surface": surface, "pressures": [float(swept.pressure)], "simulated": False}
-    lattice = write(persson_lattice, tmp_path / "mine.nc", params, compared="mine")
+    asked = {"surface": surface, "pressures": [float(swept.pressure)], "simulated": False}
+    lattice = write(persson_lattice, tmp_path / "mine.nc", {"lattices": {"mine": asked}})
     for name in ("area_fraction", "mean_gap", "rms_slope"):
         assert float(lattice[name]) == pytest.approx(float(swept[name]), rel=0.05), name

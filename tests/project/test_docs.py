@@ -47,6 +47,6 @@ def test_the_example_of_the_library_runs(tmp_path):
     )
     assert done.returncode == 0, done.stderr
     found = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
-    area, theory = (float(found[name].split()[0]) for name in ("contact area", "area by theory"))
+    area, theory = (float(found[name].split()[0]) for name in ("contact area", "predicted area"))
     assert area == pytest.approx(theory, rel=0.3)
     assert done.stdout.startswith("sticks: ")

@@ -146,8 +146,6 @@ def test_headers_that_state_neither_counts_nor_factors_are_passed_over(tmp_path,
 @pytest.mark.parametrize(
     ("content", "entry"),
     [
-        (GWYDDION + table(), {}),
-        (table(ROUGH, ";", comma=True), ENTRY),
         ("# nx: 128 ny: 128\n" + points(), ENTRY),
         ("# columns: 3\n# rows: 16384\n" + points(), ENTRY),
         (points(), {"height_unit": "um", "pixel_size": f"{2 / N} mm"}),

@@ -23,7 +23,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from references.contact import Hertz, Westergaard
+from references.contact import Westergaard
 from scipy import optimize
 
 from stickiness.remaining import sphere
@@ -80,25 +80,6 @@ class JKRSphere:
         a = np.asarray(contact_radius, dtype=float)
         share = self._stretch(a) * self.radius / (2 * a**2)
         return a * np.sqrt(np.maximum(1 - share, 0))
-
-    def contact_pressure(self, r: ArrayLike, contact_radius: float):
-        """Pressure [E*] at distances `r` [length] from the axis; zero outside contact.
-
-        At the edge it tends to minus infinity as an inverse square root.
-        """
-        a = np.asarray(contact_radius, dtype=float)
-        r = np.asarray(r, dtype=float)
-        root = np.sqrt(np.maximum(1 - (r / a) ** 2, 0))
-        with np.errstate(divide="ignore"):
-            tension = self._stretch(a) / (np.pi * a * root)
-        return np.where(r > a, 0.0, 2 * a * root / (np.pi * self.radius) - tension)
-
-    def gap(self, r: ArrayLike, contact_radius: float):
-        """Gap [length] at distances `r` [length] from the axis; zero in contact."""
-        a = np.asarray(contact_radius, dtype=float)
-        hertz = Hertz(self.radius, float(4 * a**3 / (3 * self.radius)))
-        ratio = np.maximum(np.asarray(r, dtype=float) / a, 1.0)
-        return hertz.gap(r) + self._stretch(a) * 2 / np.pi * np.arccos(1 / ratio)
 
     def _stretch(self, a: NDArray) -> NDArray:
         """Displacement [length] of the flat punch superposed on the Hertzian solution."""
@@ -224,9 +205,6 @@ class _Wave:
             np.sqrt(2 * self.adhesion_length / self.wavelength) / self.full_contact_amplitude
         )
 
-    def _phase(self, fraction: ArrayLike) -> NDArray:
-        return np.pi / 2 * np.asarray(fraction, dtype=float)
-
     def _position(self, x: ArrayLike) -> NDArray:
         share = np.asarray(x, dtype=float) / self.wavelength
         return np.pi * np.abs(share - np.round(share))
@@ -243,8 +221,7 @@ class AdhesiveWave(_Wave):
     Valid while the cohesive zone is short against the contact and its complement; `MaugisWave` has
     no such limit. With psi half the contact in phase the mean pressure is ``p* (sin^2 psi - alpha
     sqrt(tan psi))``. Johnson, Int. J. Solids Struct. 32, 423 (1995),
-    doi:10.1016/0020-7683(94)00111-9; mean gap: Carbone & Mangialardi, J. Mech. Phys. Solids 52,
-    1267 (2004), doi:10.1016/j.jmps.2003.12.001.
+    doi:10.1016/0020-7683(94)00111-9.
     """
 
     # Largest alpha at which contact is partial without load, (27/256)^(1/4) = 0.570: the largest
@@ -256,7 +233,7 @@ class AdhesiveWave(_Wave):
 
     def pressure(self, area_fraction: ArrayLike):
         """Mean pressure [E*] of a contact of given area fraction, stable or not."""
-        psi = self._phase(area_fraction)
+        psi = np.pi / 2 * np.asarray(area_fraction, dtype=float)
         return self.full_contact_amplitude * (np.sin(psi) ** 2 - self.alpha * np.sqrt(np.tan(psi)))
 
     @property
@@ -282,31 +259,6 @@ class AdhesiveWave(_Wave):
         return float(
             optimize.brentq(lambda x: self.pressure(x) - pressure, first, last, xtol=1e-15)
         )
-
-    def mean_gap(self, area_fraction: float) -> float:
-        psi = self._phase(area_fraction)
-        load = self.pressure(area_fraction) / self.full_contact_amplitude
-        return float(self.amplitude * (np.cos(psi) ** 2 + 2 * load * np.log(np.sin(psi))))
-
-    def contact_pressure(self, x: ArrayLike, area_fraction: float):
-        """Pressure [E*] at distances `x` [length] from a crest; zero outside contact."""
-        psi, here = self._phase(area_fraction), self._position(x)
-        inside = np.sqrt(np.maximum(np.sin(psi) ** 2 - np.sin(here) ** 2, 0))
-        with np.errstate(divide="ignore"):
-            tension = self._tension(psi) * np.cos(here) / inside
-        pressure = 2 * self.full_contact_amplitude * np.cos(here) * inside - tension
-        return np.where(here > psi, 0.0, pressure)
-
-    def gap(self, x: ArrayLike, area_fraction: float):
-        """Gap [length] at distances `x` [length] from a crest; zero in contact."""
-        psi, here = self._phase(area_fraction), self._position(x)
-        ratio = np.maximum(np.sin(here) / np.sin(psi), 1.0)
-        opening = 2 * self._tension(psi) * self.wavelength / np.pi * np.arccosh(ratio)
-        return self._westergaard(float(area_fraction)).gap(x) + opening
-
-    def _tension(self, psi: NDArray) -> NDArray:
-        """Mean tension [E*] of the superposed periodic flat punch."""
-        return self.full_contact_amplitude * self.alpha * np.sqrt(np.tan(psi))
 
 
 @dataclass(frozen=True)

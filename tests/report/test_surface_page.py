@@ -11,7 +11,7 @@ from helpers.pages import Page, make_job
 from common import contact_picture, conventions
 from common.formatting import number, with_error
 from common.materials import read_material
-from criteria import judge_surface, pair_roughness, verdicts
+from criteria import pair_roughness, verdicts
 from criteria.pair_roughness import find_doubts
 from real_surfaces import analyse_surface, contact_measured, picture_contact
 from report import surface_figures, write_surface
@@ -61,23 +61,15 @@ def write_page(found, folder, materials=MATERIALS, bem=None, **pictures):
     paths = {name: str(folder / f"{name}.nc") for name in ("plate", "verdicts", "bem")}
     made = datasets.parameters(found) | {"surface": "plate"}
     datasets.write(found, paths["plate"], title="a", parameters=made)
-    job = make_job(
-        {"surface": paths["plate"], "material_surfaces": []},
-        {"verdicts": paths["verdicts"]},
-        material_surfaces=[],
-        materials=materials,
-        frequencies=FREQUENCIES,
-        wildcards=PLATE,
-    )
-    judge_surface.main(job)
     inputs = {"template": "report/surface.html.j2", "surface": paths["plate"]}
-    inputs |= {"verdicts": paths["verdicts"], **pictures}
+    inputs |= {"material_surfaces": [], **pictures}
     if bem is not None:
         datasets.write(bem, paths["bem"], title="a", parameters={"surface": "plate"})
         inputs["measured_contact"] = paths["bem"]
-    outputs = {"page": str(folder / "report/surfaces/plate.html")}
+    outputs = {"page": str(folder / "report/surfaces/plate.html"), "verdicts": paths["verdicts"]}
     outputs |= {name: str(folder / f"{name}.png") for name in ("figure", "curves")}
-    write_surface.main(make_job(inputs, outputs, wildcards=PLATE))
+    asked = {"material_surfaces": [], "materials": materials, "frequencies": FREQUENCIES}
+    write_surface.main(make_job(inputs, outputs, wildcards=PLATE, **asked))
     return Page(Path(outputs["page"]).read_text(encoding="utf-8"))
 
 

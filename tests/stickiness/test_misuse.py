@@ -7,11 +7,14 @@ from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, un
 from stickiness.accuracy import model_choice, multilevel
 from stickiness.adhesive import edge_zone
 from stickiness.criteria import a_v_table, equivalent_sphere, formulas
-from stickiness.measured import instrument_spectrum, levelling, psd, topography
+from stickiness.measured import instrument_spectrum, levelling, periodic, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
+from stickiness.remaining import measure, predict, share
 from stickiness.repulsive import richardson, subpixel
-from stickiness.solids import moduli
+from stickiness.solids import Film, HalfSpace, Layer, moduli
+from stickiness.solids.moduli import Constant, Prony, Table
+from stickiness.spectrum import Shells, Tabulated, combine
 
 SIDE = 2 * np.pi
 BAND = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=4.0, h_rms=1.0)
@@ -19,7 +22,8 @@ HEIGHTS = surface.synthesise(BAND, 16, SIDE, seed=1)
 HOLED = HEIGHTS.copy()
 HOLED[3, 4] = np.nan
 MASKED = np.ma.masked_greater(HEIGHTS, 1.0)
-LAW = adhesive.Exponential(0.01, 0.1)
+LAW, LONG = adhesive.Exponential(0.01, 0.1), adhesive.Exponential(0.3, 0.5)
+EPS, ONES, SERIES = np.geomspace(1e-3, 1.0, 31), np.ones((9, 1)), Prony(1e4, ((3e4, 1.0),))
 
 
 def band(**changes):
@@ -34,6 +38,10 @@ def press(heights=HEIGHTS, length=SIDE, pressure=0.1, **options):
     return repulsive.solve(heights, length, pressure, **options)
 
 
+def average(fine, coarse, many):
+    return multilevel.multilevel_mean(fine, coarse, many, ONES, ONES)
+
+
 MISUSES = [
     (lambda: press(HOLED), "heights must be finite, got"),
     (lambda: press(MASKED), "heights must not be masked, got"),
@@ -45,6 +53,11 @@ MISUSES = [
     (lambda: press(start=HEIGHTS), "start must be a Contact"),
     (lambda: surface.synthesise(BAND, 16, SIDE, None), "seed must be an integer"),
     (lambda: surface.synthesise(BAND, 16, SIDE, 1, "uniform"), "amplitudes must be 'gaussian' or"),
+    (lambda: surface.synthesise(BAND, 16, 0.9 * SIDE, 0), "longest wavelength"),
+    (lambda: surface.synthesise(BAND, 7, SIDE, 0), "n >= 8"),
+    (lambda: surface.synthesise(BAND, 1, SIDE, 0), "n must"),
+    (lambda: surface.synthesise(BAND, 16, np.nan, 0), "length must"),
+    (lambda: surface.synthesise(band(q0=1.1, q1=1.3), 16, SIDE, 0), "no wave vector"),
     (lambda: surface.synthesise("steel", 16, SIDE, 1), "spectrum must be"),
     (lambda: surface.lattice_spectrum(BAND, SIDE / 3), "window does not hold"),
     (lambda: surface.lattice_spectrum(BAND, 1e6 * SIDE), "must be in the inverse of its unit"),
@@ -54,13 +67,80 @@ MISUSES = [
     (lambda: band(hurst="0.8"), "hurst must be a number"),
     (lambda: band(q0=1e-200, q1=1e-199), "take a unit of length"),
     (lambda: BAND.psd(np.nan), "q must not be negative or NaN"),
+    (lambda: band(hurst=1.2), "hurst must"),
+    (lambda: band(q0=0.0), "q0 must"),
+    (lambda: band(q1=1.0), "q1 must"),
+    (lambda: band(C0=1.0), "one of h_rms and C0"),
+    (lambda: band(h_rms=-1.0), "h_rms must"),
+    (lambda: band(q_rolloff=0.5), "q_rolloff must"),
+    (lambda: band(anisotropy=0.5), "anisotropy must"),
+    (lambda: band(anisotropy=2e4), "anisotropy must be between 1 and 10000"),
+    (lambda: band(anisotropy="4"), "anisotropy must be a number"),
+    (lambda: band(angle="x"), "angle must"),
+    (lambda: band(anisotropy=1e4, q1=1e154), "leave the range of floats"),
+    (lambda: BAND.moment(3), "order must"),
+    (lambda: BAND.truncated(11.0), "q1 must"),
+    (lambda: combine(BAND, BAND).truncated(0.5), "q1 must"),
+    (lambda: combine(BAND, Shells([1.0], [1.0])), "lattice_spectrum"),
+    (lambda: combine(BAND, 1.0), "takes spectra one by one, .* got float"),
+    (lambda: Tabulated([1.0, 2.0], [1.0, 2.0, 3.0]), "q and C"),
+    (lambda: Tabulated([2.0, 1.0], [1.0, 1.0]), "q must .*increasing"),
+    (lambda: Tabulated([0.0, 1.0], [1.0, 1.0]), "q must be positive"),
+    (lambda: Tabulated([1.0, 2.0], [1.0, 0.0]), r"C\[1\]"),
+    (lambda: Shells([1.0], [-1.0]), "variance must"),
+    (lambda: Shells([2.0, 1.0], [1.0, 1.0]), "increasing"),
+    (lambda: Shells([1.0], [1.0]).psd(1.0), "single shell"),
     (lambda: Persson(HEIGHTS), "spectrum must be a Spectrum"),
+    (lambda: Persson(BAND, variant="persson2001"), "variant must"),
+    (lambda: Persson(BAND, correction="persson2001"), "correction must"),
+    (lambda: Persson(BAND, gamma=0.0), "gamma must"),
+    (lambda: Persson(BAND, gamma=0.01, correction="wang2017"), "gamma must"),
+    (lambda: Persson(BAND, nodes=0), "nodes must"),
+    (lambda: Persson(BAND).mean_gap(0.0), "p must"),
+    (lambda: Persson(BAND).area_fraction(-1.0), "p must"),
+    (lambda: Persson(BAND).area_fraction(0.1, magnification=0.5), "magnification must"),
+    (lambda: Persson(BAND).gap_density(-1.0, 0.1), "u must"),
+    (lambda: Persson(BAND).pressure_at(1e4), "mean_gap must lie"),
     (lambda: dmt.attractive_area(press(), 0.1), "gap must be a number"),
     (lambda: dmt.adhesive_pressure(press().gap, 0.1), "law must be"),
+    (lambda: dmt.attractive_area([[0.0, -1e-9]], 0.1), "gap must not be negative"),
+    (lambda: dmt.attractive_area([[0.0, 1.0]], 0.0), "eps must be positive"),
+    (lambda: dmt.attractive_area([[0.0, 1.0]], 1.0, [[1, 0]]), "contact must be a boolean"),
+    (lambda: dmt.attractive_area([0.0, 1.0], 1.0, subpixel=True), "gap must be at least two-dim"),
+    (lambda: dmt.edge_gap([0.0, 1.0]), "two-dimensional"),
+    (lambda: dmt.weak_attraction([1, 2], [2, 1], [-1, -2]), "three or more increasing"),
+    (lambda: dmt.weak_attraction([3, 2, 1], [1, 2, 3], [-3, -2, -1]), "three or more incr"),
+    (lambda: dmt.weak_attraction([1, 2, 3], [3, 2], [-1, -2, -3]), "each of 3 pressures"),
+    (lambda: dmt.weak_attraction([1, 2, 3], [3, 2, 1], [1, 2, 3]), "potential a negative one"),
+    (lambda: dmt.local_exponent([1.0, 2.0], [1.0, 2.0]), "eps must be an increasing"),
+    (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(0.1, 0.01)), "window must be two"),
+    (lambda: dmt.fit_a_v(EPS, EPS, 0.1, window=(2.0, 3.0)), "must hold at least two"),
+    (lambda: dmt.fit_a_v(EPS, EPS[1:], 0.1), "area must be finite and match"),
+    (lambda: dmt.fit_a_v(EPS, EPS, [0.1, 0.2]), "pressure must have the shape"),
+    (lambda: dmt.fit_a_v(EPS, EPS, 0.0), "pressure must be positive"),
     (lambda: criteria.inverse_kappa(np.nan), "inverse_kappa_ad must be"),
     (lambda: criteria.pastewka_robbins_a_v_power_law(0.8, 0.5), "magnification must be at least 1"),
+    (lambda: criteria.violano(2, 0.03, 0.01, np.nan, 3), "^range must be positive and finite"),
+    (lambda: criteria.pastewka_robbins(0.0, 1.0, 1.0, 1.0), "rms_slope must"),
+    (lambda: criteria.pastewka_robbins(1.0, 1.0, 1.0, 1.0, -1.0), "interaction_range must"),
+    (lambda: criteria.pastewka_robbins_a_v_power_law(1.0, 10.0), "hurst must be below 1"),
+    (lambda: criteria.fuller_tabor(1.0, 1.0, 1.0, radius=0.0), "radius must"),
+    (lambda: criteria.bearing_area(1.0, 1.0, 1.0, 0.0), "range must"),
+    (lambda: criteria.persson_tosatti(0.0, 1.0), "elastic_energy must"),
+    (lambda: criteria.dahlquist(-1.0), "modulus_pa must"),
     (lambda: formulas.jtb_limit(1.0, None, 0.1), "adhesion_length must be a number, got None"),
     (lambda: multilevel.descriptors(BAND, SIDE, 3), "seeds must be"),
+    (lambda: multilevel.descriptors(BAND, SIDE, [1], "gaussian", 0.5), "cutoff must be at least 1"),
+    (lambda: multilevel.descriptors(BAND, SIDE, [1], "uniform"), "amplitudes must be"),
+    (lambda: multilevel.descriptors(BAND, 0.01, [1]), "the window does not hold the band"),
+    (lambda: multilevel.descriptors(BAND, np.nan, [1]), "length must be positive and finite"),
+    (lambda: average([1], [1], [1, 2]), "fine must hold at least 2 samples"),
+    (lambda: average([1, np.nan], [1, 2], [1, 2]), "fine must be finite"),
+    (lambda: average([1, 2], [1, 2, 3], [1, 2]), r"coarse must be of .*\(2,\)"),
+    (lambda: average([1, 2], [1, 2], [[1], [2]]), "many must be of shape"),
+    (lambda: multilevel.controlled_mean(np.ones(8), np.ones(8), ONES), "controls must be of shape"),
+    (lambda: multilevel.controlled_mean(np.ones(9), ONES, np.ones((9, 2))), "elsewhere must be of"),
+    (lambda: multilevel.controlled_mean(np.ones(11), *np.ones((2, 11, 2))), "at least 12 samples"),
     (lambda: subpixel.boundary_strip(HEIGHTS), "contact must be a non-em"),
     (
         lambda: dmt.sum_over_gaps([0.3, 0.2, 0.1], [3, 2, 1], LAW.traction),
@@ -77,6 +157,39 @@ MISUSES = [
         "kappa_rep must be positive",
     ),
     (lambda: equivalent_sphere.error_factor(1.0, -1.0), "strength must be positive"),
+    (lambda: equivalent_sphere.attraction(0.0, 1.0, 1.0, 0.1, 0.1, 1.0), "h_rms must"),
+    (lambda: equivalent_sphere.attraction(1.0, 1.0, 0.0, 0.1, 0.1, 1.0), "rms_slope must"),
+    (lambda: equivalent_sphere.attraction(1.0, 1.0, 1.0, 0.1, 0.0, 1.0), "range must"),
+    (lambda: equivalent_sphere.attraction(1.0, 1.0, 1.0, 0.1, 0.1, 0.0), "a_v must"),
+    (lambda: measure(HEIGHTS, SIDE, LONG, 0.0), "squeeze must"),
+    (lambda: measure(HEIGHTS, SIDE, LONG, np.nan), "squeeze must"),
+    (lambda: measure(HEIGHTS, SIDE, "exponential", 0.1), "law must be a TractionLaw"),
+    (lambda: measure(HEIGHTS, SIDE, adhesive.Exponential(0.3, 0.1), 0.1), "Take pixels of at most"),
+    (lambda: predict(BAND, 1.0, 1e150), "out of proportion to the rms height"),
+    (lambda: predict(BAND, 1.0, 1e-300), "out of proportion to the rms height"),
+    (lambda: predict(BAND, 1e40, 1e-3), "give the work of adhesion over"),
+    (lambda: predict(BAND, 1e300, 1e-3), "give the work of adhesion over"),
+    (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
+    (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
+    (lambda: share.tough_share(0.0), "energy_ratio must"),
+    (lambda: share.tough_share(-1.0), "energy_ratio must"),
+    (lambda: share.tough_share(np.nan), "energy_ratio must"),
+    (lambda: share.tough_share(np.inf), "energy_ratio must"),
+    (lambda: Layer(np.inf, 0.3), "thickness must be positive and finite"),
+    (lambda: Layer(1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
+    (lambda: Layer(1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Film.*'glued'"),
+    (lambda: Film(0.0, 0.4, 1.0), "modulus_ratio must be positive"),
+    (lambda: HalfSpace().compliance(0.0), "q must be positive and finite, got 0"),
+    (lambda: Constant(-1.0), "modulus must be positive"),
+    (lambda: Prony(0.0, ((1.0, 1.0),)), "equilibrium must be positive"),
+    (lambda: Prony(1.0, ()), "must not be empty"),
+    (lambda: Table((1.0,), (1.0,)), "two pairs"),
+    (lambda: Table((2.0, 1.0), (1.0, 1.0)), "must increase"),
+    (lambda: Table((1.0, 2.0), (1.0, 1.0)).separation_factor(1.0, 0), "frequency must be pos"),
+    (lambda: SERIES.storage(0.0), "frequency must be positive"),
+    (lambda: SERIES.relaxation(-1.0), "time must be positive"),
+    (lambda: SERIES.separation_factor(0.0, 1.0), "dwell must be positive"),
+    (lambda: SERIES.separation_factor(1.0, -2.0), "frequency must be positive .*-2.0"),
     (
         lambda: model_choice.relative_error(
             {("maugis", 0.8): ((), 0, 0)}, "maugis", 0.8, 32, 0.0, 0.1, 0.1
@@ -84,17 +197,28 @@ MISUSES = [
         "values must be positive",
     ),
     (lambda: edge_zone.resolution(0.1, 0.0, 0.1), "range must be positive"),
-    (lambda: moduli.Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
+    (lambda: Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
     (
-        lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [2.0, 1.0]),
+        lambda: moduli.crossings(Constant(1.0), 2.0, [2.0, 1.0]),
         "frequencies must be one increasing",
     ),
-    (lambda: moduli.crossings(moduli.Constant(1.0), 2.0, [-1.0, 1.0]), "frequencies must be posit"),
+    (lambda: moduli.crossings(Constant(1.0), 2.0, [-1.0, 1.0]), "frequencies must be posit"),
     (lambda: richardson.estimate("area", [1, 2], 0, 1), "quantity must be one of area_fr"),
     (lambda: richardson.estimate("mean_gap", [1], 0, 1), "two or three grids, got 1"),
     (lambda: richardson.estimate("mean_gap", [1, np.nan], 0, 1), "values and part must be finite"),
     (lambda: richardson.estimate("mean_gap", [1, 2], 0, -1), "edges must not be negative"),
     (lambda: levelling.fill_missing(HEIGHTS * np.nan, 1), "256 of 256 points, which are all,"),
+    (lambda: periodic.periodise(np.zeros(5), "taper"), r"map \(nx, ny\)"),
+    (lambda: periodic.periodise(np.zeros((5, 5)), "fold"), "'smooth' or 'given', got 'fold'"),
+    (lambda: periodic.band_limited(np.zeros((8, 8)), (1.0, 1.0), 99.0, 4), "Nyquist"),
+    (lambda: psd.power_spectrum(np.zeros(5), 1.0), "heights must be a grid"),
+    (lambda: psd.power_spectrum(np.zeros((3, 9)), 1.0), r"at least 4 x 4 points, got \(3, 9\)"),
+    (lambda: psd.power_spectrum(HEIGHTS, 1.0, np.inf), "dy must be positive.*inf"),
+    (lambda: psd.power_spectrum(HEIGHTS, 1.0, taper="hamming"), "taper must be.*'hamming'"),
+    (lambda: psd.profile_spectrum(np.ones(8), 1.0, "hann"), "at least 16"),
+    (lambda: psd.profile_spectrum(np.ones((20, 20)), 1.0, "hann"), "1D"),
+    (lambda: psd.profile_spectrum(np.ones(20), 0.0, "hann"), "dx must be positive"),
+    (lambda: psd.profile_spectrum(np.ones(20), 1.0, "box"), "taper must be"),
     (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), "heights leave the range of floats"),
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),

@@ -1,6 +1,7 @@
 """What `import stickiness` shows, and what it loads."""
 
 import doctest
+import importlib
 import subprocess
 import sys
 from pathlib import Path
@@ -8,6 +9,9 @@ from pathlib import Path
 import pytest
 
 import stickiness
+
+SCRIPTS = Path(stickiness.__file__).parents[1]
+EXAMPLES = [file for file in SCRIPTS.rglob("*.py") if ">>> " in file.read_text(encoding="utf-8")]
 
 
 @pytest.mark.parametrize("name", dir(stickiness))
@@ -33,10 +37,13 @@ def test_importing_loads_neither_scipy_nor_matplotlib():
         "import stickiness, sys; dir(stickiness); "
         "sys.exit(' '.join({'scipy', 'matplotlib', 'xarray'} & sys.modules.keys()) or 0)"
     )
-    folder = Path(stickiness.__file__).parents[1]
-    run = subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True)
+    run = subprocess.run([sys.executable, "-c", code], cwd=SCRIPTS, capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
 
 
-def test_the_example_is_right():
-    assert doctest.testmod(stickiness).failed == 0
+@pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: file.stem)
+def test_examples_in_the_documentation(file):
+    parts = file.relative_to(SCRIPTS).with_suffix("").parts
+    found = doctest.testmod(importlib.import_module(".".join(parts)))
+    assert found.attempted
+    assert not found.failed

@@ -131,20 +131,3 @@ def test_surface_of_shells(amplitudes):
     np.testing.assert_allclose(again.variance, window.variance, rtol=1e-12)
     with pytest.raises(ValueError, match=r"shell at q = 2\.5"):
         surface.synthesise(Shells([1.0, 2.5], [1.0, 1.0]), 24, L, 6)
-
-
-@pytest.mark.parametrize(
-    ("change", "name"),
-    [
-        ({"length": 0.9 * L}, "longest wavelength"),
-        ({"n": 31}, "n >= 32"),
-        ({"n": 1}, "n must"),
-        ({"length": np.nan}, "length"),
-        ({"amplitudes": "random"}, "amplitudes"),
-        ({"spectrum": power_law(1.3, 1.1)}, "no wave vector"),
-    ],
-)
-def test_bad_arguments_are_named(change, name):
-    good = {"spectrum": power_law(), "n": 32, "length": L, "seed": 0}
-    with pytest.raises(ValueError, match=name):
-        surface.synthesise(**{**good, **change})

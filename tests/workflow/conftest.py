@@ -26,16 +26,22 @@ class Workflow:
     def command(self, *arguments):
         return [sys.executable, "-m", "snakemake", "-j2", *arguments, *TINY]
 
-    def snakemake(self, *arguments):
-        """Run to the end; output and errors together."""
-        return subprocess.run(
+    def start(self, *arguments, **options):
+        """A process that runs; output and errors together."""
+        return subprocess.Popen(
             self.command(*arguments),
             cwd=self.folder,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            check=False,
+            **options,
         )
+
+    def snakemake(self, *arguments):
+        """Run to the end."""
+        run = self.start(*arguments)
+        output, _ = run.communicate()
+        return subprocess.CompletedProcess(run.args, run.returncode, output)
 
     def dry_run(self, *arguments):
         return dry_run(self.folder, *arguments, *TINY)

@@ -3,7 +3,6 @@
 import os
 import shutil
 import signal
-import subprocess
 import time
 
 import psutil
@@ -15,17 +14,6 @@ pytestmark = pytest.mark.workflow
 
 SURFACE = "results/tiny/surfaces/H0.9_zeta64/seeds1-2.nc"
 SOLVED = "results/tiny/contact/H0.9_zeta64/seeds1-2.nc"
-
-
-def start(workflow, *targets):
-    return subprocess.Popen(
-        workflow.command(*targets),
-        cwd=workflow.folder,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        text=True,
-        start_new_session=True,
-    )
 
 
 def wait_for(find, run):
@@ -60,14 +48,15 @@ def complete(workflow, finished):
 
 
 def test_a_killed_job_and_a_killed_run_lose_nothing_that_was_finished(fresh, finished):
-    run = start(fresh, SOLVED)  # whose job is killed, as by the kernel when memory runs out
+    alone = {"start_new_session": True}
+    run = fresh.start(SOLVED, **alone)  # whose job is killed, as by the kernel when memory runs out
     os.kill(wait_for(lambda: solving_jobs(run), run)[0], signal.SIGKILL)
     output, _ = run.communicate(timeout=120)
     assert run.returncode != 0
     assert "solve_repulsive" in output
     assert not (fresh / SOLVED).exists()
     written = (fresh / SURFACE).stat().st_mtime_ns
-    run = start(fresh, SOLVED)  # which is killed as a whole
+    run = fresh.start(SOLVED, **alone)  # which is killed as a whole
     os.kill(wait_for(lambda: solving_jobs(run), run)[0], signal.SIGSTOP)  # until then
     second = fresh.snakemake(SOLVED)
     assert second.returncode != 0

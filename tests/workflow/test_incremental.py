@@ -33,32 +33,32 @@ CHANGES = {
     "material": (
         "config/materials.yaml",
         ('"40 mJ/m^2"', '"45 mJ/m^2"'),
-        {"judge", "judge_surface", "write_surface", "plot_fig9", "check_claims", "write_report"},
+        {"judge", "write_surface", "plot_fig9", "check_claims", "write_report"},
         {"analyse_surface", *SOLUTIONS},
     ),
     "experiment": (
         "config/experiments.yaml",
         ('"37 mJ/m^2"', '"38 mJ/m^2"'),
-        {"predict_experiments", "plot_experiments", "check_claims", "write_report"},
+        {"predict_experiments", "check_claims", "write_report"},
         {"judge", "analyse_surface", *SOLUTIONS},
     ),
     "seed": (
         "config/tiny.yaml",
         (" seeds: 2, coarse_", " seeds: 3, coarse_"),
-        {"synthesise_surface", "solve_repulsive", "average_ensemble"},
-        {"solve_coarse", "persson_sweep", "persson_lattice", "analyse_surface", "judge"},
+        {"synthesise_surface", "solve_repulsive", "answer_case"},
+        {"solve_coarse", "persson_sweep", "persson_cases", "analyse_surface", "judge"},
     ),
     "coarse seeds": (
         "config/tiny.yaml",
         ("coarse_seeds: 32", "coarse_seeds: 40"),
-        {"solve_coarse", "average_ensemble"},
-        {"synthesise_surface", "solve_repulsive", "persson_lattice"},
+        {"solve_coarse", "answer_case"},
+        {"synthesise_surface", "solve_repulsive", "persson_cases"},
     ),
     "theory": (
         "scripts/stickiness/persson/theory.py",
         ("class Persson", "A_CHANGE = 1\n\n\nclass Persson"),
-        {"persson_sweep", "persson_lattice"},
-        {"analyse_surface", "average_ensemble", *SOLUTIONS},
+        {"persson_sweep", "persson_cases"},
+        {"analyse_surface", "answer_case", *SOLUTIONS},
     ),
     "solver": (
         "scripts/stickiness/repulsive/solver.py",
@@ -82,7 +82,7 @@ def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finis
     copy_of_finished.add("cases:\n  H0.8_zeta32_wide: {pressures: [0.03, 0.065]}\n")
     planned = copy_of_finished.planned("fig5")
     assert planned["solve_repulsive"] == 1
-    assert {"fit_a_v", "map_criterion"} <= planned.keys()
+    assert {"answer_case", "map_criterion"} <= planned.keys()
     assert copy_of_finished.planned("verdicts") == {}
 
     copy_of_finished.edit(
@@ -92,11 +92,11 @@ def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finis
     )
     planned = copy_of_finished.planned()
     assert planned["synthesise_surface"] == planned["solve_repulsive"] == 1
-    assert planned["average_ensemble"] == 1
+    assert planned["answer_case"] == 1
 
     copy_of_finished.edit("config/tiny.yaml", "{seeds: 3}", "{sampling: plain}")
     planned = copy_of_finished.planned()
-    assert planned["average_ensemble"] == 1
+    assert planned["answer_case"] == 1
     assert SOLUTIONS.isdisjoint(planned)
 
 

@@ -8,9 +8,8 @@ from stickiness import datasets
 pytestmark = pytest.mark.workflow
 
 CASE = "  {}: {{surface: H0.7_zeta64, pressures: [{}], {}}}\n"
-PAGE = {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
+PAGE = {"analyse_surface": 1, "write_surface": 1}
 SIMULATION = {"synthesise_surface": 1, "solve_repulsive": 1, "solve_coarse": 1}
-AREA = SIMULATION | {"average_ensemble": 1, "answer_case": 1}
 
 
 def plan_cases(workflow, **cases):
@@ -28,9 +27,9 @@ def test_a_verdict_needs_no_simulation_and_a_page_no_other_surface(fresh):
 @pytest.mark.parametrize(
     ("keys", "jobs"),
     [
-        ("model: theory", {"persson_lattice": 1, "answer_case": 1}),
-        ("quantities: [area]", AREA),
-        ("quantities: [a_v, kappa]", AREA | {"fit_a_v": 1}),
+        ("model: theory", {"persson_lattice": 1, "answer_by_theory": 1}),
+        ("quantities: [area]", SIMULATION | {"answer_areas": 1}),
+        ("quantities: [a_v, kappa]", SIMULATION | {"answer_case": 1}),
     ],
 )
 def test_quantities_bring_what_they_need(fresh, keys, jobs):
@@ -42,7 +41,7 @@ def test_cases_on_the_same_realisations_share_them(fresh):
     also = ("0.1", "quantities: [area, a_v]")
     planned = plan_cases(fresh, mine=("0.05, 0.1", "seeds: 2"), also_mine=also)
     assert SIMULATION.items() <= planned.items()
-    assert planned["average_ensemble"] == planned["answer_case"] == 2
+    assert planned["answer_case"] == 2
 
 
 def test_a_case_of_area_alone_runs(fresh):

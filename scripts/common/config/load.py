@@ -30,7 +30,7 @@ _REASONS = {
     "string_too_short": "must not be empty",
     "string_pattern_mismatch": "is no name: use letters, digits, dot, dash and underscore",
     "int_type": "must be a whole number",
-    "float_type": "must be a number",
+    "float_type": "must be a number such as 0.01 or 1.0e-2; YAML takes 1e-2 for a text",
     "string_type": "must be a text",
     "bool_type": "must be true or false",
     "list_type": "must be a list",

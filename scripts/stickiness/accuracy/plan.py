@@ -18,7 +18,7 @@ from stickiness.accuracy.settings import (
 
 FEWEST_COARSE = 64  #: coarse seeds if nothing says how many
 FIRST_FILE = 64  #: coarse seeds in the first file of a case
-SEEDS_A_FILE = 4  #: fine seeds: few enough to spread over cores, enough to outweigh a start
+SEEDS_A_FILE = 8  #: fine seeds: few enough to spread over cores, enough to outweigh a start
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ def coarse_batches(count: int) -> list[str]:
 
 
 def seed_batches(count: int) -> list[str]:
-    """Return the names of the files of so many fine seeds: '1-4', '5-8' and '9-9' of nine."""
+    """Return the names of the files of so many fine seeds: '1-8' and '9-9' of nine."""
     firsts = range(1, count + 1, SEEDS_A_FILE)
     return [f"{first}-{min(first + SEEDS_A_FILE - 1, count)}" for first in firsts]
 

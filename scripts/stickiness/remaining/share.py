@@ -64,6 +64,7 @@ def decay_energy(gap: ArrayLike) -> tuple[NDArray, NDArray]:
 _DECAY, _SLOPE = decay_energy(_GAPS)
 _ENERGY = np.where(_GAPS < FIRST_TOUCH, np.exp(-_DECAY), 0.0)
 _FINE_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
+_TOUCHING, _ALL = int(np.searchsorted(_GAPS, FIRST_TOUCH)), slice(None)
 
 
 def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
@@ -115,25 +116,51 @@ def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> fl
 
     `law` is a name of `LAWS`, or an array of names.
     """
-    x, energy, _ = _weak_energy(energy_ratio, range_ratio, load_scale, law)
-    return plain(np.max(-energy / x, axis=-1, initial=0.0))
-
-
-def _weak_energy(energy_ratio, range_ratio, load_scale, law):
-    """Energy ratios ``(..., 1)``; energies and contact areas at the mean gaps, ``(..., gap)``."""
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
+    attraction, place = _attraction_by_range(e, law)
+    # Before the first touch nothing is stored, and attraction knows range and law alone.
+    apart = np.unique(place, return_index=True)[1]
+    gained = _gained(e.ravel()[apart], attraction, 0.0, slice(_TOUCHING, None))
+    share = x.ravel() * np.max(gained, axis=-1, initial=0.0)[place] / x.ravel()
+    scale = np.broadcast_to(load_scale, e.shape).ravel()
+    for block in np.array_split(np.arange(x.size), max(1, x.size // _BLOCK)):  # fits the cache
+        at, known = x.ravel()[block], [part[place[block]] for part in attraction]
+        energy, _ = _weak_energy(at, e.ravel()[block], scale[block], known, slice(_TOUCHING))
+        share[block] = np.maximum(share[block], np.max(-energy / at[:, None], axis=-1))
+    return plain(share.reshape(x.shape))
+
+
+def _weak_energy(energy_ratio, range_ratio, load_scale, attraction, gaps=_ALL):
+    """Energies and contact areas at mean gaps, ``(n, gap)``, by attraction at each point."""
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
-    area = erf(np.sqrt(np.pi) * np.asarray(load_scale)[..., None] * _SLOPE * _ENERGY)
-    # What attraction gains is dear and knows the range alone, of which grids of pairs have few.
-    ranges, place = np.unique(e, return_inverse=True)
-    gained = _mean_attraction(ranges)[place.reshape(e.shape)]
-    open_overlap = np.maximum(ndtr(-_GAPS) - area, 0.0)
-    gained = gained - open_overlap * np.exp(-CLOSING * e[..., None])
-    law = np.broadcast_to(law, e.shape)
-    for name in set(np.unique(law).tolist()) - {EXPONENTIAL}:
-        ranges, place = np.unique(e[law == name], return_inverse=True)
-        gained[law == name] += _mean_excess(ranges, name)[place]
-    return x[..., None], _ENERGY - x[..., None] * np.maximum(gained, area), area
+    area = erf(np.sqrt(np.pi) * load_scale[:, None] * _SLOPE[gaps] * _ENERGY[gaps])
+    gained = np.maximum(_gained(range_ratio, attraction, area, gaps), area)
+    return _ENERGY[gaps] - energy_ratio[:, None] * gained, area
+
+
+def _gained(range_ratio, attraction, area, gaps):
+    """Mean attraction over that of contact at mean gaps, ``(n, gap)``, where it is open or not."""
+    mean, excess = attraction
+    open_overlap = np.maximum(ndtr(-_GAPS[gaps]) - area, 0.0)
+    found = mean[:, gaps] - open_overlap * np.exp(-CLOSING * range_ratio[:, None])
+    return found + excess[:, gaps]
+
+
+def _attraction_by_range(range_ratio, law):
+    """Mean attraction and a law's excess, both ``(k, gap)``, and which of the k each point has.
+
+    They are dear and know range and law alone, of which grids of pairs have few.
+    """
+    mean, excess, place = [], [], np.empty(range_ratio.size, dtype=int)
+    for name in np.unique(law).tolist():
+        mine = np.broadcast_to(np.asarray(law) == name, range_ratio.shape).ravel()
+        ranges, which = np.unique(range_ratio.ravel()[mine], return_inverse=True)
+        place[mine] = sum(map(len, mean)) + which
+        mean.append(_mean_attraction(ranges))
+        excess.append(
+            np.zeros_like(mean[-1]) if name == EXPONENTIAL else _mean_excess(ranges, name)
+        )
+    return (np.concatenate(mean), np.concatenate(excess)), place
 
 
 def _mean_excess(range_ratio: NDArray, law: str) -> NDArray:
@@ -210,14 +237,21 @@ def remaining_share(
 def find_deepest_state(energy_ratio, range_ratio, zone, load_scale=0.0, law=EXPONENTIAL):
     """Share that remains, largest tension [U/h], and area of contact at zero load."""
     onset = find_onset(zone)
-    x, energy, area = _weak_energy(energy_ratio, range_ratio, load_scale, law)
-    weak, lowest = np.max(-energy / x, axis=-1, initial=0.0), np.argmin(energy, axis=-1)
+    x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
+    attraction, place = _attraction_by_range(e, law)
+    known = [part[place] for part in attraction]
+    scale = np.broadcast_to(load_scale, e.shape).ravel()
+    energy, area = (
+        found.reshape(*e.shape, -1) for found in _weak_energy(x.ravel(), e.ravel(), scale, known)
+    )
+    weak = np.max(-energy / x[..., None], axis=-1, initial=0.0)
+    lowest = np.argmin(energy, axis=-1)
     beyond = np.arange(_GAPS.size - 1) >= lowest[..., None]
     rise = np.max(np.diff(energy) / np.diff(_GAPS), axis=-1, where=beyond, initial=0.0)
-    area = np.take_along_axis(np.broadcast_to(area, energy.shape), lowest[..., None], -1)[..., 0]
+    area = np.take_along_axis(area, lowest[..., None], -1)[..., 0]
     share = np.maximum(tough_share(energy_ratio, onset), weak)
     tough = share > weak
-    strength = find_strength(law) * x[..., 0] / range_ratio
+    strength = find_strength(law) * x / range_ratio
     return (
         share,
         np.minimum(np.where(tough, tough_tension(energy_ratio, onset), rise), strength),

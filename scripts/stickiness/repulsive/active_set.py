@@ -4,7 +4,8 @@ For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0
 pressure. Points under tension are released and points that penetrate are added, until neither is
 left. Between updates of the set the pressure is corrected in single precision; the next update
 starts from the true gap (iterative refinement), in double precision as soon as rounding matters.
-Below a per cent of contact only points that may touch take part (`dilute_contact`).
+Below a per cent of contact only points that may touch take part (`dilute_contact`), and with free
+edges their displacement is added up without a convolution on the whole grid (`free_edges`).
 """
 
 from dataclasses import dataclass
@@ -72,11 +73,7 @@ class _Field:
     def apply(self, operation, points, values, rows_in, rows_out=None):
         """Image of a field that is zero but for `values` at `points`; `image` holds it."""
         image = self.image.reshape(self.shape)
-
-        def clear(rows):
-            image[rows_in[rows]] = 0
-
-        sharing.spread(clear, rows_in.size, self.shape[1])
+        sharing.evaluate(lambda: 0, self.image)
         sharing.put(self.image, points, values)
         operation(image, image, rows_in, rows_out)
         return self.image
@@ -234,12 +231,7 @@ def _gap(grid, field, points, pressure):
     The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
     """
     image = grid.displace(field, points, pressure)
-    heights = grid.heights.ravel()
-
-    def lower(chunk):
-        np.subtract(image[chunk], heights[chunk], out=image[chunk], casting="same_kind")
-
-    sharing.spread(lower, image.size)
+    sharing.evaluate(np.subtract, image, image, grid.heights.ravel())
     gaps = sharing.take(image, points).astype(float, copy=False)
     shift = float(-gaps.mean())
     gaps += shift
@@ -263,21 +255,13 @@ def _highest(problem):
 
 def _predicted_from_gap(grid, gap, load):
     """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
-    operator, shape = grid.quick.operator, grid.shape
-    surface = grid.quick.image.reshape(shape)  # scratch: not in use here
-    gap, heights, flat = gap.ravel(), grid.heights.ravel(), surface.ravel()
-
-    def add(chunk):
-        np.add(gap[chunk], heights[chunk], out=flat[chunk], casting="same_kind")
-
-    sharing.spread(add, gap.size)
-    pressure = operator.stiffness(surface, grid.scratch.reshape(shape)).ravel()
+    operator, surface, pressure = grid.quick.operator, grid.quick.image, grid.scratch  # free yet
+    gap = gap.ravel()
+    sharing.evaluate(np.add, surface, gap, grid.heights.ravel())
+    operator.stiffness(surface.reshape(grid.shape), pressure.reshape(grid.shape))
     weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
 
-    def touches(chunk):
-        return pressure[chunk] + mean > np.maximum(gap[chunk] * weight, 0)
-
-    points = sharing.find(touches, gap.size)
+    points = sharing.find(lambda c: pressure[c] + mean > np.maximum(gap[c] * weight, 0), gap.size)
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
     touching = (sharing.take(pressure, points) + mean).astype(float)
@@ -323,12 +307,7 @@ def _state(grid, best, field, last, iterations):
         shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
     gap = grid.exact.image
     filled = np.zeros_like(gap)
-
-    def lift(chunk):
-        gap[chunk] += gap.dtype.type(shift)
-        np.maximum(gap[chunk], 0, out=gap[chunk])
-
-    sharing.spread(lift, gap.size)
+    sharing.evaluate(lambda g: np.maximum(g + g.dtype.type(shift), 0), gap, gap)
     sharing.put(gap, touching, 0)
     sharing.put(filled, touching, pressure)
     fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size

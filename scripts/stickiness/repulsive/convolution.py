@@ -67,7 +67,8 @@ class _Convolution:
         if memory is None or memory.size < size:
             memory = _SPECTRA.memory[self.shape] = aligned_zeros(size, np.uint8)
         self._memory = memory  # a view would not keep it, but what it is a view of
-        return memory[:size].view(self._numbers).reshape(rows, -1)
+        self._flat = memory[:size].view(self._numbers)
+        return self._flat.reshape(rows, -1)
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
         """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
@@ -80,7 +81,7 @@ class _Convolution:
         rows_in = np.arange(len(field)) if rows_in is None else rows_in
         rows_out = np.arange(len(out)) if rows_out is None else rows_out
         if rows_in.size < self.shape[0]:
-            self._spectrum[...] = 0
+            sharing.evaluate(lambda: 0, self._flat)
         self._share(partial(self._forward, field), self._blocks(field, rows_in))
         self._share(partial(self._multiply, symbol), self._parts)
         self._share(partial(self._backward, out), self._blocks(out, rows_out))

@@ -62,7 +62,10 @@ def select_candidates(grid, last, points, below, image, shift):
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid, likely.size):
         return None
-    split, places = (_split if grid.periodic else _enclose)(grid, likely)
+    if grid.periodic:
+        split, places = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid), likely
+    else:
+        split, places = _enclose(grid, likely)
     pairs = _pair(places, split, _MAX_PAIRS * _points(grid))
     return None if pairs is None else Candidates(grid, likely, places, split, *pairs)
 
@@ -178,11 +181,6 @@ class _FreeSplit(free_edges.Split):
         self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
         patch = [_TABLE * a for a in pixel]
         self.beside = _stiffness_beside(half_space.effective_wavenumbers(_PATCH, patch, solid))
-
-
-def _split(grid, points):
-    """Split of a periodic grid, and its points."""
-    return half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid), points
 
 
 def _enclose(grid, points):

@@ -63,18 +63,13 @@ class Preconditioner:
         self.mean = None
         if points.size < grid.heights.size:
             self.mean = half_space.keep(_Mean, tuple(grid.shape), tuple(grid.sides))
-            sharing.fill(grid.scratch, 0)
+            sharing.evaluate(lambda: 0, grid.scratch)
             sharing.put(grid.scratch, points, 1)
             self.mean.gather(grid.scratch.reshape(grid.shape))
             self.weights = np.empty(grid.shape, np.float32)
             self.mean.spread(None, self.weights)
             flat = self.weights.ravel()
-
-            def invert(chunk):
-                flat[chunk] += np.float32(_FAR_WEIGHT)
-                np.divide(1, flat[chunk], out=flat[chunk])
-
-            sharing.spread(invert, flat.size)
+            sharing.evaluate(lambda w: 1 / (w + np.float32(_FAR_WEIGHT)), flat, flat)
             sharing.put(flat, points, 0)
             grid.spent += 1 / _SPACING**2
 
@@ -87,7 +82,7 @@ class Preconditioner:
             return sharing.take(image, points)
         scratch = self.grid.scratch
         field, image = scratch.reshape(quick.shape), quick.image.reshape(quick.shape)
-        sharing.fill(scratch, 0)
+        sharing.evaluate(lambda: 0, scratch)
         sharing.put(scratch, points, residual)
         self.mean.gather(field)
         self.mean.spread(self.weights, image)
@@ -149,9 +144,9 @@ class _Mean:
     def at(self, points):
         """Sums at some points, given by flat indices."""
         out = np.empty(points.size, np.float32)
+        axes = self._axes
         sharing.spread(
-            lambda chunk: _interpolate_at(points[chunk], self._image, *self._axes, out[chunk]),
-            points.size,
+            lambda c: _interpolate_at(points[c], self._image, *axes, out[c]), points.size
         )
         return out
 

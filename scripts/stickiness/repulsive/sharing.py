@@ -92,6 +92,10 @@ def put(field, points, values):
     spread(move, points.size)
 
 
-def fill(field, value):
-    """``field[:] = value``."""
-    spread(lambda chunk: field[chunk].fill(value), field.size)
+def evaluate(function, out, *fields):
+    """``out[:] = function(*fields)``, of flat arrays and point by point."""
+
+    def work(chunk):
+        np.copyto(out[chunk], function(*(field[chunk] for field in fields)), casting="same_kind")
+
+    spread(work, out.size)

@@ -205,11 +205,7 @@ def press(
     else:
         unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
         scaled = np.empty(heights.shape)
-        given, into = heights.ravel(), scaled.ravel()
-        sharing.spread(
-            lambda c: np.divide(given[c] - mean, unit, out=into[c]),
-            given.size,
-        )
+        sharing.evaluate(lambda h: (h - mean) / unit, scaled.ravel(), heights.ravel())
         load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
         problem = active_set.Problem(scaled, sides, load, solid.in_unit(lengths[0]), bool(periodic))
         guess = {"pressure": start.pressure} if start is not None and start.area_fraction else None

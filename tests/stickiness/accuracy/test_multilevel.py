@@ -197,27 +197,3 @@ def test_rough_contacts():
     assert np.all(stated < plain / 2.2)
     # with six repetitions the ratio of variances follows F(5, 6 * 7): 0.1 to 4.5 at 1e-3 each side
     assert np.all(means.std(0, ddof=1) / stated < 2.2)
-
-
-ONES = np.ones((9, 1))
-
-
-@pytest.mark.parametrize(
-    ("call", "arguments", "words"),
-    [
-        ("multilevel_mean", ([1], [1], [1, 2], ONES, ONES), "fine must hold at least 2 samples"),
-        ("multilevel_mean", ([1, np.nan], [1, 2], [1, 2], ONES, ONES), "fine must be finite"),
-        ("multilevel_mean", ([1, 2], [1, 2, 3], [1, 2], ONES, ONES), r"coarse must be of .*\(2,\)"),
-        ("multilevel_mean", ([1, 2], [1, 2], [[1], [2]], ONES, ONES), "many must be of shape"),
-        ("controlled_mean", (np.ones(8), np.ones(8), ONES), "controls must be of shape"),
-        ("controlled_mean", (np.ones(9), ONES, np.ones((9, 2))), "elsewhere must be of"),
-        ("descriptors", (power_law(), L, [1], "gaussian", 0.5), "cutoff must be at least 1"),
-        ("descriptors", (power_law(), L, [1], "uniform"), "amplitudes must be"),
-        ("controlled_mean", (np.ones(11), *np.ones((2, 11, 2))), "at least 12 samples"),
-        ("descriptors", (power_law(), 0.01, [1]), "the window does not hold the band"),
-        ("descriptors", (power_law(), np.nan, [1]), "length must be positive and finite"),
-    ],
-)
-def test_wrong_arguments_are_named(call, arguments, words):
-    with pytest.raises(ValueError, match=words):
-        getattr(multilevel, call)(*arguments)

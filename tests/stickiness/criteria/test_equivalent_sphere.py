@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from references.adhesion import DMTSphere, JKRSphere, MaugisSphere, MaugisWave
+from references.adhesion import JKRSphere, MaugisSphere, MaugisWave
 from references.contact import Hertz, Westergaard
 from scipy.optimize import brentq
 
@@ -199,21 +199,3 @@ def test_error_grows_beyond_what_was_simulated():
     beyond = equivalent_sphere.attraction(1.0, 1.0, 3.0, 1e-4, 1e-6, 2.0)
     assert inside.simulated is True
     assert beyond.simulated is False
-
-
-@pytest.mark.parametrize("name", ["h_rms", "rms_slope", "range", "a_v"])
-def test_arguments_must_be_positive(name):
-    values = {"h_rms": 1.0, "q0": 1.0, "rms_slope": 1.0, "adhesion_length": 0.1, "range": 0.1}
-    with pytest.raises(ValueError, match=name):
-        equivalent_sphere.attraction(**(values | {"a_v": 1.0, name: 0.0}))
-
-
-def test_maugis_limit_at_fixed_load_and_work_of_adhesion_is_dmt():
-    """The range grows without bound, so the zone becomes wide compared with the contact."""
-    length, force = 1e-6, 3e-6
-    expected = DMTSphere(RADIUS, length).contact_radius(force)
-    spheres = [MaugisSphere(RADIUS, length, reach) for reach in (1e-3, 1e-2, 1e-1)]
-    assert spheres[-1].maugis_parameter < 1e-2
-    off = [abs(one.at_force(force).contact_radius / expected - 1) for one in spheres]
-    assert off[0] > off[1] > off[2]
-    assert off[-1] < 1e-2

@@ -1,14 +1,12 @@
 """From a surface and a material to a verdict by one call."""
 
-import doctest
 import warnings
 
 import numpy as np
 import pytest
 
 from stickiness import surface
-from stickiness.criteria import verdict as module
-from stickiness.criteria.pair import TOUCHES, WORDS, decide
+from stickiness.criteria.pair import TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.criteria.verdict import verdict
 from stickiness.plausibility import PlausibilityWarning
@@ -219,23 +217,3 @@ def test_measured_heights_give_the_verdict_of_their_spectrum():
     # One realisation, and a cutoff below the Nyquist wave number, are worth some ten per cent.
     ratio = of_heights.margins["persson_tosatti"] / of_spectrum.margins["persson_tosatti"]
     assert ratio == pytest.approx(1, rel=0.4)
-
-
-@pytest.mark.parametrize(
-    ("low", "high", "grows", "word"),
-    [
-        (0.8, 1.0, True, "sticks fully"),
-        (0.79, 1.0, False, "sticks"),
-        (0.1, 0.2, False, "sticks"),
-        (0.09, 1.0, True, "depends"),
-        (0.0, 0.1, False, "depends"),
-        (0.0, 0.09, True, WORDS[TOUCHES]),
-        (0.0, 0.09, False, "does not stick"),
-    ],
-)
-def test_words(low, high, grows, word):
-    assert WORDS[int(decide(low, high, grows))] == word
-
-
-def test_example_in_the_documentation():
-    assert doctest.testmod(module).failed == 0

@@ -78,16 +78,3 @@ def test_shells_of_an_oblong_period_keep_height_and_slope():
     qx, qy = 2 * np.pi * 3 / 6, 2 * np.pi * 2 / 2.5
     assert found.h_rms**2 == pytest.approx(2 + 0.5)
     assert found.rms_slope**2 == pytest.approx(2 * qx**2 + 0.5 * qy**2)
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: periodic.periodise(np.zeros(5), "taper"), r"map \(nx, ny\)"),
-        (lambda: periodic.periodise(np.zeros((5, 5)), "fold"), "'smooth' or 'given', got 'fold'"),
-        (lambda: periodic.band_limited(np.zeros((8, 8)), (1.0, 1.0), 99.0, 4), "Nyquist"),
-    ],
-)
-def test_wrong_arguments(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()

@@ -86,18 +86,3 @@ def test_a_profile_of_noise_is_refused():
     line = profile_spectrum(noise, 1.0)
     with pytest.raises(ValueError, match=r"falls as q\^.*too slowly for a surface"):
         isotropic(radial_average(line, FINE), 4 * line.q[0], line.q_nyquist)
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (((8,), 1.0, "hann"), "at least 16"),
-        (((20, 20), 1.0, "hann"), "1D"),
-        (((20,), 0.0, "hann"), "dx must be positive"),
-        (((20,), 1.0, "box"), "taper must be"),
-    ],
-)
-def test_wrong_arguments(arguments, message):
-    shape, dx, window = arguments
-    with pytest.raises(ValueError, match=message):
-        profile_spectrum(np.ones(shape), dx, window)

@@ -118,20 +118,6 @@ def test_anisotropy_tells_amplitude_and_direction():
     assert direction == pytest.approx(0.5, abs=0.1)
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"heights": np.zeros(5)}, "heights must be a grid"),
-        ({"heights": np.zeros((3, 9))}, r"at least 4 x 4 points, got \(3, 9\)"),
-        ({"dy": np.inf}, "dy must be positive.*inf"),
-        ({"taper": "hamming"}, "taper must be.*'hamming'"),
-    ],
-)
-def test_wrong_arguments_of_the_spectrum(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        power_spectrum(**{"heights": np.zeros((8, 8)), "dx": 1.0, **arguments})
-
-
 # The fit
 
 

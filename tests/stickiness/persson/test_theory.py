@@ -156,26 +156,6 @@ def test_shapes():
     assert theory.mean_gap(p).shape == theory.pressure_at(p).shape == (2,)
 
 
-@pytest.mark.parametrize(
-    ("call", "name"),
-    [
-        (lambda s: Persson(s, variant="persson2001"), "variant"),
-        (lambda s: Persson(s, correction="persson2001"), "correction must"),
-        (lambda s: Persson(s, gamma=0.0), "gamma"),
-        (lambda s: Persson(s, gamma=0.01, correction="wang2017"), "gamma must"),
-        (lambda s: Persson(s, nodes=0), "nodes"),
-        (lambda s: Persson(s).mean_gap(0.0), "p must"),
-        (lambda s: Persson(s).area_fraction(-1.0), "p must"),
-        (lambda s: Persson(s).area_fraction(0.1, magnification=0.5), "magnification"),
-        (lambda s: Persson(s).gap_density(-1.0, 0.1), "u must"),
-        (lambda s: Persson(s).pressure_at(1e4), "mean_gap must lie"),
-    ],
-)
-def test_bad_arguments_are_named(call, name):
-    with pytest.raises(ValueError, match=name):
-        call(power_law(10.0))
-
-
 SOLIDS = [HALF_SPACE, Layer(0.5, 0.5), Layer(1.0, 0.3, "slip")]
 SPECTRA = {
     "power law": power_law(),

@@ -89,17 +89,3 @@ def test_the_grid_resolves_or_says_so():
     with pytest.warns(PlausibilityWarning, match="0.76 pixels in the width of the cohesive zone"):
         found = measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False)
     assert found.pixels_in_zone < 2
-
-
-@pytest.mark.parametrize(
-    ("law", "squeeze", "message"),
-    [
-        (adhesive.Exponential(0.3, 0.5), 0.0, "squeeze"),
-        (adhesive.Exponential(0.3, 0.5), np.nan, "squeeze"),
-        ("exponential", 0.1, "law must be a TractionLaw"),
-        (adhesive.Exponential(0.3, 0.1), 0.1, "Take pixels of at most"),  # before the path
-    ],
-)
-def test_bad_arguments_are_refused(law, squeeze, message):
-    with pytest.raises(ValueError, match=message):
-        measure(random_heights(32), LENGTH, law, squeeze)

@@ -136,23 +136,3 @@ def test_crossings_of_a_table_are_exact_and_know_their_direction():
     found = [(pytest.approx(0.1), True), (pytest.approx(10.0), False)]
     assert crossings(table, 1e5, grid) == found
     assert crossings(Constant(1e5), 1e6, grid) == []
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: Constant(-1.0), "modulus must be positive"),
-        (lambda: Prony(0.0, ((1.0, 1.0),)), "equilibrium must be positive"),
-        (lambda: Prony(1.0, ()), "must not be empty"),
-        (lambda: Table((1.0,), (1.0,)), "two pairs"),
-        (lambda: Table((2.0, 1.0), (1.0, 1.0)), "must increase"),
-        (lambda: SERIES.storage(0.0), "frequency must be positive"),
-        (lambda: SERIES.relaxation(-1.0), "time must be positive"),
-        (lambda: SERIES.separation_factor(0.0, 1.0), "dwell must be positive"),
-        (lambda: SERIES.separation_factor(1.0, -2.0), "frequency must be positive .*-2.0"),
-        (lambda: Table((1.0, 2.0), (1.0, 1.0)).separation_factor(1.0, 0), "frequency must be pos"),
-    ],
-)
-def test_wrong_moduli(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
