@@ -26,7 +26,10 @@ _MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
 _MAX_UNSURE_ITERATIONS = 150
-_COARSE_TOLERANCE = 3e-3  # of h_rms: a guess for the next grid needs no more
+# A guess for the next grid needs no more than this of h_rms, and of the rms step between points:
+# contact on a surface of very short waves depends on heights far below h_rms.
+_COARSE_TOLERANCE, _COARSE_TOLERANCE_OF_STEP = 3e-3, 0.05
+_LEAST_COARSE_TOLERANCE = 1e-4  # of h_rms, in single precision
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,7 +283,9 @@ def _guess_from_coarser_grids(problem, work):
         )
     coarse = replace(problem, heights=heights, sides=sides)
     guess = _guess_from_coarser_grids(coarse, work)
-    state = active_set.relax(coarse, guess, tol=_COARSE_TOLERANCE, max_iterations=200, rough=True)
+    step = half_space.measure_slope(heights, heights.shape)
+    tol = min(_COARSE_TOLERANCE, max(_LEAST_COARSE_TOLERANCE, _COARSE_TOLERANCE_OF_STEP * step))
+    state = active_set.relax(coarse, guess, tol=tol, max_iterations=200, rough=True)
     work.append(state.fft_pairs * heights.size)
     if problem.periodic:
         return {"gap": half_space.interpolate(state.gap, shape)}

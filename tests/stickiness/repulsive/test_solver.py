@@ -1,5 +1,7 @@
 """Repulsive contact: conditions of contact, closed forms, invariances, extremes."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 from helpers.rough import on_any_grid as rough
@@ -9,7 +11,7 @@ from references import contact as reference
 from references.contact import assert_contact_conditions, displacement, solve_directly
 
 from stickiness import repulsive, spectrum, surface
-from stickiness.repulsive import subpixel
+from stickiness.repulsive import half_space, subpixel
 from stickiness.solids import Layer
 
 
@@ -232,3 +234,16 @@ def test_threads_do_not_change_a_bit(scaled_pressure, options):
         np.testing.assert_array_equal(contact.pressure, alone.pressure)
         np.testing.assert_array_equal(contact.gap, alone.gap)
         assert (contact.shift, contact.residual) == (alone.shift, alone.residual)
+
+
+@pytest.mark.parametrize(("pressure", "arrays"), [(0.02, 6.8), (2.0, 9.0)])
+def test_memory_in_arrays_of_the_grid(pressure, arrays):
+    """Beside the heights; kept operators of coarser grids and small buffers are one of them."""
+    heights = rough(512, 0.8, seed=1)
+    repulsive.solve(heights[:256, :256], 1.0, 1e-3, tol=1e-3)  # compiles loops
+    half_space.clear_caches()
+    tracemalloc.start()
+    repulsive.solve(heights, 1.0, pressure, tol=1e-6)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < arrays * heights.nbytes
