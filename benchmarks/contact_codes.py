@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from scipy import fft
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,29 +25,49 @@ class Run:
     fft_pairs: float | None
 
 
-def complementarity(pressure, heights, length):
-    """Mean gap under the pressure, and mean gap, over h_rms: by numpy's transforms.
+def complementarity(pressure, heights, length, periodic=True):
+    """Mean gap under the pressure, and mean gap, over h_rms: by plain transforms.
 
     The first is ``sum(p g) / sum(p)``, the error that all codes are held to; the gap is measured
     from its smallest value, so that penetration counts as well.
     """
-    n0, n1 = heights.shape
-    q0 = 2 * np.pi * np.fft.fftfreq(n0, length / n0)
-    q1 = 2 * np.pi * np.fft.rfftfreq(n1, length / n1)
-    q = np.hypot(q0[:, None], q1[None, :])
-    q[0, 0] = np.inf
-    gap = np.fft.irfft2(2 * np.fft.rfft2(pressure) / q, s=heights.shape) - heights
+    gap = (displace if periodic else displace_freely)(pressure, length) - heights
     gap -= gap.min()
     error = np.sum(pressure * gap) / pressure.sum()
     return error / heights.std(), gap.mean() / heights.std()
 
 
-def stickiness(heights, length, pressure, tol):
+def displace(pressure, length):
+    """Displacement of a periodic half-space, of zero mean."""
+    n0, n1 = pressure.shape
+    q0 = 2 * np.pi * np.fft.fftfreq(n0, length / n0)
+    q1 = 2 * np.pi * np.fft.rfftfreq(n1, length / n1)
+    q = np.hypot(q0[:, None], q1[None, :])
+    q[0, 0] = np.inf
+    return np.fft.irfft2(2 * np.fft.rfft2(pressure) / q, s=pressure.shape)
+
+
+def displace_freely(pressure, length):
+    """Displacement of a half-space without end, by Love's integral over square pixels."""
+    n, pixel = max(pressure.shape), length / pressure.shape[0]
+    x = (np.minimum(np.arange(2 * n), 2 * n - np.arange(2 * n)) + 0.5) * pixel
+    x, y = np.meshgrid(x, x, indexing="ij", sparse=True)
+    kernel = np.zeros((2 * n, 2 * n))
+    for sign_x in (1, -1):
+        for sign_y in (1, -1):
+            a, b = x - (sign_x < 0) * pixel, y - (sign_y < 0) * pixel
+            corner = a * np.arcsinh(b / np.abs(a)) + b * np.arcsinh(a / np.abs(b))
+            kernel += sign_x * sign_y * corner / np.pi
+    spectrum = fft.rfft2(kernel) * fft.rfft2(pressure, s=kernel.shape)
+    return fft.irfft2(spectrum, s=kernel.shape)[tuple(map(slice, pressure.shape))]
+
+
+def stickiness(heights, length, pressure, tol, periodic=True):
     """Run this project's solver."""
     from stickiness import repulsive
 
     begin = time.process_time()
-    contact = repulsive.solve(heights, length, pressure, tol=tol)
+    contact = repulsive.solve(heights, length, pressure, tol=tol, periodic=periodic)
     seconds = time.process_time() - begin
     return Run(contact.pressure, seconds, contact.iterations, contact.fft_pairs)
 
@@ -96,32 +117,34 @@ def contact_mechanics(heights, length, pressure, tol):
     return Run(np.abs(force) * heights.size / length**2, seconds, result.nit, 2 * result.nit + 1)
 
 
-def aspher(heights, length, pressure, tol, precision="double"):
-    """Run ASPHER on nested grids with its spectral periodic half-space.
+def aspher(heights, length, pressure, tol, **options):
+    """Run ASPHER on nested grids.
 
     It makes its operators inside the call that is timed; they are a small part.
     """
     from aspher import solve_nested
 
+    loaded = heights.shape[0], -heights.ravel(), pressure, length
     begin = time.process_time()
-    result = solve_nested(
-        heights.shape[0],
-        -heights.ravel(),
-        pressure,
-        domain_size=length,
-        tol=tol,
-        backend="periodic",
-        precision=precision,
-    )
+    result = solve_nested(*loaded, tol=tol, **options)
     seconds = time.process_time() - begin
     return Run(np.array(result.pressure).reshape(heights.shape), seconds, result.iterations, None)
 
 
+_SPECTRAL = {"backend": "periodic"}
+# Its fastest path: clusters of points, and on the finest grid only points that may touch.
+_FREE = {"backend": "h2", "active_set": True, "light_result": True}
+
 CODES = {
     "stickiness": stickiness,
-    "aspher": aspher,
+    "aspher": partial(aspher, **_SPECTRAL, precision="double"),
     # In single precision until that no longer pays, then in double.
-    "aspher_mixed": partial(aspher, precision="float_then_double"),
+    "aspher_mixed": partial(aspher, **_SPECTRAL, precision="float_then_double"),
     "tamaas": tamaas,
     "contactmechanics": contact_mechanics,
+}
+FREE_EDGES = {
+    "stickiness_free": partial(stickiness, periodic=False),
+    "aspher_free": partial(aspher, **_FREE, precision="double"),
+    "aspher_free_single": partial(aspher, **_FREE, precision="float"),
 }

@@ -4,7 +4,8 @@ For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0
 pressure. Points under tension are released and points that penetrate are added, until neither is
 left. Between updates of the set the pressure is corrected in single precision; the next update
 starts from the true gap (iterative refinement), in double precision as soon as rounding matters.
-Below a per cent of contact only points that may touch take part (`dilute_contact`).
+Below a per cent of contact only points that may touch take part (`dilute_contact`), and with free
+edges their displacement is added up without a convolution on the whole grid (`free_edges`).
 """
 
 from dataclasses import dataclass
@@ -24,6 +25,7 @@ _REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing m
 _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
 _FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
 _SINGLE_PRECISION_LIMIT = 1e-4  # of the largest height: a smaller residual needs double precision
+_SPLIT_LIMIT = 1e-9  # of the largest height: a smaller tolerance needs convolutions
 _LARGEST_KEPT = 2**22  # points: beyond this memory is dearer than the time to make operators again
 # Updates without progress …
 _STALLED_UPDATES_TO_TIGHTEN = 8  # … after which the set is solved ten times tighter
@@ -80,9 +82,9 @@ class _Field:
 class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
-    def __init__(self, problem, rough):
+    def __init__(self, problem, rough, tol=0.0):
         self.heights, self.shape = problem.heights, problem.heights.shape
-        self.solid, self.sides = problem.solid, problem.sides
+        self.solid, self.sides, self.periodic = problem.solid, problem.sides, problem.periodic
         self.active = np.zeros(self.heights.size, bool)
         # One array in double precision, or two in single: an image is read before the next is made.
         memory = convolution.aligned_zeros(self.heights.size, np.float64)
@@ -94,6 +96,7 @@ class _Grid:
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
         self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
+        self.splits = not problem.periodic and tol > _SPLIT_LIMIT * largest
         self._operators = {self.quick.operator, self.exact.operator}
         self.spent = 0.0  # convolutions on coarser grids, by their share of the points
         self.spent = -self.pairs
@@ -102,6 +105,14 @@ class _Grid:
     def pairs(self):
         """Convolutions since this object was made."""
         return self.spent + sum(operator.pairs for operator in self._operators)
+
+    def displace(self, field, points, pressure):
+        """Displacement by pressure on some points; `image` of the field holds it."""
+        operator = field.operator
+        if not self.splits or not dilute_contact.is_worthwhile(self, points.size):
+            return field.apply(operator.compliance, points, pressure, self.rows(points))
+        operator.displace(points, pressure, field.image.reshape(self.shape))
+        return field.image
 
     def rows(self, points):
         """Rows that hold some of the points, given in increasing order."""
@@ -120,8 +131,8 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
     heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
     max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
-    grid = _Grid(problem, rough)
-    field = grid.quick if pressure is None else grid.exact
+    grid = _Grid(problem, rough, tol)
+    field = grid.exact if problem.periodic and pressure is not None else grid.quick
     total = load * heights.size
     if gap is not None:
         points, pressure = _predicted_from_gap(grid, gap, load)
@@ -135,7 +146,7 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
         full = _full_contact(grid, load)
         if full.pressure.min() >= 0:
             return full
-    dilute = problem.periodic and dilute_contact.is_worthwhile(grid.shape, grid.sides, points.size)
+    dilute = dilute_contact.is_worthwhile(grid, points.size)
     best = precondition = candidates = None
     iterations, stalled, loose, changed = 0, 0, _REDUCTION_WHILE_CHANGING, points.size
     while True:
@@ -219,7 +230,7 @@ def _gap(grid, field, points, pressure):
 
     The shift makes the mean gap in contact vanish; the image of `field` keeps the gap without it.
     """
-    image = field.apply(field.operator.compliance, points, pressure, grid.rows(points))
+    image = grid.displace(field, points, pressure)
     sharing.evaluate(np.subtract, image, image, grid.heights.ravel())
     gaps = sharing.take(image, points).astype(float, copy=False)
     shift = float(-gaps.mean())
@@ -260,10 +271,11 @@ def _predicted_from_gap(grid, gap, load):
 def _predicted_from_pressure(grid, pressure, total):
     flat = pressure.ravel()
     points = np.flatnonzero(flat > 0)
-    shift, *_ = _gap(grid, grid.exact, points, _balanced(flat[points], total))
-    threshold = grid.exact.image
+    field = grid.exact if grid.periodic else grid.quick
+    shift, *_ = _gap(grid, field, points, _balanced(flat[points], total))
+    threshold = field.image
     threshold += threshold.dtype.type(shift)
-    threshold *= PREDICTION * grid.exact.operator.mean_stiffness * (flat.sum() / total)
+    threshold *= PREDICTION * field.operator.mean_stiffness * (flat.sum() / total)
     predicted = np.flatnonzero(flat > np.maximum(threshold, 0, out=threshold))
     if predicted.size:
         points = predicted

@@ -12,18 +12,20 @@ import numpy as np
 from scipy import fft, sparse
 
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, half_space, sharing
+from stickiness.repulsive import convolution, free_edges, half_space, sharing
 from stickiness.repulsive.preconditioner import close_gap
 
 # Beyond these two limits the whole grid is as cheap.
 _MAX_CANDIDATES = 0.012  # of all points
 _MAX_PAIRS = 0.8  # near pairs, per point of the grid
+_FREE_FACTOR = 2  # of both with free edges, where convolutions are on four times the points
 _CANDIDATE_GAP = 1.0  # of the rms gap in contact: candidates are what lies below
 _SPACING = 4  # of the grid of long waves, in pixels
 _SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 0.013
 _REACH = 10  # of near pairs, in pixels
 _BESIDE = 3  # and of the stiffness that preconditions
 _TABLE = 64  # pixels along the sides of the table of near pairs
+_PATCH = (_TABLE, _TABLE)
 #: Penetrations up to this multiple of the rms gap in contact may yet vanish.
 ADMITTED_PENETRATION = 0.7
 _MAX_SET_CHANGES = 30  # changes of the set in a correction
@@ -32,11 +34,16 @@ _BEST_REDUCTION = 0.002  # and one that it can still make, if it is the last
 _REDUCTION_WHILE_CHANGING = 0.1  # and one between changes of the set
 
 
-def is_worthwhile(shape, sides, count):
+def is_worthwhile(grid, count):
     """Whether corrections among `count` candidates pay on a grid, of about square pixels."""
-    pixel = [a / n for a, n in zip(sides, shape, strict=True)]
+    pixel = [a / n for a, n in zip(grid.sides, grid.shape, strict=True)]
     square = max(pixel) < 1.5 * min(pixel)
-    return square and min(shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * shape[0] * shape[1]
+    return square and min(grid.shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * _points(grid)
+
+
+def _points(grid):
+    """Points of a grid, as many as convolutions on it cost."""
+    return grid.heights.size * (1 if grid.periodic else _FREE_FACTOR)
 
 
 def select_candidates(grid, last, points, below, image, shift):
@@ -53,25 +60,32 @@ def select_candidates(grid, last, points, below, image, shift):
         likely[last.points] = True
         vars(last).clear()  # frees memory
     likely = np.flatnonzero(likely)
-    if not is_worthwhile(grid.shape, grid.sides, likely.size):
+    if not is_worthwhile(grid, likely.size):
         return None
-    split = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid)
-    pairs = _pair(likely, grid.shape, split)
-    return None if pairs is None else Candidates(grid, likely, split, *pairs)
+    if grid.periodic:
+        split, places = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid), likely
+    else:
+        split, places = _enclose(grid, likely)
+    pairs = _pair(places, split, _MAX_PAIRS * _points(grid))
+    return None if pairs is None else Candidates(grid, likely, places, split, *pairs)
 
 
 class Candidates:
-    """Points that may touch (flat, increasing), and the approximate compliance among them."""
+    """Points that may touch (flat, increasing), and the approximate compliance among them.
 
-    def __init__(self, grid, points, split, near, beside):
+    `places` are these points on the grid of the `split`.
+    """
+
+    def __init__(self, grid, points, places, split, near, beside):
         self.points = points
         self._grid, self._split, self._near, self._beside = grid, split, near, beside
-        self._splines = _splines(points, grid.shape, split.coarse)
+        self._portion = np.prod(split.shape) / grid.heights.size
+        self._splines = _splines(places, split)
         self._transpose = self._splines.T
 
     def compliance(self, pressure):
         """Displacement of all candidates, in single precision."""
-        self._grid.spent += 1 / _SPACING**2
+        self._grid.spent += self._split.share * self._portion
         image = self._splines @ self._split.convolve(self._transpose @ pressure)
         return _multiply(self._near, pressure, image)
 
@@ -130,14 +144,18 @@ class Candidates:
 class _Split:
     """Short and long waves of the compliance of a periodic solid on a grid."""
 
+    periodic, share = True, 1 / _SPACING**2  # of the points of the grid, in a convolution
+
     def __init__(self, shape, sides, solid):
+        self.shape = shape
         self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
+        self.places = [(m / n, 0) for m, n in zip(self.coarse, shape, strict=True)]
         width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
         # Near pairs do not feel how large the cell is.
-        table, patch = (_TABLE, _TABLE), [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
-        q = half_space.effective_wavenumbers(table, patch, solid)
-        self.near = _truncate_kernel(_invert(q) * (1 - _long(table, patch, width)), _REACH)
-        self.beside = _truncate_kernel(q / 2, _BESIDE)
+        patch = [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
+        q = half_space.effective_wavenumbers(_PATCH, patch, solid)
+        near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)))
+        self.near, self.beside = _truncate_kernel(near, _REACH), _stiffness_beside(q)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
@@ -152,6 +170,28 @@ class _Split:
         return self._image.ravel()
 
 
+class _FreeSplit(free_edges.Split):
+    """The same of an unbounded half-space."""
+
+    periodic, places = False, [(1 / free_edges.SPACING, 1)] * 2
+
+    def __init__(self, shape, pixel, solid):
+        super().__init__(shape, pixel, np.float32, free_edges.COARSE)
+        rest = self.rest([_REACH] * 2)
+        self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
+        patch = [_TABLE * a for a in pixel]
+        self.beside = _stiffness_beside(half_space.effective_wavenumbers(_PATCH, patch, solid))
+
+
+def _enclose(grid, points):
+    """Split of a rectangle with free edges that holds the points, and their places in it."""
+    row, column = np.divmod(points, grid.shape[1])
+    row, column = row - row.min(), column - column.min()
+    shape = int(row.max()) + 1, int(column.max()) + 1
+    pixel = tuple(a / n for a, n in zip(grid.sides, grid.shape, strict=True))
+    return _FreeSplit(shape, pixel, grid.solid), row * shape[1] + column
+
+
 def _long(shape, lengths, width):
     """Share of a wave that counts as long: the rest falls off with distance to the power -5."""
     x = (width * half_space.wavenumbers(shape, lengths)) ** 2
@@ -162,10 +202,18 @@ def _invert(q):
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
-def _truncate_kernel(symbol, reach):
+def _stiffness_beside(q):
+    return _truncate_kernel(_tabulate(q / 2), _BESIDE)
+
+
+def _tabulate(symbol):
+    """Kernel of a symbol, of which one quadrant is given."""
+    return np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH)
+
+
+def _truncate_kernel(kernel, reach):
     """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
-    symbol = np.concatenate([symbol, symbol[-2:0:-1]])
-    kernel = np.fft.irfft2(symbol, (_TABLE, _TABLE)).astype(np.float32)
+    kernel = kernel.astype(np.float32)
     first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
     return np.where(np.hypot(first, second) <= reach, kernel[first, second], 0), kernel[0, 0]
 
@@ -185,19 +233,21 @@ def _multiply(matrix, values, image):
     return image
 
 
-def _pair(points, shape, split):
+def _pair(points, split, most):
     """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
+    shape = split.shape
     size, width = points.size, shape[1] + 2 * _REACH
     row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
-    left, right = np.flatnonzero(column >= shape[1] - _REACH), np.flatnonzero(column < _REACH)
+    beside, height = (_REACH, shape[0]) if split.periodic else (0, shape[0] + _REACH)
+    left, right = np.flatnonzero(column >= shape[1] - beside), np.flatnonzero(column < beside)
     index = np.concatenate([np.arange(size, dtype=np.int32), left, right], dtype=np.int32)
     places = row[index] * np.int32(width) + column[index] + np.int32(_REACH)
     places[size : size + left.size] -= np.int32(shape[1])
     places[size + left.size :] += np.int32(shape[1])
     order = np.argsort(places, kind="stable")
-    where = places[order], index[order], row, column, shape[0], width
-    near = _symmetric(split.near, _REACH, where, _MAX_PAIRS * shape[0] * shape[1])
+    where = places[order], index[order], row, column, height, width
+    near = _symmetric(split.near, _REACH, where, most)
     return None if near is None else (near, _symmetric(split.beside, _BESIDE, where, np.inf))
 
 
@@ -246,11 +296,13 @@ def _find_pairs(places, index, row, column, height, width, kernel, reach, starts
         starts[k + 1] = total
 
 
-def _splines(points, shape, coarse):
+def _splines(points, split):
     """Cubic B-splines around the points of the coarse grid, at some of the fine one: a row each."""
     columns, weights = np.zeros((points.size, 1), np.int32), np.ones((points.size, 1), np.float32)
-    for n, m, at in zip(shape, coarse, np.divmod(points, shape[1]), strict=True):
-        left, t = np.divmod(at[:, None] * (m / n), 1)
+    coarse = split.coarse
+    at_axes = np.divmod(points, split.shape[1])
+    for m, (ratio, first), at in zip(coarse, split.places, at_axes, strict=True):
+        left, t = np.divmod(at[:, None] * ratio + first, 1)
         u = 1 - t
         w = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6
         here = (left.astype(np.int32) + np.arange(-1, 3, dtype=np.int32)) % np.int32(m)

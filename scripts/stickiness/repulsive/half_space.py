@@ -14,10 +14,12 @@ from scipy import fft
 
 from stickiness.arguments import positive
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, sharing
+from stickiness.repulsive import convolution, free_edges, sharing
+from stickiness.repulsive.free_edges import displace_by_pixel
 from stickiness.solids import HALF_SPACE
 
 _FEW, _MANY = 12, 24  # kept of one kind, of all threads: many operators of half-spaces
+_PATCH = 64  # pixels along the sides of a grid whose mean stiffness is that of any
 
 
 def keep(kind, *arguments, most=_FEW):
@@ -111,35 +113,42 @@ class FreeHalfSpace(HalfSpace):
     """
 
     def __init__(self, shape, lengths, dtype, solid):
-        super().__init__(shape, lengths, dtype, solid)
+        self.dtype, self.shape, self.lengths, self.solid = np.dtype(dtype), shape, lengths, solid
+        self.pairs = 0
+        self._pixel = tuple(a / n for a, n in zip(lengths, shape, strict=True))
+        patch = [_PATCH * a for a in self._pixel]
+        q = wavenumbers((_PATCH, _PATCH), patch)[:, : _PATCH // 2]
+        self.mean_stiffness = float(q.mean()) / 2
+
+    # Large, and needed by some methods only.
+    @cached_property
+    def _convolution(self):
+        return convolution.choose(self.shape, self.dtype)
+
+    @cached_property
+    def _padded(self):
         padded = tuple(2 * fft.next_fast_len(n, real=True) for n in self.shape)
-        pixel = tuple(a / n for a, n in zip(self.lengths, self.shape, strict=True))
-        self._share = padded[0] * padded[1] / (self.shape[0] * self.shape[1])
-        self._padded = convolution.choose(padded, self.dtype)
+        operator = convolution.choose(padded, self.dtype)
         # The kernel is even along both axes: a cosine transform of a quadrant has its spectrum.
-        quadrant = displace_by_pixel([m // 2 + 1 for m in padded], pixel)
-        spectrum = fft.dctn(quadrant, type=1, overwrite_x=True).T
-        spectrum /= padded[0] * padded[1]
-        self._symbol = self._padded.symbol(spectrum)
+        quadrant = displace_by_pixel([m // 2 + 1 for m in padded], self._pixel)
+        return operator, free_edges.even_symbol(operator, quadrant)
+
+    @cached_property
+    def _split(self):
+        accuracy = free_edges.SINGLE if self.dtype == np.float32 else free_edges.DOUBLE
+        return free_edges.Split(self.shape, self._pixel, self.dtype, accuracy)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
         """Displacement, zero far away."""
-        out = self._convolve(self._padded, self._symbol, pressure, out, rows_in, rows_out)
-        self.pairs += self._share - 1  # which has been counted as one
+        out = self._convolve(*self._padded, pressure, out, rows_in, rows_out)
+        # One has been counted.
+        self.pairs += np.prod(self._padded[0].shape) / (self.shape[0] * self.shape[1]) - 1
         return out
 
-
-def displace_by_pixel(shape, pixel):
-    """Displacement under unit pressure [E*] on one pixel, at `shape` pixels from there on.
-
-    It is ``1/(pi E*)`` times the integral of 1/r over the pixel: the second difference, over its
-    corners, of ``x asinh(y/x) + y asinh(x/y)`` (Love, Phil. Trans. R. Soc. A 228:377, 1929). At a
-    distance of m pixels the difference loses some ``m**2`` times the rounding.
-    """
-    x, y = ((np.arange(m + 1) - 0.5) * side for m, side in zip(shape, pixel, strict=True))
-    x, y = x[:, None], y[None, :]
-    corners = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
-    return np.diff(np.diff(corners, axis=0), axis=1) / np.pi
+    def displace(self, points, pressure, out):
+        """Displacement by pressure on few points, flat and increasing, with a known error."""
+        self._split.displace(points, pressure, out)
+        self.pairs += self._split.share
 
 
 def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True, kept=True):

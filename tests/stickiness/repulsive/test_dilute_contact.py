@@ -40,29 +40,39 @@ def assert_same(monkeypatch, heights, sides, pressure, tol=1e-8, **options):
 
 
 @pytest.mark.parametrize(
-    ("seed", "pressure", "solid"),
+    ("seed", "pressure", "options"),
     [
-        (0, 1e-4, HALF_SPACE),
-        (1, 5e-4, HALF_SPACE),
-        (2, 2e-3, HALF_SPACE),
-        (1, 5e-4, Layer(0.02, 0.5)),
-        (1, 5e-4, Layer(0.3, 0.3)),
+        (0, 1e-4, {}),
+        (1, 5e-4, {}),
+        (2, 2e-3, {}),
+        (1, 5e-4, {"solid": Layer(0.02, 0.5)}),
+        (1, 5e-4, {"solid": Layer(0.3, 0.3)}),
+        (0, 1e-4, {"periodic": False}),
+        (2, 2e-3, {"periodic": False}),
     ],
 )
-def test_same_solution_as_on_the_grid(monkeypatch, seed, pressure, solid):
-    assert_same(monkeypatch, rough((256, 256), seed), 1.0, pressure, solid=solid)
+def test_same_solution_as_on_the_grid(monkeypatch, seed, pressure, options):
+    assert_same(monkeypatch, rough((256, 256), seed), 1.0, pressure, **options)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("shape", "sides"),
-    [((255, 255), (1, 1)), ((131, 262), ROW), ((200, 144), (1, 0.8)), ((128, 257), ROW)],
+    ("shape", "sides", "periodic"),
+    [
+        ((255, 255), (1, 1), True),
+        ((131, 262), ROW, True),
+        ((200, 144), (1, 0.8), True),
+        ((128, 257), ROW, True),
+        ((257, 259), (1, 1), False),
+        ((261, 523), ROW, False),
+        ((300, 256), (1, 1), False),
+    ],
 )
 @pytest.mark.parametrize("tol", [1e-4, 1e-10])
-def test_any_grid(monkeypatch, shape, sides, tol):
+def test_any_grid(monkeypatch, shape, sides, tol, periodic):
     heights = rough(shape, 5, sides)
-    contact = assert_same(monkeypatch, heights, sides, 5e-4, tol)
-    again = repulsive.solve(heights, sides, 5e-4, tol=tol)
+    contact = assert_same(monkeypatch, heights, sides, 5e-4, tol, periodic=periodic)
+    again = repulsive.solve(heights, sides, 5e-4, tol=tol, periodic=periodic)
     np.testing.assert_array_equal(again.pressure, contact.pressure)
 
 
@@ -76,6 +86,15 @@ def test_contact_across_the_boundary_moves_with_the_surface(monkeypatch):
     np.testing.assert_allclose(moved, expected.gap, atol=4e-8 * contact.rms_height)
 
 
+@pytest.mark.parametrize("summit", [(0, 0), (255, 255), (0, 100)])
+def test_contact_at_a_free_rim(monkeypatch, summit):
+    heights = rough((256, 256), 3)
+    highest = np.unravel_index(np.argmax(heights), heights.shape)
+    shift = np.subtract(summit, highest)
+    contact = assert_same(monkeypatch, np.roll(heights, shift, (0, 1)), 1.0, 5e-4, periodic=False)
+    assert contact.pressure[summit] > 0
+
+
 def test_candidates_grow(monkeypatch):
     # Candidates are first what touches or penetrates at a poor guess: others have to join.
     monkeypatch.setattr(dilute_contact, "_CANDIDATE_GAP", 0.0)
@@ -83,16 +102,17 @@ def test_candidates_grow(monkeypatch):
     assert_same(monkeypatch, rough((256, 256), 1), 1.0, 2e-3)
 
 
-def test_one_and_two_points():
+@pytest.mark.parametrize("periodic", [True, False])
+def test_one_and_two_points(periodic):
     heights = rough((256, 256), 2)
-    first, second = (10, 20), (110, 250)
+    first, second = (0, 20), (110, 255)
     # far too stiff a peak for others to touch
     heights[first] = heights.max() + 1.0
-    contact = repulsive.solve(heights, 1.0, 1e-6)
+    contact = repulsive.solve(heights, 1.0, 1e-6, periodic=periodic)
     assert np.argwhere(contact.pressure).tolist() == [list(first)]
     assert contact.residual <= 1e-8
     heights[second] = heights[first]
-    contact = repulsive.solve(heights, 1.0, 1e-6)
+    contact = repulsive.solve(heights, 1.0, 1e-6, periodic=periodic)
     assert np.argwhere(contact.pressure).tolist() == [list(first), list(second)]
     assert contact.pressure[first] == pytest.approx(contact.pressure[second])
 
@@ -101,18 +121,21 @@ def test_one_and_two_points():
 @pytest.mark.parametrize(
     ("shape", "sides"), [((256, 256), (1.0, 1.0)), ((255, 131), (1.0, 131 / 255))]
 )
-@pytest.mark.parametrize("solid", [HALF_SPACE, Layer(thickness=0.05, poisson=0.4)])
-def test_compliance_is_right_to_a_hundredth(shape, sides, solid):
+@pytest.mark.parametrize(
+    ("solid", "periodic"),
+    [(HALF_SPACE, True), (Layer(thickness=0.05, poisson=0.4), True), (HALF_SPACE, False)],
+)
+def test_compliance_is_right_to_a_hundredth(shape, sides, solid, periodic):
     rng = np.random.default_rng(0)
     points = np.flatnonzero(rng.random(shape[0] * shape[1]) < 0.005)
-    problem = Problem(np.zeros(shape), sides, 1.0, solid)
-    split = dilute_contact._Split(shape, sides, solid)
-    candidates = dilute_contact.Candidates(
-        _Grid(problem, True), points, split, *dilute_contact._pair(points, shape, split)
-    )
+    grid = _Grid(Problem(np.zeros(shape), sides, 1.0, solid, periodic), True)
+    state = points, points[:0], np.zeros(shape).ravel(), 0.0
+    candidates = dilute_contact.select_candidates(grid, None, *state)
+    np.testing.assert_array_equal(candidates.points, points)
     pressure = rng.random(points.size).astype(np.float32)
     field = np.zeros(shape)
     field.flat[points] = pressure
-    expected = half_space.half_space(shape, sides, solid=solid).compliance(field).flat[points]
+    operator = half_space.half_space(shape, sides, solid=solid, periodic=periodic)
+    expected = operator.compliance(field).flat[points]
     error = candidates.compliance(pressure) - expected
     assert np.abs(error).max() < 0.01 * np.ptp(expected)

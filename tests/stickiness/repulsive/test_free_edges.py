@@ -8,7 +8,7 @@ from references.contact import solve_directly
 from scipy import integrate
 
 from stickiness import repulsive
-from stickiness.repulsive import active_set, half_space, projected_gradients
+from stickiness.repulsive import active_set, free_edges, half_space, projected_gradients
 
 PATCH = (12, 10)
 SIDES = (1.0, 1.5)
@@ -71,6 +71,28 @@ def test_convolution_is_the_direct_sum(shape, dtype, accuracy):
     operator.compliance(pressure.astype(dtype), out, rows_in, rows_out)
     np.testing.assert_allclose(out[rows_out], expected[rows_out], rtol=accuracy)
     assert np.all(np.delete(out, rows_out, axis=0) == 7)
+
+
+@pytest.mark.parametrize(
+    ("dtype", "split", "accuracy"),
+    [
+        (np.float32, free_edges.COARSE, 3e-3),
+        (np.float32, free_edges.SINGLE, 2e-5),
+        (np.float64, free_edges.DOUBLE, 5e-10),
+    ],
+)
+@pytest.mark.parametrize(
+    ("shape", "sides"), [((256, 256), (1, 1)), ((131, 262), (1, 2)), ((255, 133), (2, 0.8))]
+)
+def test_split_is_the_convolution(shape, sides, dtype, split, accuracy):
+    rng, pixel = np.random.default_rng(0), tuple(a / n for a, n in zip(sides, shape, strict=True))
+    points = np.union1d([0, shape[0] * shape[1] - 1], rng.integers(shape[0] * shape[1], size=300))
+    for count in (1, points.size):
+        field, out = np.zeros(shape), np.empty(shape, dtype)
+        field.flat[points[:count]] = values = rng.random(count)
+        expected = half_space.half_space(shape, sides, periodic=False).compliance(field)
+        free_edges.Split(shape, pixel, dtype, split).displace(points[:count], values, out)
+        np.testing.assert_allclose(out, expected, rtol=0, atol=accuracy * expected.max())
 
 
 @pytest.mark.parametrize(("radius", "n"), [(0.05, 256), (0.1, 128), (0.3, 64)])
