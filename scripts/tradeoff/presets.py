@@ -1,6 +1,7 @@
 """Presets: the cheapest settings for an error in every quantity, those of full adhesion too.
 
 Full adhesion is solved on the realisations of a case and on their grid, to a tolerance of its own.
+The rule takes all of them to be on the whole grid; sets solve half of the seeds there.
 From `FEWEST` seeds on, the slope against the DMT sum of the coarse seeds corrects its means; what
 the ratio gains with fewer is not counted. A pull-off is a result of one realisation, not a mean:
 only its grid matters.
