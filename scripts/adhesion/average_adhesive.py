@@ -17,7 +17,7 @@ from scipy import special
 from adhesion import compare_edges, dmt_sum
 from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
 from common import adhesion_sets, conventions
-from common.adhesion_sets import AXES, MISSING, OUTSIDE, pressure_at, solver_error
+from common.adhesion_sets import AXES, MISSING, OUTSIDE, STATE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
@@ -27,12 +27,8 @@ from stickiness import datasets
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
 
-STATES = {
-    "external_pressure": "mean pressure over E* q0 h_rms",
-    "repulsive_area": "area at a gap of zero over nominal area",
-    "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
-    "attractive_area": "area within the range, not in contact, over nominal area",
-}
+STATES = ("external_pressure", "repulsive_area", "net_repulsive_area", "attractive_area")
+STATES = {name: STATE[name] for name in STATES}
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",

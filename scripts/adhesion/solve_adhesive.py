@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from common import adhesion_sets, conventions
-from common.adhesion_sets import AXES, axes, roughness, scaled_law
+from common.adhesion_sets import ATTRIBUTES, AXES, STATE, axes, roughness, scaled_law
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets, dmt
@@ -22,25 +22,6 @@ from stickiness.adhesive import edge_zone
 from stickiness.repulsive import half_space, solver, subpixel
 from stickiness.surface import resample
 
-STATE = {
-    "external_pressure": "mean pressure over E* q0 h_rms",
-    "repulsive_pressure": "repulsive part of the mean pressure over E* q0 h_rms",
-    "attraction": "attractive part of the mean pressure over E* q0 h_rms",
-    "repulsive_area": "area at a gap of zero over nominal area, by pixels",
-    "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
-    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
-    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
-    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
-    "residual": "unbalanced pressure over the strength or the flattening pressure",
-    "iterations": "iterations of conjugate gradients",
-}
-ATTRIBUTES = {  # of a state, where the name is another
-    "external_pressure": "mean_pressure",
-    "attraction": "adhesive_pressure",
-    "repulsive_area": "repulsive_area_fraction",
-    "net_repulsive_area": "net_repulsive_area_fraction",
-    "attractive_area": "adhesive_area_fraction",
-}
 ALONE = {
     "area_alone": "contact area without adhesion over nominal area, by pixels",
     "mean_gap": "mean gap over h_rms, with and without adhesion",

@@ -9,6 +9,7 @@ only its grid matters.
 import itertools
 from dataclasses import replace
 
+from common.ensemble_means import FEWEST
 from stickiness.accuracy.error_models import Settings, Surface, single_error
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import (
@@ -30,7 +31,6 @@ ADHESIVE_QUANTITIES = {
 }
 ADHESIVE_TOLERANCE = 1e-5  # the loosest of full adhesion, whatever the settings say
 PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
-FEWEST = 8  # seeds from which on a mean of adhesive contact has a control
 
 
 def adhesive_error(problem, settings, pressure, column):
