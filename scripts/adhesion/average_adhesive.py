@@ -162,10 +162,8 @@ def average(states, full, ensemble, limit, made):
             more = replace(controls, values=controls.values[name], twin=twins[name])
         dataset = add_errors(dataset, name, values - fixed, more, plain=True)
         dataset[name] = dataset[name] + fixed
-        value, at_worst = dataset[name], solver
-        if "pressure" not in value.dims:
-            at_worst = solver.max("pressure")
-        scale = abs(value) + value.pressure if name == "external_pressure" else abs(value)
+        value = dataset[name]
+        at_worst = solver.max(set(solver.dims) - set(value.dims))
         unseen = abs(fine(fuller[name] - states[name]).mean("seed"))
         # For the seeds solved in full, which is more than enough for multilevel means.
         sampling = students_t(both.size) * dataset[f"{name}_standard_error"]
@@ -181,7 +179,7 @@ def average(states, full, ensemble, limit, made):
         parts = {
             "discretisation": dataset[f"{name}_discretisation_error"]
             * (SLOW if name in NET else 1.0),
-            "solver": at_worst * scale,
+            "solver": at_worst * (abs(value) + fixed),
             "sampling": np.maximum(sampling, unseen),
             "bandwidth": 0.0,
             "model": abs(model),

@@ -29,6 +29,10 @@ STRONGEST = 8.0  # attraction over repulsion, by the DMT sum, that is still look
 # Attraction over repulsion, by the DMT sum, up to which the answer is nearly linear in it.
 NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
+# Tolerances of states: tighter than without adhesion, and the tighter the weaker the attraction is:
+# the area of single pixels is all that weak adhesion changes. Against the tightest everywhere, 3 of
+# 264 states have one pixel more or less.
+TIGHTEST, LOOSEST = 1e-7, 1e-5
 
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 

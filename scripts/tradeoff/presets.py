@@ -9,6 +9,7 @@ only its grid matters.
 import itertools
 from dataclasses import replace
 
+from common.adhesion_sets import LOOSEST
 from common.ensemble_means import FEWEST
 from stickiness.accuracy.error_models import Settings, Surface, single_error
 from stickiness.accuracy.quantities import MODELLED, columns_of
@@ -29,7 +30,6 @@ ADHESIVE_QUANTITIES = {
     "threshold": ("threshold",),
     "pull_off": ("pull_off",),
 }
-ADHESIVE_TOLERANCE = 1e-5  # the loosest of full adhesion, whatever the settings say
 PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
 
 
@@ -42,7 +42,7 @@ def adhesive_error(problem, settings, pressure, column):
         at = problem.models, "discretisation", column, surface, pressure
         return single_error(*at, pixels=settings.pixels_per_wavelength)
     coarse = settings.coarse_seeds if settings.seeds >= FEWEST else 0
-    settings = replace(settings, tolerance=ADHESIVE_TOLERANCE, coarse_seeds=coarse)
+    settings = replace(settings, tolerance=LOOSEST, coarse_seeds=coarse)
     return float(predicted_error(problem, settings, pressure, column))
 
 
