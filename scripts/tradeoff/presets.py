@@ -69,12 +69,11 @@ def cheapest_adhesive(problem, accuracy):
     )
 
 
-def preset_by_rule(models, presets, name, surface, descriptor_seeds):
+def preset_by_rule(problem, presets, name):
     """Cheapest multilevel settings for the errors of a preset, those of full adhesion included."""
-    where, adhesive = (models, Surface.of(surface), presets["pressures"]), presets["adhesive"]
-    contact = Problem(*where, columns_of(MODELLED), descriptor_seeds)
+    adhesive, contact = presets["adhesive"], replace(problem, columns=columns_of(MODELLED))
     columns = [column for one in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[one]]
-    least = cheapest_adhesive(replace(contact, columns=columns), adhesive["accuracy"][name])
+    least = cheapest_adhesive(replace(problem, columns=columns), adhesive["accuracy"][name])
     least = replace(least, coarse_seeds=max(least.coarse_seeds, COARSE_SEEDS[1]))
     return cheapest(contact, presets["accuracy"][name], least=least)
 
@@ -85,7 +84,7 @@ def list_presets(models, presets, surface, descriptor_seeds):
     lines = []
     for name in presets["accuracy"]:
         try:
-            chosen = preset_by_rule(models, presets, name, surface, descriptor_seeds)
+            chosen = preset_by_rule(problem, presets, name)
         except UnreachableError as refusal:
             reason = f"{name}: out of reach, {str(refusal).split(';')[0]}"
             lines.append([reason, *[""] * 6])

@@ -178,9 +178,10 @@ def test_presets_are_what_the_rule_gives():
         for name in ("config.yaml", "campaigns/tradeoff.yaml")
     )
     asked, seeds = trade["presets"], config["sampling"]["descriptor_seeds"]
-    rough = config["model_surfaces"][asked["surface"]]
+    rough = Surface.of(config["model_surfaces"][asked["surface"]])
+    ours = Problem(read_models(LAWS), rough, asked["pressures"], (), seeds)
     for name in asked["accuracy"]:
-        chosen = preset_by_rule(read_models(LAWS), asked, name, rough, seeds)
+        chosen = preset_by_rule(ours, asked, name)
         assert plan.preset(config["fidelities"][name]) == chosen, name
 
 
