@@ -27,12 +27,13 @@ ALONE = {
     "mean_gap": "mean gap over h_rms, with and without adhesion",
     "edge_gap": "gap next to the contact without adhesion over h_rms",
 }
+DMT = {"attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"}
+HALF = "the seed is solved on half the grid alone"
 VARIABLES = {
-    **ALONE,
-    **{name: ("1", text, f"DMT sum, or {adhesion_sets.MISSING}") for name, text in STATE.items()},
+    **{name: ("1", text, HALF) for name, text in (ALONE | DMT).items()},
+    **{n: ("1", text, f"DMT sum, {adhesion_sets.MISSING}, or {HALF}") for n, text in STATE.items()},
     "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
     "rms_slope": conventions.RMS_SLOPE,
-    "attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
 }
 SHARE = 0.01  # tolerance over the strength of the law in units of the flattening pressure
 FINE = 8  # points per shortest wavelength of which half are enough for long ranges
@@ -94,7 +95,7 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
     """Adhesive states on one grid, NaN where there is none, and the attraction by the DMT sum."""
     pressures, lengths, ranges = axes(adhesion)
     flattening = half_space.measure_slope(heights, (length, length)) / 2
-    values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
+    values = {name: np.full(chosen.shape, np.nan) for name in STATE | DMT}
     alone = []
     tightest = min(adhesion_sets.TIGHTEST, loosest)
     path = solver.load_path(heights, length, pressures.values, tol=tightest)
@@ -124,4 +125,4 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", part="1-4"))
+    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", part="1-8"))
