@@ -27,8 +27,7 @@ from stickiness import datasets
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
 
-STATES = ("external_pressure", "repulsive_area", "net_repulsive_area", "attractive_area")
-STATES = {name: STATE[name] for name in STATES}
+STATES = {n: text for n, text in STATE.items() if "area" in n or n == "external_pressure"}
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",
@@ -36,10 +35,7 @@ SLOPES = {
     "inverse_kappa_ad_net": "1/kappa_ad with the net repulsive area",
     "inverse_kappa_ad_direct": "p_ad/(2 p_rep) of the adhesive contact",
 }
-FITS = {
-    "inverse_kappa_fit": "1/kappa fitted over the loads up to 30 % area",
-    "inverse_kappa_ad_fit": "1/kappa_ad from fitted 1/kappa",
-}
+FITS = {n: text for n, text in dmt_sum.QUANTITIES.items() if n.endswith("_fit")}
 RATIOS = {
     "dmt_ratio": "1/kappa_ad of the full simulation over the DMT sum",
     "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
