@@ -55,7 +55,7 @@ AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT sum that without 
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
     "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
-    "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
+    "solver": "by the tolerance, as measured on the load; of strong attraction by the branch",
     "sampling": "Student's t of the standard error; of full simulation not less than what the "
     "count of turned pixels leaves open",
     "bandwidth": SIMULATED["bandwidth"].text,
@@ -129,7 +129,8 @@ def average(states, full, ensemble, limit, made):
     missing = states.external_pressure.isnull() & states.area_alone.notnull()
     whole = ~missing.any(["seed", "resolution"]) | ~full
     both = adhesion_sets.seeds_on_both(states)
-    wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
+    pixel = xr.DataArray(made["pixel"], dims=AXES[2])
+    wide = zone_width(ensemble, states) >= NARROWEST * pixel
     states = add_dmt(states, full)
     in_limit = dmt_sum.find_linear(adhesion, ensemble)
     linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)

@@ -61,7 +61,7 @@ def main(job):
             grids = [fine[:: factor * step, :: factor * step] for step in steps]
             solved = [states(grid, length, asked, chosen[:, :, here]) for grid in grids]
             parts.append(xr.concat(solved, resolution, coords="minimal"))
-        return xr.concat(parts, AXES[2]) if len(parts) > 1 else parts[0]
+        return xr.concat(parts, AXES[2], data_vars="all") if len(parts) > 1 else parts[0]
 
     grids = [(partial(solve, steps), surfaces, seeds) for steps, seeds in job.params.grids if seeds]
     dataset = xr.concat([each_seed(*each) for each in grids], "seed", join="outer")
@@ -73,7 +73,7 @@ def main(job):
         "law": adhesion["law"],
         "refine": refine,
         "coarser": coarser.tolist(),
-        "pixel": length / points,
+        "pixel": pixel.values.tolist(),
         "strongest": adhesion_sets.STRONGEST,
         "coarsest": edge_zone.COARSEST,
     }
