@@ -51,6 +51,7 @@ _PARTS = np.linspace(0.0, 1.0, 60)[:, None]  # of the way to zero load, in logar
 _CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
 _LEVELS = np.linspace(-0.5, 6.0, 66)
 _BLOCK, _TINY = 100, 1e-6
+_PAIRS = 400  # at all mean gaps in one block
 _HEIGHTS = np.exp(-((_LEVELS[:, None] - _CLEARANCES) ** 2) / 2) * (_STEP / np.sqrt(2 * np.pi))
 
 
@@ -63,6 +64,7 @@ def decay_energy(gap: ArrayLike) -> tuple[NDArray, NDArray]:
 
 _DECAY, _SLOPE = decay_energy(_GAPS)
 _ENERGY = np.where(_GAPS < FIRST_TOUCH, np.exp(-_DECAY), 0.0)
+_TOUCHING = slice(np.count_nonzero(_GAPS < FIRST_TOUCH))  # mean gaps at which the area is not zero
 _FINE_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
 
 
@@ -115,15 +117,23 @@ def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> fl
 
     `law` is a name of `LAWS`, or an array of names.
     """
-    x, energy, _ = _weak_energy(energy_ratio, range_ratio, load_scale, law)
-    return plain(np.max(-energy / x, axis=-1, initial=0.0))
+    checked = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
+    given = np.broadcast_arrays(*checked, load_scale, law)
+    share, flat = np.empty(given[0].shape), [values.ravel() for values in given]
+    # Blocks that fit the cache, by range: each needs the attraction of few ranges.
+    for block in np.array_split(np.argsort(flat[1]), share.size // _PAIRS + 1):
+        x, energy, _ = _weak_energy(*(values[block] for values in flat))
+        share.flat[block] = np.max(-energy / x, axis=-1, initial=0.0)
+    return plain(share)
 
 
 def _weak_energy(energy_ratio, range_ratio, load_scale, law):
     """Energy ratios ``(..., 1)``; energies and contact areas at the mean gaps, ``(..., gap)``."""
     x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
-    area = erf(np.sqrt(np.pi) * np.asarray(load_scale)[..., None] * _SLOPE * _ENERGY)
+    scale = np.sqrt(np.pi) * np.asarray(load_scale)[..., None]
+    area = np.zeros((*np.shape(load_scale), _GAPS.size))
+    area[..., _TOUCHING] = erf(scale * _SLOPE[_TOUCHING] * _ENERGY[_TOUCHING])
     # What attraction gains is dear and knows the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
     gained = _mean_attraction(ranges)[place.reshape(e.shape)]
