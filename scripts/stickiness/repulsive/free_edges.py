@@ -49,7 +49,7 @@ class Split:
         spline = interpolate.BSpline.basis_element(np.arange(order + 1))
         smooth = self._smooth([np.arange(q // 2 + 1) * SPACING for q in padded])
         blur = [_blur(spline(np.arange(1, order)), q) ** 2 for q in padded]
-        self._convolution = convolution.choose(padded, self.dtype)
+        self._convolution = convolution.Convolution(padded, self.dtype)
         self._symbol = even_symbol(self._convolution, smooth, np.outer(*blur))
         phase = np.arange(SPACING)[:, None] / SPACING
         self._weights = spline(phase + order - 1 - np.arange(order)).astype(dtype)

@@ -66,7 +66,7 @@ class HalfSpace:
         self.shape, self.lengths, self.solid = shape, lengths, solid
         self.pairs = 0
         n0, n1 = self.shape
-        self._convolution = convolution.choose(self.shape, self.dtype)
+        self._convolution = convolution.Convolution(self.shape, self.dtype)
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = effective_wavenumbers(self.shape, self.lengths, solid).T
         # Waves mirror one another but for the first and a last along each axis.
@@ -123,12 +123,12 @@ class FreeHalfSpace(HalfSpace):
     # Large, and needed by some methods only.
     @cached_property
     def _convolution(self):
-        return convolution.choose(self.shape, self.dtype)
+        return convolution.Convolution(self.shape, self.dtype)
 
     @cached_property
     def _padded(self):
         padded = tuple(2 * fft.next_fast_len(n, real=True) for n in self.shape)
-        operator = convolution.choose(padded, self.dtype)
+        operator = convolution.Convolution(padded, self.dtype)
         # The kernel is even along both axes: a cosine transform of a quadrant has its spectrum.
         quadrant = displace_by_pixel([m // 2 + 1 for m in padded], self._pixel)
         return operator, free_edges.even_symbol(operator, quadrant)
@@ -177,14 +177,9 @@ def measure_scale(heights):
     # Heights that differ by rounding only are flat.
     if largest <= 8 * np.finfo(float).eps * abs(mean):
         return mean, 0.0
-    flat, squares = heights.ravel(), {}
-
-    def add(chunk):
-        deviation = (flat[chunk] - mean) / largest
-        squares[chunk.start] = float(np.sum(deviation * deviation))
-
-    sharing.spread(add, flat.size)
-    return mean, largest * math.sqrt(math.fsum(squares.values()) / flat.size)
+    flat = heights.ravel()
+    squares = sharing.spread(lambda c: np.sum(((flat[c] - mean) / largest) ** 2), flat.size)
+    return mean, largest * math.sqrt(math.fsum(squares) / flat.size)
 
 
 def measure_slope(heights, lengths):
