@@ -38,10 +38,10 @@ _MAX_STALLED_UNSURE = 8  # … and where `projected_gradients` takes over
 class Problem:
     """Contact problem on one grid."""
 
-    heights: np.ndarray  #: in units of their rms, contiguous
-    sides: tuple  #: of the cell, in units of the first
-    load: float  #: mean pressure, in units of E* times rms height over side
-    solid: Solid = HALF_SPACE  #: its thickness in units of the first side
+    heights: np.ndarray  #: contiguous; for `relax` in units of their rms
+    sides: tuple  #: of the cell; for `relax` in units of the first, as the thickness of a layer
+    load: float  #: mean pressure [E*]; for `relax` in units of E* times rms height over side
+    solid: Solid = HALF_SPACE
     periodic: bool = True  #: or a rectangle on a half-space without end
 
     def operator(self, dtype):

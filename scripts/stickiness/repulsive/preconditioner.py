@@ -184,12 +184,14 @@ def _interpolate(first, coarse, axis0, axis1, weights, out):
     (left0, right0, t0), (left1, right1, t1) = axis0, axis1
     beside, before = np.empty((2, left1.size), coarse.dtype), -1
     for i in range(out.shape[0]):
-        if left0[first + i] != before:  # the coarse rows on both sides, stretched
-            before = left0[first + i]
-            for side in range(2):
-                row = coarse[before if side == 0 else right0[first + i]]
+        if left0[first + i] != before:  # the next coarse row, stretched, or at first two of them
+            for k in range(-1 if i == 0 else 0, 1):
+                row = coarse[left0[first] if k < 0 else right0[first + i]]
+                beside[0] = beside[1]
                 for j in range(left1.size):
-                    beside[side, j] = row[left1[j]] + t1[j] * (row[right1[j]] - row[left1[j]])
+                    a = row[left1[j]]
+                    beside[1, j] = a + t1[j] * (row[right1[j]] - a)
+            before = left0[first + i]
         for j in range(left1.size):
             value = beside[0, j] + t0[first + i] * (beside[1, j] - beside[0, j])
             out[i, j] = value if weights is None else value * weights[first + i, j]
@@ -197,10 +199,14 @@ def _interpolate(first, coarse, axis0, axis1, weights, out):
 
 @compiled
 def _interpolate_at(points, coarse, axis0, axis1, out):
-    """Interpolate at some points, given by flat indices."""
+    """Interpolate at some points, given by flat and increasing indices."""
     (left0, right0, t0), (left1, right1, t1) = axis0, axis1
+    i, begin = 0, 0
     for k in range(points.size):
-        i, j = divmod(points[k], left1.size)
+        if points[k] >= begin + left1.size:
+            i = points[k] // left1.size
+            begin = i * left1.size
+        j = points[k] - begin
         a, b = left1[j], right1[j]
         upper = coarse[left0[i], a] + t1[j] * (coarse[left0[i], b] - coarse[left0[i], a])
         lower = coarse[right0[i], a] + t1[j] * (coarse[right0[i], b] - coarse[right0[i], a])
