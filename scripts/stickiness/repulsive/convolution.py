@@ -70,6 +70,8 @@ class Convolution:
         self._memory = memory  # a view would not keep it, but what it is a view of
         self._flat = memory[:size].view(self._numbers)
         self._spectrum = self._flat.reshape(rows, -1)
+        # Numbers of 8 bytes are moved as if they were real.
+        self._moved = self._spectrum.view(float if self._numbers == np.complex64 else complex)
 
     def symbol(self, values):
         """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
@@ -123,6 +125,7 @@ class Convolution:
             before=self._padded(self._widest, n0),
             after=self._padded(self._widest, n0),
         )
+        bench.moved = bench.before.view(self._moved.dtype)
         bench.product = self._padded(self._widest, n0) if self._packed else bench.after
         bench.buffer = bench.real.view(self._numbers) if self._packed else bench.real
         bench.rows_forward = _plan(bench.buffer, bench.half, "FFTW_FORWARD")
@@ -178,9 +181,7 @@ class Convolution:
 
     def _multiply(self, symbol, bench, part):
         group, rows = part
-        moved = float if self._numbers == np.complex64 else complex  # copied, whatever they mean
-        spectrum, strip = self._spectrum.view(moved), bench.before.view(moved)
-        _turn(spectrum, group, strip, False)
+        _turn(self._moved, group, bench.moved, False)
         bench.columns_forward.execute()
         if self._packed:
             factors = (factor[rows] for factor in symbol)
@@ -190,7 +191,7 @@ class Convolution:
             values[:, :half] *= symbol[rows]
             values[:, half:n] *= symbol[rows, n - half : 0 : -1]
         bench.columns_backward.execute()
-        _turn(spectrum, group, strip, True)
+        _turn(self._moved, group, bench.moved, True)
 
 
 @compiled
