@@ -151,8 +151,8 @@ class _Split:
         # Near pairs do not feel how large the cell is.
         patch = [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
         q = half_space.effective_wavenumbers(_PATCH, patch, solid)
-        near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)))
-        self.near, self.beside = _truncate_kernel(near, _REACH), _stiffness_beside(q)
+        self.near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)), _REACH)
+        self.beside = _tabulate(q / 2, _BESIDE)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
@@ -178,7 +178,8 @@ class _FreeSplit(free_edges.Split):
         rest = self.rest([_REACH] * 2)
         self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
         patch = [_TABLE * a for a in pixel]
-        self.beside = _stiffness_beside(half_space.effective_wavenumbers(_PATCH, patch, solid))
+        q = half_space.effective_wavenumbers(_PATCH, patch, solid)
+        self.beside = _tabulate(q / 2, _BESIDE)
 
 
 def _long(shape, lengths, width):
@@ -191,13 +192,9 @@ def _invert(q):
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
-def _stiffness_beside(q):
-    return _truncate_kernel(_tabulate(q / 2), _BESIDE)
-
-
-def _tabulate(symbol):
-    """Kernel of a symbol, of which one quadrant is given."""
-    return np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH)
+def _tabulate(symbol, reach):
+    """Kernel of a symbol, of which one quadrant is given, as `_truncate_kernel` returns it."""
+    return _truncate_kernel(np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH), reach)
 
 
 def _truncate_kernel(kernel, reach):
@@ -240,9 +237,8 @@ def _symmetric(kernel_and_diagonal, reach, where, most):
         return None
     columns, values = (np.empty(starts[-1], part.dtype) for part in none)
     _find_pairs(*where, kernel, reach, starts, columns, values)
-    upper = sparse.csr_array(
-        (values, columns, starts.astype(np.int32)), shape=(starts.size - 1,) * 2
-    )
+    size = starts.size - 1
+    upper = sparse.csr_array((values, columns, starts.astype(np.int32)), shape=(size, size))
     return upper, upper.T, diagonal
 
 

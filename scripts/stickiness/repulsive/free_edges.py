@@ -58,17 +58,10 @@ class Split:
     def _smooth(self, pixels):
         """Mean of ``erf(r/w)/(pi r)`` over a pixel, by Gauss's rule, times its area."""
         nodes, weights = np.polynomial.legendre.leggauss(3)
-        pixels = [np.asarray(m) for m in pixels]
-        near = tuple(
-            slice(np.searchsorted(m * a, 6 * self._width))
-            for m, a in zip(pixels, self.pixel, strict=True)
-        )
-        total = 0.0
+        (x, y), limit, total = pixels, 6 * self._width, 0.0
+        near = np.s_[: np.sum(x * self.pixel[0] < limit), : np.sum(y * self.pixel[1] < limit)]
         for (a, u), (b, v) in product(zip(nodes / 2, weights / 2, strict=True), repeat=2):
-            x, y = (
-                ((m + c) * side) ** 2 for m, c, side in zip(pixels, (a, b), self.pixel, strict=True)
-            )
-            r = np.add.outer(x, y)
+            r = np.add.outer(((x + a) * self.pixel[0]) ** 2, ((y + b) * self.pixel[1]) ** 2)
             np.sqrt(r, out=r)
             np.maximum(r, 1e-9 * self._width, out=r)  # in the middle the quotient has a limit
             smooth = special.erf(r[near] / self._width)

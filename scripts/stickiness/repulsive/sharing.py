@@ -77,11 +77,8 @@ def take(field, points):
 
 def put(field, points, values):
     """``field[points] = values``, of an array or one number; no point twice."""
-
-    def move(chunk):
-        field[points[chunk]] = values[chunk] if np.ndim(values) else values
-
-    spread(move, points.size)
+    values = np.broadcast_to(values, points.shape)
+    spread(lambda c: field.__setitem__(points[c], values[c]), points.size)
 
 
 def evaluate(function, out, *fields):
