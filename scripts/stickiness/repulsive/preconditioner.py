@@ -107,9 +107,7 @@ class _Mean:
     def __init__(self, shape, sides):
         coarse = tuple(-(-n // _SPACING) for n in shape)
         self._axes = [_interpolation(n, m) for n, m in zip(shape, coarse, strict=True)]
-        self._transposed = [
-            _transpose(*axis, m) for axis, m in zip(self._axes, coarse, strict=True)
-        ]
+        self._transposed = [_transpose(*by, m) for by, m in zip(self._axes, coarse, strict=True)]
         steps = [a / m for a, m in zip(sides, coarse, strict=True)]
         axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
@@ -121,11 +119,9 @@ class _Mean:
 
     def gather(self, field, weights=None):
         """Take the sums of a field in single precision, or of its product with weights."""
-        given = field, weights, *self._transposed
-        sharing.spread(
-            lambda rows: _add_to_coarse(rows.start, *given, self._field[rows]),
-            *(len(self._field), _SPACING * field.shape[1]),
-        )
+        given, out = (field, weights, *self._transposed), self._field
+        size = len(out), _SPACING * field.shape[1]
+        sharing.spread(lambda rows: _add_to_coarse(rows.start, *given, out[rows]), *size)
         self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):

@@ -71,14 +71,21 @@ def find(test, size):
 def take(field, points):
     """``field[points]``."""
     values = np.empty(points.size, field.dtype)
-    spread(lambda c: np.copyto(values[c], field[points[c]]), points.size)
+
+    def move(chunk):
+        values[chunk] = field[points[chunk]]
+
+    spread(move, points.size)
     return values
 
 
 def put(field, points, values):
     """``field[points] = values``, of an array or one number; no point twice."""
-    values = np.broadcast_to(values, points.shape)
-    spread(lambda c: field.__setitem__(points[c], values[c]), points.size)
+
+    def move(chunk):
+        field[points[chunk]] = values[chunk] if np.ndim(values) else values
+
+    spread(move, points.size)
 
 
 def evaluate(function, out, *fields):
