@@ -37,7 +37,7 @@ def seeds_in_full(adhesion):
 def seeds_by_grids(wildcards):
     """Seeds of a file, by the steps on the grid of a surface at which their states are solved.
 
-    Half the grid is enough for every second seed: grids differ by about as much on every surface.
+    Half the grid is enough for half of them: grids differ by about as much on every surface.
     """
     seeds, count = plan.seeds_in(wildcards.part), plan.SEEDS_A_FILE // 2
     return [[[2, 1], seeds[:count]], [[2], seeds[count:]]]

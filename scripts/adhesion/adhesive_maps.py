@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.adhesion_sets import roughness, scaled_law
+from common.adhesion_sets import STATE, roughness, scaled_law
 from common.job import start
 from common.model_surfaces import gather_fields, read_first
 from stickiness import adhesive, datasets
@@ -22,8 +22,8 @@ def main(job):
     for pressure in pressures:
         given_load = {"pressure": pressure, "start": states[-1] if states else None}
         states.append(adhesive.solve(heights, length, law, **given_load, tol=TOLERANCE))
-    texts = {"contact_pressure": "repulsion less attraction over E* q0 h_rms"}
-    texts["residual"] = "unbalanced pressure over the strength or the flattening pressure"
+    text = "repulsion less attraction over E* q0 h_rms"
+    texts = {"contact_pressure": text, "residual": STATE["residual"]}
     dataset = gather_fields(states, pressures, surface, **texts)
     title = "gap and pressure fields of one realisation in adhesive contact"
     made = {"law": adhesion["law"], "q0_h_rms": roughness(adhesion), **given}

@@ -17,7 +17,7 @@ from scipy import special
 from adhesion import compare_edges, dmt_sum
 from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
 from common import adhesion_sets, conventions
-from common.adhesion_sets import AXES, MISSING, OUTSIDE, pressure_at, solver_error
+from common.adhesion_sets import AXES, MISSING, OUTSIDE, STATE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
@@ -27,12 +27,7 @@ from stickiness import datasets
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
 
-STATES = {
-    "external_pressure": "mean pressure over E* q0 h_rms",
-    "repulsive_area": "area at a gap of zero over nominal area",
-    "net_repulsive_area": "area at a gap of zero and compressed over nominal area",
-    "attractive_area": "area within the range, not in contact, over nominal area",
-}
+STATES = {n: text for n, text in STATE.items() if "area" in n or n == "external_pressure"}
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",
@@ -40,10 +35,7 @@ SLOPES = {
     "inverse_kappa_ad_net": "1/kappa_ad with the net repulsive area",
     "inverse_kappa_ad_direct": "p_ad/(2 p_rep) of the adhesive contact",
 }
-FITS = {
-    "inverse_kappa_fit": "1/kappa fitted over the loads up to 30 % area",
-    "inverse_kappa_ad_fit": "1/kappa_ad from fitted 1/kappa",
-}
+FITS = {n: text for n, text in dmt_sum.QUANTITIES.items() if n.endswith("_fit")}
 RATIOS = {
     "dmt_ratio": "1/kappa_ad of the full simulation over the DMT sum",
     "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
@@ -63,7 +55,7 @@ AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT sum that without 
 COVERED = 0.9  # confidence of the upper limit of a count of pixels
 LEFT = {
     "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
-    "solver": "by the tolerance, as measured; of strong attraction by the branch of the solution",
+    "solver": "by the tolerance, as measured on the load; of strong attraction by the branch",
     "sampling": "Student's t of the standard error; of full simulation not less than what the "
     "count of turned pixels leaves open",
     "bandwidth": SIMULATED["bandwidth"].text,
@@ -137,7 +129,8 @@ def average(states, full, ensemble, limit, made):
     missing = states.external_pressure.isnull() & states.area_alone.notnull()
     whole = ~missing.any(["seed", "resolution"]) | ~full
     both = adhesion_sets.seeds_on_both(states)
-    wide = zone_width(ensemble, states) >= NARROWEST * made["pixel"]
+    pixel = xr.DataArray(made["pixel"], dims=AXES[2])
+    wide = zone_width(ensemble, states) >= NARROWEST * pixel
     states = add_dmt(states, full)
     in_limit = dmt_sum.find_linear(adhesion, ensemble)
     linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
@@ -166,10 +159,8 @@ def average(states, full, ensemble, limit, made):
             more = replace(controls, values=controls.values[name], twin=twins[name])
         dataset = add_errors(dataset, name, values - fixed, more, plain=True)
         dataset[name] = dataset[name] + fixed
-        value, at_worst = dataset[name], solver
-        if "pressure" not in value.dims:
-            at_worst = solver.max("pressure")
-        scale = abs(value) + value.pressure if name == "external_pressure" else abs(value)
+        value = dataset[name]
+        at_worst = solver.max(set(solver.dims) - set(value.dims))
         unseen = abs(fine(fuller[name] - states[name]).mean("seed"))
         # For the seeds solved in full, which is more than enough for multilevel means.
         sampling = students_t(both.size) * dataset[f"{name}_standard_error"]
@@ -185,7 +176,7 @@ def average(states, full, ensemble, limit, made):
         parts = {
             "discretisation": dataset[f"{name}_discretisation_error"]
             * (SLOW if name in NET else 1.0),
-            "solver": at_worst * scale,
+            "solver": at_worst * (abs(value) + fixed),
             "sampling": np.maximum(sampling, unseen),
             "bandwidth": 0.0,
             "model": abs(model),

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from common.adhesion_sets import LEAST, scaled_law
+from common.adhesion_sets import ATTRIBUTES, LEAST, STATE, scaled_law
 from common.conventions import annotate
 from common.error_budgets import SIMULATED
 from common.job import start
@@ -30,16 +30,9 @@ SOLVER = 5e-4
 BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
 STEPS = (2, 1)
 MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
-STATES = {
-    "mean_pressure": "mean pressure over E* q0 h_rms",
-    "mean_gap": "mean gap over h_rms",
-    "repulsive_area_fraction": "area at a gap of zero over nominal area",
-    "net_repulsive_area_fraction": "area at a gap of zero and compressed over nominal area",
-    "adhesive_area_fraction": "area within the range, not in contact, over nominal area",
-    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
-    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
-    "residual": "unbalanced pressure over the strength or the flattening pressure",
-}
+NOT_KEPT = ("repulsive_pressure", "attraction", "iterations")
+STATES = {ATTRIBUTES.get(n, n): text for n, text in STATE.items() if n not in NOT_KEPT}
+STATES["mean_gap"] = "mean gap over h_rms"
 QUOTED = {
     "pull_off_pressure": "mean pressure over E* q0 h_rms at which a press lets go",
     "pull_off_area": "area at a gap of zero over nominal area at pull-off",

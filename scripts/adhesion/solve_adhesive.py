@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from common import adhesion_sets, conventions
-from common.adhesion_sets import AXES, axes, roughness, scaled_law
+from common.adhesion_sets import AXES, LOOSEST, STATE, axes, roughness, scaled_law
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets, dmt
@@ -22,41 +22,19 @@ from stickiness.adhesive import edge_zone
 from stickiness.repulsive import half_space, solver, subpixel
 from stickiness.surface import resample
 
-STATE = {
-    "external_pressure": "mean pressure over E* q0 h_rms",
-    "repulsive_pressure": "repulsive part of the mean pressure over E* q0 h_rms",
-    "attraction": "attractive part of the mean pressure over E* q0 h_rms",
-    "repulsive_area": "area at a gap of zero over nominal area, by pixels",
-    "net_repulsive_area": "area at a gap of zero and compressed over nominal area, by pixels",
-    "attractive_area": "area within the range of attraction, not in contact, over nominal area",
-    "elastic_energy": "elastic energy per nominal area over E* q0 h_rms^2",
-    "interaction_energy": "energy of the attraction per nominal area over E* q0 h_rms^2",
-    "residual": "unbalanced pressure over the strength or the flattening pressure",
-    "iterations": "iterations of conjugate gradients",
-}
-ATTRIBUTES = {  # of a state, where the name is another
-    "external_pressure": "mean_pressure",
-    "attraction": "adhesive_pressure",
-    "repulsive_area": "repulsive_area_fraction",
-    "net_repulsive_area": "net_repulsive_area_fraction",
-    "attractive_area": "adhesive_area_fraction",
-}
 ALONE = {
     "area_alone": "contact area without adhesion over nominal area, by pixels",
     "mean_gap": "mean gap over h_rms, with and without adhesion",
     "edge_gap": "gap next to the contact without adhesion over h_rms",
 }
+DMT = {"attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"}
+HALF = "the seed is solved on half the grid alone"
 VARIABLES = {
-    **ALONE,
-    **{name: ("1", text, f"DMT sum, or {adhesion_sets.MISSING}") for name, text in STATE.items()},
+    **{name: ("1", text, HALF) for name, text in (ALONE | DMT).items()},
+    **{n: ("1", text, f"DMT sum, {adhesion_sets.MISSING}, or {HALF}") for n, text in STATE.items()},
     "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
     "rms_slope": conventions.RMS_SLOPE,
-    "attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)",
 }
-# Tighter than without adhesion, and the tighter the weaker the attraction is: the area of single
-# pixels is all that weak adhesion changes. Against the tightest everywhere, 3 of 264 states have
-# one pixel more or less.
-TIGHTEST, LOOSEST = 1e-7, 1e-5
 SHARE = 0.01  # tolerance over the strength of the law in units of the flattening pressure
 FINE = 8  # points per shortest wavelength of which half are enough for long ranges
 
@@ -83,7 +61,7 @@ def main(job):
             grids = [fine[:: factor * step, :: factor * step] for step in steps]
             solved = [states(grid, length, asked, chosen[:, :, here]) for grid in grids]
             parts.append(xr.concat(solved, resolution, coords="minimal"))
-        return xr.concat(parts, AXES[2]) if len(parts) > 1 else parts[0]
+        return xr.concat(parts, AXES[2], data_vars="all") if len(parts) > 1 else parts[0]
 
     grids = [(partial(solve, steps), surfaces, seeds) for steps, seeds in job.params.grids if seeds]
     dataset = xr.concat([each_seed(*each) for each in grids], "seed", join="outer")
@@ -95,7 +73,7 @@ def main(job):
         "law": adhesion["law"],
         "refine": refine,
         "coarser": coarser.tolist(),
-        "pixel": length / points,
+        "pixel": pixel.values.tolist(),
         "strongest": adhesion_sets.STRONGEST,
         "coarsest": edge_zone.COARSEST,
     }
@@ -117,9 +95,10 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
     """Adhesive states on one grid, NaN where there is none, and the attraction by the DMT sum."""
     pressures, lengths, ranges = axes(adhesion)
     flattening = half_space.measure_slope(heights, (length, length)) / 2
-    values = {name: np.full(chosen.shape, np.nan) for name in (*STATE, "attraction_dmt")}
+    values = {name: np.full(chosen.shape, np.nan) for name in STATE | DMT}
     alone = []
-    path = solver.load_path(heights, length, pressures.values, tol=min(TIGHTEST, loosest))
+    tightest = min(adhesion_sets.TIGHTEST, loosest)
+    path = solver.load_path(heights, length, pressures.values, tol=tightest)
     for i, contact in enumerate(path):
         alone.append((contact.area_fraction, contact.mean_gap, subpixel.edge_gap(contact.gap)))
         units = [scaled_law(adhesion, adhesion["law"], 1.0, range_) for range_ in ranges.values]
@@ -132,10 +111,10 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
             if chosen[i, j, k] and attraction <= adhesion_sets.STRONGEST * contact.mean_pressure:
                 weak = attraction <= adhesion_sets.NEARLY_LINEAR * contact.mean_pressure
                 known = weaker.get(k) if weak else None
-                tolerance = min(max(TIGHTEST, SHARE * law.strength / flattening), loosest)
+                tolerance = min(max(tightest, SHARE * law.strength / flattening), loosest)
                 found = adhesion_sets.solve_at_gap(heights, length, law, contact, tolerance, known)
                 for name in STATE:
-                    values[name][i, j, k] = getattr(found, ATTRIBUTES.get(name, name))
+                    values[name][i, j, k] = getattr(found, adhesion_sets.ATTRIBUTES.get(name, name))
                 if weak:
                     weaker[k] = law.adhesion_length, found.gap
     return xr.Dataset(
@@ -146,4 +125,4 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", part="1-4"))
+    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", part="1-8"))

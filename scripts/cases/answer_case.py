@@ -31,11 +31,9 @@ def main(job):
     columns, loads = list(columns_of(plan["quantities"])), plan["pressures"]
     models, surface = read_models(job.input.laws), Surface.of(plan["surface"])
     problem, settings = Problem(models, surface, loads, columns), Settings(**plan["settings"])
-    # Grid and tolerance matter to a simulation alone.
-    knobs = {}
-    if plan["simulated"]:
-        knobs = {"pixels": settings.pixels_per_wavelength, "tolerance": settings.tolerance}
-        output = job.output
+    knobs = ()
+    if plan["simulated"]:  # grid and tolerance matter to a simulation alone
+        knobs, output = (settings.pixels_per_wavelength, settings.tolerance), job.output
         average_case(case, plan, job.input, output)
         files = {"ensemble": datasets.read(output.means, ["area_fraction_mean"])}
         files["kappa"] = datasets.read(output.kappa, ["kappa_standard_error"])
@@ -48,13 +46,13 @@ def main(job):
         state = datasets.read(job.input.theory, ["area_fraction", "mean_gap", "attractive_area"])
         state = derive(state.sel(variant=VARIANT), job.params.windows[0])
         # By Persson's theory on the lattice spectrum.
-        values = [quote(column, state) for column in columns]
+        quoted, given = {column: quote(column, state) for column in columns}, plan["surface"]
         found = [
-            (value, theory_parts(models, column, value, plan["surface"], "gap_density"))
-            for column, value in zip(columns, values, strict=True)
+            (value, theory_parts(models, column, value, given, "gap_density"))
+            for column, value in quoted.items()
         ]
 
-    outside = [error_models.extrapolated(surface, load, **knobs) for load in loads]
+    outside = [error_models.extrapolated(surface, load, *knobs) for load in loads]
     variables = {
         "value": (DIMS, [value.values for value, _ in found]),
         "extrapolated": ("pressure", np.array(outside, np.int8)),

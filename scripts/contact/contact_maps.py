@@ -13,9 +13,8 @@ def main(job):
     pressures = np.sort(job.params.pressures)
     heights, length = surface.height.values, float(surface.window_length)
     contacts = solver.load_path(heights, length, pressures, tol=job.params.tolerance)
-    texts = {"contact_pressure": "contact pressure over E* q0 h_rms"}
-    texts["residual"] = "complementarity residual over h_rms"
-    dataset = gather_fields(list(contacts), pressures, surface, **texts)
+    text = "contact pressure over E* q0 h_rms"
+    dataset = gather_fields(list(contacts), pressures, surface, contact_pressure=text)
     title = "gap and pressure fields of one realisation"
     parameters = {**datasets.parameters(surface), "case": job.wildcards.case}
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)

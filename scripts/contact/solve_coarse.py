@@ -21,7 +21,6 @@ def main(job):
         **surface,
         "case": job.wildcards.case,
         "tolerance": asked.tolerance,
-        "largest_residual": float(dataset.residual.max()),
         "pixels_per_wavelength": COARSE,
         "grid_points": grid_points(surface, COARSE),
     }

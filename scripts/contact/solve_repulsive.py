@@ -30,7 +30,6 @@ def main(job):
         "seeds": list(job.params.seeds),
         "case": job.wildcards.case,
         "tolerance": job.params.tolerance,
-        "largest_residual": float(dataset.residual.max()),
     }
     dataset = annotate(dataset, **VARIABLES)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)

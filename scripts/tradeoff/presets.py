@@ -1,6 +1,7 @@
 """Presets: the cheapest settings for an error in every quantity, those of full adhesion too.
 
 Full adhesion is solved on the realisations of a case and on their grid, to a tolerance of its own.
+The rule takes all of them to be on the whole grid; sets solve half of the seeds there.
 From `FEWEST` seeds on, the slope against the DMT sum of the coarse seeds corrects its means; what
 the ratio gains with fewer is not counted. A pull-off is a result of one realisation, not a mean:
 only its grid matters.
@@ -9,6 +10,8 @@ only its grid matters.
 import itertools
 from dataclasses import replace
 
+from common.adhesion_sets import LOOSEST
+from common.ensemble_means import FEWEST
 from stickiness.accuracy.error_models import Settings, Surface, single_error
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import (
@@ -28,9 +31,7 @@ ADHESIVE_QUANTITIES = {
     "threshold": ("threshold",),
     "pull_off": ("pull_off",),
 }
-ADHESIVE_TOLERANCE = 1e-5  # the loosest of full adhesion, whatever the settings say
 PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
-FEWEST = 8  # seeds from which on a mean of adhesive contact has a control
 
 
 def adhesive_error(problem, settings, pressure, column):
@@ -42,7 +43,7 @@ def adhesive_error(problem, settings, pressure, column):
         at = problem.models, "discretisation", column, surface, pressure
         return single_error(*at, pixels=settings.pixels_per_wavelength)
     coarse = settings.coarse_seeds if settings.seeds >= FEWEST else 0
-    settings = replace(settings, tolerance=ADHESIVE_TOLERANCE, coarse_seeds=coarse)
+    settings = replace(settings, tolerance=LOOSEST, coarse_seeds=coarse)
     return float(predicted_error(problem, settings, pressure, column))
 
 
@@ -69,12 +70,11 @@ def cheapest_adhesive(problem, accuracy):
     )
 
 
-def preset_by_rule(models, presets, name, surface, descriptor_seeds):
+def preset_by_rule(problem, presets, name):
     """Cheapest multilevel settings for the errors of a preset, those of full adhesion included."""
-    where, adhesive = (models, Surface.of(surface), presets["pressures"]), presets["adhesive"]
-    contact = Problem(*where, columns_of(MODELLED), descriptor_seeds)
+    adhesive, contact = presets["adhesive"], replace(problem, columns=columns_of(MODELLED))
     columns = [column for one in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[one]]
-    least = cheapest_adhesive(replace(contact, columns=columns), adhesive["accuracy"][name])
+    least = cheapest_adhesive(replace(problem, columns=columns), adhesive["accuracy"][name])
     least = replace(least, coarse_seeds=max(least.coarse_seeds, COARSE_SEEDS[1]))
     return cheapest(contact, presets["accuracy"][name], least=least)
 
@@ -85,7 +85,7 @@ def list_presets(models, presets, surface, descriptor_seeds):
     lines = []
     for name in presets["accuracy"]:
         try:
-            chosen = preset_by_rule(models, presets, name, surface, descriptor_seeds)
+            chosen = preset_by_rule(problem, presets, name)
         except UnreachableError as refusal:
             reason = f"{name}: out of reach, {str(refusal).split(';')[0]}"
             lines.append([reason, *[""] * 6])

@@ -3,13 +3,15 @@ import itertools
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.jobs import make_job
 from scipy import optimize, stats
 
 from adhesion import average_adhesive, solve_adhesive
 from adhesion.dmt_sum import fit_slope, integrate_law, linearity_error, weak_attraction
 from common.adhesion_sets import scaled_law
-from stickiness import dmt, repulsive, spectrum, surface
+from stickiness import datasets, dmt, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
+from surfaces import synthesise_surface
 
 LENGTH = 2 * np.pi
 AXES = "pressures", "adhesion_length_over_range", "range_over_h_rms"
@@ -91,6 +93,27 @@ def test_a_ratio_of_means_is_not_the_mean_of_ratios():
     assert float(ratio.mean()) == pytest.approx(7 / 6)
     # To first order the scatter of a ratio: that of the residuals over the mean below.
     assert float(ratio.std(ddof=1)) == pytest.approx(np.std([1 - 14 / 6, 6 - 28 / 6], ddof=1) / 3)
+
+
+def test_grids_of_seeds_and_ranges(tmp_path):
+    """Half of the seeds are on half the grid alone, and long ranges on grids half as fine."""
+    surface = {"hurst": 0.8, "magnification": 8}
+    made = {"surface": surface, "pixels_per_wavelength": 8, "seeds": [1, 2]}
+    synthesise_surface.main(make_job(tmp_path / "surfaces.nc", made))
+    asked = ASKED | {"law": "exponential", "range_over_h_rms": [0.1, 0.5], "half_from": 0.3}
+    params = {"adhesion": asked, "full": [[[True, True]]], "grids": [[[2, 1], [1]], [[2], [2]]]}
+    job = make_job(tmp_path / "solved.nc", params, surfaces=tmp_path / "surfaces.nc")
+    solve_adhesive.main(job)
+    found = datasets.read(tmp_path / "solved.nc").squeeze()
+    missing = found.external_pressure.isnull().all("range_over_h_rms")
+    assert missing.transpose("seed", ...).values.tolist() == [[False, False], [False, True]]
+    heights = datasets.read(tmp_path / "surfaces.nc").height.values
+    for seed, fineness, of_range, step in [(1, 8, 0, 1), (1, 8, 1, 2), (1, 4, 1, 4), (2, 4, 0, 2)]:
+        one = asked | {"range_over_h_rms": asked["range_over_h_rms"][of_range : of_range + 1]}
+        grid = np.ascontiguousarray(heights[seed - 1][::step, ::step])
+        direct = solve_adhesive.states(grid, LENGTH, one, np.ones((1, 1, 1), bool))
+        at = found.external_pressure.sel(seed=seed, resolution=fineness)[of_range]
+        assert float(at) == pytest.approx(float(direct.external_pressure.squeeze()), rel=1e-5)
 
 
 def test_what_the_grid_does_not_resolve_is_left_out(heights):

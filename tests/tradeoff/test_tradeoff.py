@@ -9,8 +9,6 @@ import pytest
 import xarray as xr
 import yaml
 
-from adhesion import solve_adhesive
-from common import ensemble_means
 from common import tradeoff_table as summary
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.accuracy import plan
@@ -22,7 +20,7 @@ from stickiness.accuracy.error_models import (
     single_error,
 )
 from stickiness.accuracy.settings import Problem, UnreachableError
-from tradeoff import contact_table, fit_models, presets
+from tradeoff import contact_table, fit_models
 from tradeoff.adhesion_table import find_threshold, measure_scatter
 from tradeoff.presets import (
     ADHESIVE_QUANTITIES,
@@ -165,8 +163,6 @@ def test_errors_of_full_adhesion_by_hand():
     assert found("threshold", 16, 1e-8, 4, 64) == pytest.approx(found("threshold", 16, 1e-8, 4, 0))
     assert found("threshold", 16, 1e-8, 8, 64) < 0.6 * found("threshold", 16, 1e-8, 8, 0)
     assert found("pull_off", 4, 1e-3, 2, 0) == pytest.approx(1 / 16)
-    assert solve_adhesive.LOOSEST == presets.ADHESIVE_TOLERANCE
-    assert ensemble_means.FEWEST == presets.FEWEST
 
 
 def test_out_of_reach_names_the_quantity():
@@ -182,9 +178,10 @@ def test_presets_are_what_the_rule_gives():
         for name in ("config.yaml", "campaigns/tradeoff.yaml")
     )
     asked, seeds = trade["presets"], config["sampling"]["descriptor_seeds"]
-    rough = config["model_surfaces"][asked["surface"]]
+    rough = Surface.of(config["model_surfaces"][asked["surface"]])
+    ours = Problem(read_models(LAWS), rough, asked["pressures"], (), seeds)
     for name in asked["accuracy"]:
-        chosen = preset_by_rule(read_models(LAWS), asked, name, rough, seeds)
+        chosen = preset_by_rule(ours, asked, name)
         assert plan.preset(config["fidelities"][name]) == chosen, name
 
 

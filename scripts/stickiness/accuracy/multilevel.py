@@ -79,6 +79,8 @@ def multilevel_mean(fine, coarse, many, controls, elsewhere, fewest=_FEWEST) -> 
 def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estimate:
     """Mean of a few fine solutions, corrected by the mean `level` of coarse ones of other seeds.
 
+    If these seeds are among those of `level`, the error leaves out that both are correlated.
+
     From `fewest` fine seeds on, the coefficient of the coarse solution is the slope of fine against
     coarse, entry by entry. With fewer it is the ratio of their means, or 1 where coarse solutions
     are not all of `one_sign`: fitted to four seeds, a slope can double the variance of a plain

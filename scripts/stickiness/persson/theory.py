@@ -120,9 +120,7 @@ class Persson:
         `magnification`: resolution zeta' >= 1 (q up to zeta' q0) at which the area is seen, the
         finest by default. With a direction, q0 is the wave number of the longest of all waves.
         """
-        (p,) = finite(p=p)
-        if not np.all(p >= 0):
-            raise ValueError(f"p must be finite and not negative, got {p!r}")
+        (p,) = nonnegative(p=finite(p=p)[0])
         warn_of_pressure(float(np.max(p, initial=0.0)), float(np.sqrt(2 * self._setting.m2)))
         m = self._setting.m2
         if magnification is not None:
