@@ -53,13 +53,11 @@ ON_GRIDS = {
     smoother._add_around: (single(6, 10), single(3, 5), single(10)),
     smoother._spread: (single(3, 5), np.float32(0.3), single(6, 10), single(6, 10), single(6)),
     half_space._double: (1, 3, single(4, 3), single(8, 6)),
-    convolution._scale: (single(4, 6), single(4, 20)),
     convolution._turn: (single(16, 9), GROUP, single(4, 16), True),
     convolution._combine: (*single(2, 4, 6), *(single(2, 4, 10) + 1j * single(2, 4, 10)), 10),
     preconditioner._add_to_coarse: (1, *single(2, 12, 5), *transposed(), single(2, 2)),
-    preconditioner._interpolate_along: (single(3, 2), interpolation()[1], single(3, 5)),
-    preconditioner._interpolate_between: (
-        *(6, single(3, 5), interpolation()[0], single(12, 5), single(4, 5)),
+    preconditioner._interpolate: (
+        *(6, single(3, 2), *interpolation(), single(12, 5), single(4, 5)),
     ),
     preconditioner._interpolate_at: (
         *(np.array([0, 7, 59]), single(3, 2), *interpolation(), single(3)),

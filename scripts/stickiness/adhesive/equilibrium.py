@@ -15,7 +15,7 @@ from stickiness.adhesive.descent import descend
 from stickiness.adhesive.problem import FrozenTraction, balanced, lowered
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.repulsive import solver
-from stickiness.repulsive.active_set import PREDICTION
+from stickiness.repulsive.active_set import PREDICTION, Problem
 from stickiness.repulsive.convolution import COUNT
 from stickiness.repulsive.half_space import coarsen, interpolate, sample
 
@@ -202,8 +202,8 @@ def _without_adhesion(problem, max_iterations):
     """Gap without adhesion, wider than any with it: a descent from it ends on the approach."""
     mean_gap = problem.mean_gap
     if problem.pressure is not None:
-        at = problem.heights, problem.sides, problem.pressure, _START_TOLERANCE
-        return solver.press(*at, solid=problem.solid).gap
+        alone = Problem(problem.heights, problem.sides, problem.pressure, problem.solid)
+        return solver.press(alone, _START_TOLERANCE).gap
     gap = mean_gap - problem.heights
     if gap.min() >= 0:
         return gap

@@ -38,10 +38,10 @@ _MAX_STALLED_UNSURE = 8  # … and where `projected_gradients` takes over
 class Problem:
     """Contact problem on one grid."""
 
-    heights: np.ndarray  #: in units of their rms, contiguous
-    sides: tuple  #: of the cell, in units of the first
-    load: float  #: mean pressure, in units of E* times rms height over side
-    solid: Solid = HALF_SPACE  #: its thickness in units of the first side
+    heights: np.ndarray  #: contiguous; for `relax` in units of their rms
+    sides: tuple  #: of the cell; for `relax` in units of the first, as the thickness of a layer
+    load: float  #: mean pressure [E*]; for `relax` in units of E* times rms height over side
+    solid: Solid = HALF_SPACE
     periodic: bool = True  #: or a rectangle on a half-space without end
 
     def operator(self, dtype):
@@ -157,14 +157,15 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
         stalled += 1
         if best is None or residual < best[-1]:
             best, stalled = (points, pressure, shift, residual), 0
-        if residual <= tol or iterations >= max_iterations or stalled > max_stalled:
+        settled = residual <= tol or below.size + points.size == 1
+        if settled or iterations >= max_iterations or stalled > max_stalled:
             break
-        if below.size + points.size == 1:
-            break
-        usable, at = dilute and stalled < _MAX_STALLED_DILUTE, (points, below, field.image, shift)
-        candidates = dilute_contact.select_candidates(grid, candidates, *at) if usable else None
-        dilute = candidates is not None
-        if dilute:
+        if dilute and stalled < _MAX_STALLED_DILUTE:
+            at = points, below, field.image, shift
+            candidates = dilute_contact.select_candidates(grid, candidates, *at)
+        else:
+            candidates = None
+        if dilute := candidates is not None:
             local = field.image[candidates.points].astype(float) + shift
             points, pressure, count = candidates.correct_pressure(
                 points, pressure, local, 0.3 * tol, max_iterations - iterations
@@ -277,27 +278,24 @@ def _predicted_from_pressure(grid, pressure, total):
     threshold += threshold.dtype.type(shift)
     threshold *= PREDICTION * field.operator.mean_stiffness * (flat.sum() / total)
     predicted = np.flatnonzero(flat > np.maximum(threshold, 0, out=threshold))
-    if predicted.size:
-        points = predicted
+    points = predicted if predicted.size else points
     return points, _balanced(flat[points], total)
 
 
 def _balanced(pressure, total):
     pressure = pressure.astype(float, copy=False)  # single precision would upset the balance
     force = pressure.sum()
-    if force > 0:
-        return pressure * (total / force)
-    return np.full(pressure.size, total / pressure.size)
+    return (
+        pressure * (total / force) if force > 0 else np.full(pressure.size, total / pressure.size)
+    )
 
 
 def _joined(grid, field, points, pressure, extra, shift):
     at = np.searchsorted(points, extra)
-    joined = np.insert(points, at, extra)
+    points = np.insert(points, at, extra)
     # In the precision of the grid, be it single.
-    spread = np.insert(pressure.astype(grid.exact.image.dtype, copy=False), at, 0).astype(float)
-    gaps = sharing.take(field.image, joined).astype(float, copy=False)
-    gaps += shift
-    return joined, spread, gaps
+    pressure = np.insert(pressure.astype(grid.exact.image.dtype, copy=False), at, 0).astype(float)
+    return points, pressure, sharing.take(field.image, points).astype(float, copy=False) + shift
 
 
 def _state(grid, best, field, last, iterations):

@@ -37,29 +37,57 @@ class _Count(threading.local):
 COUNT = _Count()
 
 
-class _Convolution:
-    """Transforms of blocks of rows, into a `_spectrum` that subclasses multiply by the symbol."""
+class Convolution:
+    """Convolution on one grid, in single or double precision.
 
-    _packed = False
+    An even number of columns in single precision is *packed*: neighbours along a row are the real
+    and the imaginary part (Cooley, Lewis and Welch, J. Sound Vib. 12:315, 1970), as transforms of
+    complex numbers make better use of vector instructions. With ``z = p[:, ::2] + i p[:, 1::2]``
+    the convolution of p with the symbol S is ``z'_k = a z_k + i b conj(z_-k)`` where ``a = s - d
+    sin t``, ``b = d cos t``, s and d are half the sum and half the difference of S at k and at k +
+    n1/2, and ``t = 2 pi k1 / n1``.
+    """
 
-    def __init__(self, shape, dtype, modes):
-        self.shape, self._dtype, self._modes = shape, dtype, modes
+    def __init__(self, shape, dtype):
+        self.shape, self._dtype = shape, np.dtype(dtype)
+        self._packed = self._dtype == np.float32 and shape[1] % 2 == 0
+        self._modes = shape[1] // 2 + (not self._packed)
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
         self._benches = {}  # one for each of the threads that share the work
-
-    def _padded(self, rows, columns):
-        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)
-
-    def _share_spectrum(self, rows, columns):
-        """Spectrum in memory of all convolutions of this shape: none uses it between calls."""
-        size = rows * _stride(columns) * self._numbers.itemsize
-        memory = COUNT.memory.get(self.shape)
+        groups = list((_mirrored if self._packed else _consecutive)(self._modes, shape[0]))
+        self._widest = max(group.size for group in groups)
+        ends = np.cumsum([group.size for group in groups]).tolist()  # of their rows in a symbol
+        self._parts = [
+            (group, slice(end - group.size, end)) for group, end in zip(groups, ends, strict=True)
+        ]
+        # Convolutions of a shape share the memory of their spectra: none uses it between calls.
+        rows = -(-shape[0] // 8) * 8
+        size = rows * _stride(self._modes) * self._numbers.itemsize
+        memory = COUNT.memory.get(shape)
         if memory is None or memory.size < size:
-            memory = COUNT.memory[self.shape] = aligned_zeros(size, np.uint8)
+            memory = COUNT.memory[shape] = aligned_zeros(size, np.uint8)
         self._memory = memory  # a view would not keep it, but what it is a view of
         self._flat = memory[:size].view(self._numbers)
-        return self._flat.reshape(rows, -1)
+        self._spectrum = self._flat.reshape(rows, -1)
+        # Numbers of 8 bytes are moved as if they were real.
+        self._moved = self._spectrum.view(float if self._numbers == np.complex64 else complex)
+
+    def symbol(self, values):
+        """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
+
+        It is even along both axes, so that these are the wave numbers that are not negative.
+        """
+        if not self._packed:
+            return np.ascontiguousarray(values, self._dtype)
+        direct, crossed = np.empty((2, self._modes, values.shape[1]), self._dtype)
+        # Half the sum, half the difference, and twice for a transform of half the points.
+        for group, rows in self._parts:
+            angle = np.pi * group[:, None] / self._modes
+            difference = values[group] - values[self._modes - group]
+            direct[rows] = values[group] + values[self._modes - group] - difference * np.sin(angle)
+            crossed[rows] = difference * np.cos(angle)
+        return direct, crossed
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
         """Convolve `field` into `out`, be it the same array, with what `symbol` returned.
@@ -90,32 +118,50 @@ class _Convolution:
 
     def _make_bench(self):
         """Buffers and plans of one thread."""
+        n0, n1 = self.shape
         bench = SimpleNamespace(
-            real=pyfftw.zeros_aligned((self._rows, self.shape[1]), self._dtype),
+            real=pyfftw.zeros_aligned((self._rows, n1), self._dtype),
             half=self._padded(self._rows, self._modes)[:, : self._modes],
+            before=self._padded(self._widest, n0),
+            after=self._padded(self._widest, n0),
         )
+        bench.moved = bench.before.view(self._moved.dtype)
+        bench.product = self._padded(self._widest, n0) if self._packed else bench.after
         bench.buffer = bench.real.view(self._numbers) if self._packed else bench.real
         bench.rows_forward = _plan(bench.buffer, bench.half, "FFTW_FORWARD")
         bench.rows_backward = _plan(bench.half, bench.buffer, "FFTW_BACKWARD")
+        bench.columns_forward = _plan(bench.before[:, :n0], bench.after[:, :n0], "FFTW_FORWARD")
+        bench.columns_backward = _plan(bench.product[:, :n0], bench.before[:, :n0], "FFTW_BACKWARD")
         return bench
+
+    def _padded(self, rows, columns):
+        return pyfftw.zeros_aligned((rows, _stride(columns)), self._numbers)
 
     def _forward(self, field, bench, block):
         span, count, direct = block
         if direct:
-            _run(bench.rows_forward, field[span].view(self._numbers), self._by_rows[span])
+            _run(
+                bench.rows_forward,
+                field[span].view(self._numbers),
+                self._spectrum[span, : self._modes],
+            )
             return
         width = field.shape[1]
         bench.real[:count, :width] = field[span]
         bench.real[:count, width:] = 0
         _run(bench.rows_forward, bench.buffer, bench.half)
-        self._by_rows[span] = bench.half[:count]
+        self._spectrum[span, : self._modes] = bench.half[:count]
 
     def _backward(self, out, bench, block):
         span, count, direct = block
         if direct:
-            _run(bench.rows_backward, self._by_rows[span], out[span].view(self._numbers))
+            _run(
+                bench.rows_backward,
+                self._spectrum[span, : self._modes],
+                out[span].view(self._numbers),
+            )
             return
-        bench.half[:count] = self._by_rows[span]
+        bench.half[:count] = self._spectrum[span, : self._modes]
         _run(bench.rows_backward, bench.half, bench.buffer)
         out[span] = bench.real[:count, : out.shape[1]]
 
@@ -133,101 +179,19 @@ class _Convolution:
             # A slice copies nothing.
             yield slice(first, last + 1) if together else block, block.size, direct
 
-
-class Real(_Convolution):
-    """Convolution on any grid; the spectrum is stored transposed."""
-
-    def __init__(self, shape, dtype):
-        n0, modes = shape[0], shape[1] // 2 + 1
-        super().__init__(shape, dtype, modes)
-        self._strip = max(1, min(modes, _CACHED // n0))
-        self._spectrum = self._share_spectrum(-(-modes // self._strip) * self._strip, n0)[:, :n0]
-        self._by_rows = self._spectrum[:modes].T
-        starts = range(0, self._spectrum.shape[0], self._strip)
-        self._parts = [slice(start, start + self._strip) for start in starts]
-
-    def symbol(self, values):
-        """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
-
-        It is even along both axes, so that these are the wave numbers that are not negative.
-        """
-        padded = np.zeros((self._spectrum.shape[0], values.shape[1]), self._dtype)
-        padded[: values.shape[0]] = values
-        return padded
-
-    def _make_bench(self):
-        bench = super()._make_bench()
-        bench.work = pyfftw.zeros_aligned((self._strip, self.shape[0]), self._numbers)
-        first = self._spectrum[: self._strip]
-        bench.columns_forward = _plan(first, bench.work, "FFTW_FORWARD")
-        bench.columns_backward = _plan(bench.work, first, "FFTW_BACKWARD")
-        return bench
-
-    def _multiply(self, symbol, bench, strip):
-        self._spectrum[max(strip.start, self._modes) : strip.stop] = 0
-        _run(bench.columns_forward, self._spectrum[strip], bench.work)
-        half = symbol.shape[1]
-        bench.work[:, :half] *= symbol[strip]
-        bench.work[:, half:] *= symbol[strip, self.shape[0] - half : 0 : -1]
-        _run(bench.columns_backward, bench.work, self._spectrum[strip])
-
-
-class Packed(_Convolution):
-    """Convolution for an even number of columns, by transforms of complex rows of half the width.
-
-    Neighbours along a row are the real and the imaginary part (Cooley, Lewis and Welch, J. Sound
-    Vib. 12:315, 1970): transforms of complex numbers make better use of vector instructions. With
-    ``z = p[:, ::2] + i p[:, 1::2]`` the convolution of p with the symbol S is ``z'_k = a z_k + i b
-    conj(z_-k)`` where ``a = s - d sin t``, ``b = d cos t``, s and d are half the sum and half the
-    difference of S at k and at k + n1/2, and ``t = 2 pi k1 / n1``.
-    """
-
-    _packed = True
-
-    def __init__(self, shape, dtype):
-        n0, modes = shape[0], shape[1] // 2
-        super().__init__(shape, dtype, modes)
-        groups = list(_mirrored(modes, max(8, _STRIP // n0)))
-        self._widest = max(group.size for group in groups)
-        ends = np.cumsum([group.size for group in groups]).tolist()  # of their rows in a symbol
-        self._parts = [
-            (group, slice(end - group.size, end)) for group, end in zip(groups, ends, strict=True)
-        ]
-        self._spectrum = self._share_spectrum(-(-n0 // 8) * 8, modes)
-        self._by_rows = self._spectrum[:, :modes]
-
-    def _make_bench(self):
-        bench = super()._make_bench()
-        n0 = self.shape[0]
-        before, after, product = (self._padded(self._widest, n0) for _ in range(3))
-        bench.columns_forward = _plan(before[:, :n0], after[:, :n0], "FFTW_FORWARD")
-        bench.columns_backward = _plan(product[:, :n0], before[:, :n0], "FFTW_BACKWARD")
-        bench.before, bench.after, bench.product = before, after, product
-        return bench
-
-    def symbol(self, values):
-        """Prepare a symbol, as `Real.symbol` does."""
-        modes, half = values.shape[0] - 1, values.shape[1]
-        direct = np.empty((modes, half), self._dtype)
-        crossed = np.empty((modes, half), self._dtype)
-        # Half the sum, half the difference, and twice for a transform of half the points.
-        for group, rows in self._parts:
-            angle = np.pi * group[:, None] / modes
-            difference = values[group] - values[modes - group]
-            direct[rows] = values[group] + values[modes - group] - difference * np.sin(angle)
-            crossed[rows] = difference * np.cos(angle)
-        return direct, crossed
-
     def _multiply(self, symbol, bench, part):
         group, rows = part
-        # Numbers that are only moved count as real ones of their size.
-        spectrum, strip = self._spectrum.view(float), bench.before.view(float)
-        _turn(spectrum, group, strip, False)
+        _turn(self._moved, group, bench.moved, False)
         bench.columns_forward.execute()
-        factors = (factor[rows] for factor in symbol)
-        _combine(*factors, bench.after, bench.product, self.shape[0])
+        if self._packed:
+            factors = (factor[rows] for factor in symbol)
+            _combine(*factors, bench.after, bench.product, self.shape[0])
+        else:
+            n, half, values = self.shape[0], symbol.shape[1], bench.after[: group.size]
+            values[:, :half] *= symbol[rows]
+            values[:, half:n] *= symbol[rows, n - half : 0 : -1]
         bench.columns_backward.execute()
-        _turn(spectrum, group, strip, True)
+        _turn(self._moved, group, bench.moved, True)
 
 
 @compiled
@@ -267,16 +231,16 @@ def aligned_zeros(size, dtype):
     return pyfftw.zeros_aligned(size, dtype, n=_ALIGNED)
 
 
-def choose(shape, dtype):
-    """Convolution for a grid: `Packed` in single precision and an even number of columns."""
-    kind = Packed if dtype == np.float32 and shape[1] % 2 == 0 else Real
-    return kind(shape, np.dtype(dtype))
+def _consecutive(modes, length):
+    """Groups of columns of a given length that are transformed together."""
+    width = max(1, _CACHED // length)
+    return np.split(np.arange(modes), range(width, modes, width))
 
 
-def _mirrored(modes, width):
-    """Groups of wavenumbers closed under k -> -k modulo `modes`; each is the mirror of its end."""
+def _mirrored(modes, length):
+    """The same, closed under k -> -k modulo `modes`; each is the mirror of its end."""
+    width, start = max(8, _STRIP // length), 1
     yield np.array([0])
-    start = 1
     while 2 * (start + width) <= modes:
         first = np.arange(start, start + width)
         yield np.concatenate([first, modes - first[::-1]])

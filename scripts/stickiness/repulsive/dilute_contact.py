@@ -48,12 +48,8 @@ def _points(grid):
 
 def select_candidates(grid, last, points, below, image, shift):
     """Candidates, unless too many: the `last` ones, unless some that penetrate are missing."""
-    if last is not None:
-        grid.active[last.points] = True
-        missing = not grid.active[below].all()
-        grid.active[last.points] = False
-        if not missing:
-            return last
+    if last is not None and np.isin(below, last.points, assume_unique=True).all():
+        return last
     likely = image < _CANDIDATE_GAP * np.std(image[points]) - shift
     likely[points] = True
     if last is not None:
@@ -62,26 +58,27 @@ def select_candidates(grid, last, points, below, image, shift):
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid, likely.size):
         return None
+    row, column = np.divmod(likely.astype(np.int32), np.int32(grid.shape[1]))
     if grid.periodic:
-        split, places = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid), likely
-    else:
-        split, places = _enclose(grid, likely)
-    pairs = _pair(places, split, _MAX_PAIRS * _points(grid))
-    return None if pairs is None else Candidates(grid, likely, places, split, *pairs)
+        split = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid)
+    else:  # on the rectangle that holds the points
+        row, column = row - row.min(), column - column.min()
+        pixel = tuple(a / n for a, n in zip(grid.sides, grid.shape, strict=True))
+        split = _FreeSplit((int(row.max()) + 1, int(column.max()) + 1), pixel, grid.solid)
+    pairs = _pair(row, column, split, _MAX_PAIRS * _points(grid))
+    if pairs is None:
+        return None
+    return Candidates(grid, likely, split, _splines((row, column), split), *pairs)
 
 
 class Candidates:
-    """Points that may touch (flat, increasing), and the approximate compliance among them.
+    """Points that may touch (flat, increasing), and the approximate compliance among them."""
 
-    `places` are these points on the grid of the `split`.
-    """
-
-    def __init__(self, grid, points, places, split, near, beside):
-        self.points = points
-        self._grid, self._split, self._near, self._beside = grid, split, near, beside
+    def __init__(self, grid, points, split, splines, near, beside):
+        self.points, self._near, self._beside = points, near, beside
+        self._grid, self._split = grid, split
         self._portion = np.prod(split.shape) / grid.heights.size
-        self._splines = _splines(places, split)
-        self._transpose = self._splines.T
+        self._splines, self._transpose = splines, splines.T
 
     def compliance(self, pressure):
         """Displacement of all candidates, in single precision."""
@@ -99,9 +96,9 @@ class Candidates:
         Returns points, pressure and the number of iterations, about `limit` at most.
         """
         active = np.isin(self.points, points, assume_unique=True)
-        before = np.zeros(self.points.size)
+        before, count = np.zeros(self.points.size), 0
         before[active] = pressure
-        after, gap, count = before.copy(), gap - gap[active].mean(), 0
+        after, gap = before.copy(), gap - gap[active].mean()
         largest = float(np.abs(gap[active]).max())
         if goal < _BEST_REDUCTION * largest:
             goal = _USUAL_REDUCTION * largest
@@ -144,23 +141,23 @@ class Candidates:
 class _Split:
     """Short and long waves of the compliance of a periodic solid on a grid."""
 
-    periodic, share = True, 1 / _SPACING**2  # of the points of the grid, in a convolution
+    share = 1 / _SPACING**2  # of the points of the grid, in a convolution
 
     def __init__(self, shape, sides, solid):
-        self.shape = shape
+        self.shape = self.cell = shape
         self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
         self.places = [(m / n, 0) for m, n in zip(self.coarse, shape, strict=True)]
         width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
         # Near pairs do not feel how large the cell is.
         patch = [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
         q = half_space.effective_wavenumbers(_PATCH, patch, solid)
-        near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)))
-        self.near, self.beside = _truncate_kernel(near, _REACH), _stiffness_beside(q)
+        self.near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)), _REACH)
+        self.beside = _tabulate(q / 2, _BESIDE)
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
         symbol /= np.outer(*blur) * (shape[0] * shape[1])
-        self._convolution = convolution.choose(self.coarse, np.float32)
+        self._convolution = convolution.Convolution(self.coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
         self._image = np.zeros(self.coarse, np.float32)
 
@@ -173,23 +170,16 @@ class _Split:
 class _FreeSplit(free_edges.Split):
     """The same of an unbounded half-space."""
 
-    periodic, places = False, [(1 / free_edges.SPACING, 1)] * 2
+    places = [(1 / free_edges.SPACING, 1)] * 2
 
     def __init__(self, shape, pixel, solid):
         super().__init__(shape, pixel, np.float32, free_edges.COARSE)
+        self.cell = shape[0] + _REACH, shape[1] + _REACH  # a period that brings no points together
         rest = self.rest([_REACH] * 2)
         self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
         patch = [_TABLE * a for a in pixel]
-        self.beside = _stiffness_beside(half_space.effective_wavenumbers(_PATCH, patch, solid))
-
-
-def _enclose(grid, points):
-    """Split of a rectangle with free edges that holds the points, and their places in it."""
-    row, column = np.divmod(points, grid.shape[1])
-    row, column = row - row.min(), column - column.min()
-    shape = int(row.max()) + 1, int(column.max()) + 1
-    pixel = tuple(a / n for a, n in zip(grid.sides, grid.shape, strict=True))
-    return _FreeSplit(shape, pixel, grid.solid), row * shape[1] + column
+        q = half_space.effective_wavenumbers(_PATCH, patch, solid)
+        self.beside = _tabulate(q / 2, _BESIDE)
 
 
 def _long(shape, lengths, width):
@@ -202,13 +192,9 @@ def _invert(q):
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
-def _stiffness_beside(q):
-    return _truncate_kernel(_tabulate(q / 2), _BESIDE)
-
-
-def _tabulate(symbol):
-    """Kernel of a symbol, of which one quadrant is given."""
-    return np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH)
+def _tabulate(symbol, reach):
+    """Kernel of a symbol, of which one quadrant is given, as `_truncate_kernel` returns it."""
+    return _truncate_kernel(np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH), reach)
 
 
 def _truncate_kernel(kernel, reach):
@@ -221,30 +207,20 @@ def _truncate_kernel(kernel, reach):
 def _multiply(matrix, values, image):
     """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
     *halves, diagonal = matrix
-    products = {}
-
-    def multiply(_, half):
-        products[half] = halves[half] @ values
-
-    sharing.share(multiply, range(2), halves[0].nnz)
-    image = image + products[0]
-    image += products[1]
-    image += diagonal * values
-    return image
+    first, second = sharing.share(lambda _, half: half @ values, halves, halves[0].nnz)
+    return image + first + second + diagonal * values
 
 
-def _pair(points, split, most):
+def _pair(row, column, split, most):
     """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
-    shape = split.shape
-    size, width = points.size, shape[1] + 2 * _REACH
-    row, column = np.divmod(points.astype(np.int32), np.int32(shape[1]))
+    (height, period), size = split.cell, row.size
     # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
-    beside, height = (_REACH, shape[0]) if split.periodic else (0, shape[0] + _REACH)
-    left, right = np.flatnonzero(column >= shape[1] - beside), np.flatnonzero(column < beside)
+    left, right = np.flatnonzero(column >= period - _REACH), np.flatnonzero(column < _REACH)
+    width = period + 2 * _REACH
     index = np.concatenate([np.arange(size, dtype=np.int32), left, right], dtype=np.int32)
     places = row[index] * np.int32(width) + column[index] + np.int32(_REACH)
-    places[size : size + left.size] -= np.int32(shape[1])
-    places[size + left.size :] += np.int32(shape[1])
+    places[size : size + left.size] -= np.int32(period)
+    places[size + left.size :] += np.int32(period)
     order = np.argsort(places, kind="stable")
     where = places[order], index[order], row, column, height, width
     near = _symmetric(split.near, _REACH, where, most)
@@ -261,9 +237,8 @@ def _symmetric(kernel_and_diagonal, reach, where, most):
         return None
     columns, values = (np.empty(starts[-1], part.dtype) for part in none)
     _find_pairs(*where, kernel, reach, starts, columns, values)
-    upper = sparse.csr_array(
-        (values, columns, starts.astype(np.int32)), shape=(starts.size - 1,) * 2
-    )
+    size = starts.size - 1
+    upper = sparse.csr_array((values, columns, starts.astype(np.int32)), shape=(size, size))
     return upper, upper.T, diagonal
 
 
@@ -296,18 +271,17 @@ def _find_pairs(places, index, row, column, height, width, kernel, reach, starts
         starts[k + 1] = total
 
 
-def _splines(points, split):
+def _splines(at_axes, split):
     """Cubic B-splines around the points of the coarse grid, at some of the fine one: a row each."""
-    columns, weights = np.zeros((points.size, 1), np.int32), np.ones((points.size, 1), np.float32)
-    coarse = split.coarse
-    at_axes = np.divmod(points, split.shape[1])
+    columns, weights = np.zeros((1, 1), np.int32), np.ones((1, 1), np.float32)
+    size, coarse = at_axes[0].size, split.coarse
     for m, (ratio, first), at in zip(coarse, split.places, at_axes, strict=True):
         left, t = np.divmod(at[:, None] * ratio + first, 1)
         u = 1 - t
         w = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6
         here = (left.astype(np.int32) + np.arange(-1, 3, dtype=np.int32)) % np.int32(m)
-        columns = (columns[:, :, None] * np.int32(m) + here[:, None]).reshape(points.size, -1)
-        weights = (weights[:, :, None] * w.astype(np.float32)[:, None]).reshape(points.size, -1)
+        columns = (columns[:, :, None] * np.int32(m) + here[:, None]).reshape(size, -1)
+        weights = (weights[:, :, None] * w.astype(np.float32)[:, None]).reshape(size, -1)
     starts = np.arange(0, columns.size + 1, columns.shape[1], dtype=np.int32)
-    size = (points.size, coarse[0] * coarse[1])
-    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=size)
+    shape = size, coarse[0] * coarse[1]
+    return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=shape)

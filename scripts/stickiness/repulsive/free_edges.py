@@ -49,7 +49,7 @@ class Split:
         spline = interpolate.BSpline.basis_element(np.arange(order + 1))
         smooth = self._smooth([np.arange(q // 2 + 1) * SPACING for q in padded])
         blur = [_blur(spline(np.arange(1, order)), q) ** 2 for q in padded]
-        self._convolution = convolution.choose(padded, self.dtype)
+        self._convolution = convolution.Convolution(padded, self.dtype)
         self._symbol = even_symbol(self._convolution, smooth, np.outer(*blur))
         phase = np.arange(SPACING)[:, None] / SPACING
         self._weights = spline(phase + order - 1 - np.arange(order)).astype(dtype)
@@ -58,17 +58,10 @@ class Split:
     def _smooth(self, pixels):
         """Mean of ``erf(r/w)/(pi r)`` over a pixel, by Gauss's rule, times its area."""
         nodes, weights = np.polynomial.legendre.leggauss(3)
-        pixels = [np.asarray(m) for m in pixels]
-        near = tuple(
-            slice(np.searchsorted(m * a, 6 * self._width))
-            for m, a in zip(pixels, self.pixel, strict=True)
-        )
-        total = 0.0
+        (x, y), limit, total = pixels, 6 * self._width, 0.0
+        near = np.s_[: np.sum(x * self.pixel[0] < limit), : np.sum(y * self.pixel[1] < limit)]
         for (a, u), (b, v) in product(zip(nodes / 2, weights / 2, strict=True), repeat=2):
-            x, y = (
-                ((m + c) * side) ** 2 for m, c, side in zip(pixels, (a, b), self.pixel, strict=True)
-            )
-            r = np.add.outer(x, y)
+            r = np.add.outer(((x + a) * self.pixel[0]) ** 2, ((y + b) * self.pixel[1]) ** 2)
             np.sqrt(r, out=r)
             np.maximum(r, 1e-9 * self._width, out=r)  # in the middle the quotient has a limit
             smooth = special.erf(r[near] / self._width)

@@ -62,13 +62,11 @@ class HalfSpace:
     """
 
     def __init__(self, shape, lengths, dtype, solid):
-        self.dtype = np.dtype(dtype)
-        self.shape, self.lengths, self.solid = shape, lengths, solid
+        self.dtype, self.shape, self.lengths, self.solid = np.dtype(dtype), shape, lengths, solid
         self.pairs = 0
-        n0, n1 = self.shape
-        self._convolution = convolution.choose(self.shape, self.dtype)
+        n0, n1 = shape
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
-        q = effective_wavenumbers(self.shape, self.lengths, solid).T
+        q = effective_wavenumbers(shape, lengths, solid).T
         # Waves mirror one another but for the first and a last along each axis.
         across, along = (
             np.where(np.arange(m) % (n / 2), 2.0, 1.0)
@@ -77,29 +75,35 @@ class HalfSpace:
         self.mean_stiffness = float(across @ q @ along) / (2 * n0 * n1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
-        self._compliance = self._convolution.symbol(q)
+        self._compliance = self._convolution, self._convolution.symbol(q)
+
+    # Made on demand: some methods do not need it, and in double precision hardly any the stiffness.
+    @cached_property
+    def _convolution(self):
+        return convolution.Convolution(self.shape, self.dtype)
 
     @cached_property
     def _stiffness(self):
-        # Made on demand: in double precision the contact solvers rarely need it.
         q = effective_wavenumbers(self.shape, self.lengths, self.solid).T
         q /= 2 * self.shape[0] * self.shape[1]
-        return self._convolution.symbol(q)
+        return self._convolution, self._convolution.symbol(q)
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement, of zero mean and in the unit of `lengths`, under a pressure [E*]."""
-        return self._convolve(self._convolution, self._compliance, pressure, out, rows_in, rows_out)
+        """Displacement under a pressure [E*], in the unit of `lengths` and, if periodic, of mean 0.
+
+        Both fields are zero but in `rows_in`; other rows of `out` than `rows_out` stay as they are.
+        """
+        return self._convolve(self._compliance, pressure, out, rows_in, rows_out)
 
     def stiffness(self, displacement, out=None, rows_in=None, rows_out=None):
         """Pressure [E*], of zero mean, that causes a displacement."""
-        symbols = self._convolution, self._stiffness
-        return self._convolve(*symbols, displacement, out, rows_in, rows_out)
+        return self._convolve(self._stiffness, displacement, out, rows_in, rows_out)
 
-    def _convolve(self, convolution, symbol, field, out, rows_in, rows_out):
-        """Convolve a field that is zero but in `rows_in`; other rows of `out` stay as they are."""
+    def _convolve(self, kernel, field, out, *rows):
+        operator, symbol = kernel
         out = np.zeros(self.shape, self.dtype) if out is None else out
-        convolution.apply(symbol, field, out, rows_in, rows_out)
-        self.pairs += 1
+        operator.apply(symbol, field, out, *rows)
+        self.pairs += math.prod(operator.shape) / math.prod(self.shape)
         return out
 
 
@@ -120,15 +124,10 @@ class FreeHalfSpace(HalfSpace):
         q = wavenumbers((_PATCH, _PATCH), patch)[:, : _PATCH // 2]
         self.mean_stiffness = float(q.mean()) / 2
 
-    # Large, and needed by some methods only.
     @cached_property
-    def _convolution(self):
-        return convolution.choose(self.shape, self.dtype)
-
-    @cached_property
-    def _padded(self):
+    def _compliance(self):
         padded = tuple(2 * fft.next_fast_len(n, real=True) for n in self.shape)
-        operator = convolution.choose(padded, self.dtype)
+        operator = convolution.Convolution(padded, self.dtype)
         # The kernel is even along both axes: a cosine transform of a quadrant has its spectrum.
         quadrant = displace_by_pixel([m // 2 + 1 for m in padded], self._pixel)
         return operator, free_edges.even_symbol(operator, quadrant)
@@ -137,13 +136,6 @@ class FreeHalfSpace(HalfSpace):
     def _split(self):
         accuracy = free_edges.SINGLE if self.dtype == np.float32 else free_edges.DOUBLE
         return free_edges.Split(self.shape, self._pixel, self.dtype, accuracy)
-
-    def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
-        """Displacement, zero far away."""
-        out = self._convolve(*self._padded, pressure, out, rows_in, rows_out)
-        # One has been counted.
-        self.pairs += np.prod(self._padded[0].shape) / (self.shape[0] * self.shape[1]) - 1
-        return out
 
     def displace(self, points, pressure, out):
         """Displacement by pressure on few points, flat and increasing, with a known error."""
@@ -177,14 +169,9 @@ def measure_scale(heights):
     # Heights that differ by rounding only are flat.
     if largest <= 8 * np.finfo(float).eps * abs(mean):
         return mean, 0.0
-    flat, squares = heights.ravel(), {}
-
-    def add(chunk):
-        deviation = (flat[chunk] - mean) / largest
-        squares[chunk.start] = float(np.sum(deviation * deviation))
-
-    sharing.spread(add, flat.size)
-    return mean, largest * math.sqrt(math.fsum(squares.values()) / flat.size)
+    flat = heights.ravel()
+    squares = sharing.spread(lambda c: np.sum(((flat[c] - mean) / largest) ** 2), flat.size)
+    return mean, largest * math.sqrt(math.fsum(squares) / flat.size)
 
 
 def measure_slope(heights, lengths):
@@ -251,14 +238,14 @@ def _resample(field, n, axis):
     position = np.arange(n) * (m / n)
     left = np.floor(position).astype(int)
     t = position - left
-    weights = {
-        -1: -t * (t - 1) * (t - 2) / 6,
-        0: (t + 1) * (t - 1) * (t - 2) / 2,
-        1: -(t + 1) * t * (t - 2) / 2,
-        2: (t + 1) * t * (t - 1) / 6,
-    }
+    cubics = (
+        -t * (t - 1) * (t - 2) / 6,
+        (t + 1) * (t - 1) * (t - 2) / 2,
+        -(t + 1) * t * (t - 2) / 2,
+        (t + 1) * t * (t - 1) / 6,
+    )
     total = 0.0
-    for offset, weight in weights.items():
+    for offset, weight in enumerate(cubics, -1):
         weight = weight[:, None] if axis == 0 else weight
         total = total + weight * np.take(field, (left + offset) % m, axis=axis)
     return total.astype(field.dtype)

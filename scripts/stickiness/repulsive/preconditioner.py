@@ -107,47 +107,33 @@ class _Mean:
     def __init__(self, shape, sides):
         coarse = tuple(-(-n // _SPACING) for n in shape)
         self._axes = [_interpolation(n, m) for n, m in zip(shape, coarse, strict=True)]
-        self._transposed = [
-            _transpose(*axis, m) for axis, m in zip(self._axes, coarse, strict=True)
-        ]
+        self._transposed = [_transpose(*by, m) for by, m in zip(self._axes, coarse, strict=True)]
         steps = [a / m for a, m in zip(sides, coarse, strict=True)]
         axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
         square[0, 0] = 1 / _SELF_WEIGHT
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
-        self._convolution = convolution.choose(coarse, np.float32)
+        self._convolution = convolution.Convolution(coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol[: coarse[0] // 2 + 1].T)
-        self._rows = np.empty((coarse[0], shape[1]), np.float32)
         self._field, self._image = np.zeros((2, *coarse), np.float32)
 
     def gather(self, field, weights=None):
         """Take the sums of a field in single precision, or of its product with weights."""
-
-        def add(rows):
-            _add_to_coarse(rows.start, field, weights, *self._transposed, self._field[rows])
-
-        sharing.spread(add, len(self._field), _SPACING * field.shape[1])
+        given, out = (field, weights, *self._transposed), self._field
+        size = len(out), _SPACING * field.shape[1]
+        sharing.spread(lambda rows: _add_to_coarse(rows.start, *given, out[rows]), *size)
         self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):
         """Sums at all points of a grid, times weights if any."""
-
-        def stretch(rows):
-            _interpolate_along(self._image[rows], self._axes[1], self._rows[rows])
-
-        def fill(rows):
-            _interpolate_between(rows.start, self._rows, self._axes[0], weights, out[rows])
-
-        sharing.spread(stretch, len(self._rows), _SPACING * out.shape[1])
-        sharing.spread(fill, *out.shape)
+        given = self._image, *self._axes, weights
+        sharing.spread(lambda rows: _interpolate(rows.start, *given, out[rows]), *out.shape)
 
     def at(self, points):
         """Sums at some points, given by flat indices."""
         out = np.empty(points.size, np.float32)
-        axes = self._axes
-        sharing.spread(
-            lambda c: _interpolate_at(points[c], self._image, *axes, out[c]), points.size
-        )
+        given = self._image, *self._axes
+        sharing.spread(lambda c: _interpolate_at(points[c], *given, out[c]), points.size)
         return out
 
 
@@ -160,15 +146,13 @@ def _interpolation(n, m):
 
 def _transpose(left, right, t, m):
     """For each of m points those interpolated from it, and with what weights; a row each."""
-    index = np.arange(left.size)
-    to, source = np.concatenate([left, right]), np.concatenate([index, index])
-    weights = np.concatenate([1 - t, t])
+    to, weights = np.concatenate([left, right]), np.concatenate([1 - t, t])
     order = np.argsort(to, kind="stable")
     count = np.bincount(to, minlength=m)
     place = np.arange(to.size) - np.repeat(np.cumsum(count) - count, count)
     points = np.zeros((m, count.max()), np.int64)
     shares = np.zeros(points.shape, np.float32)
-    points[to[order], place], shares[to[order], place] = source[order], weights[order]
+    points[to[order], place], shares[to[order], place] = order % left.size, weights[order]
     return points, shares
 
 
@@ -191,23 +175,21 @@ def _add_to_coarse(first, field, weights, axis0, axis1, coarse):
 
 
 @compiled
-def _interpolate_along(coarse, axis, out):
-    """Interpolate rows along themselves."""
-    left, right, t = axis
+def _interpolate(first, coarse, axis0, axis1, weights, out):
+    """Interpolate rows, from a first one on; times weights of the whole grid if any."""
+    (left0, right0, t0), (left1, right1, t1) = axis0, axis1
+    beside, before = np.empty((2, left1.size), coarse.dtype), -1
     for i in range(out.shape[0]):
-        for j in range(out.shape[1]):
-            a = coarse[i, left[j]]
-            out[i, j] = a + t[j] * (coarse[i, right[j]] - a)
-
-
-@compiled
-def _interpolate_between(first, rows, axis, weights, out):
-    """Interpolate between rows, from a first one on; times weights of the whole grid if any."""
-    left, right, t = axis
-    for i in range(out.shape[0]):
-        a, b, later = left[first + i], right[first + i], t[first + i]
-        for j in range(out.shape[1]):
-            value = rows[a, j] + later * (rows[b, j] - rows[a, j])
+        if left0[first + i] != before:  # the next coarse row, stretched, or at first two of them
+            for k in range(-1 if i == 0 else 0, 1):
+                row = coarse[left0[first] if k < 0 else right0[first + i]]
+                beside[0] = beside[1]
+                for j in range(left1.size):
+                    a = row[left1[j]]
+                    beside[1, j] = a + t1[j] * (row[right1[j]] - a)
+            before = left0[first + i]
+        for j in range(left1.size):
+            value = beside[0, j] + t0[first + i] * (beside[1, j] - beside[0, j])
             out[i, j] = value if weights is None else value * weights[first + i, j]
 
 

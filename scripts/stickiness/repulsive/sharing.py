@@ -37,39 +37,35 @@ def threads(count):
 
 
 def share(work, parts, points):
-    """Call ``work(worker, part)`` once for each of the `parts` of a grid with so many points.
+    """Results of ``work(worker, part)`` for each of the `parts` of a grid with so many points.
 
     No two threads are the same worker: they count from zero.
     """
-    todo = iter(list(parts))  # whoever is free takes the next
+    parts, results = list(parts), {}
+    todo = iter(range(len(parts)))  # whoever is free takes the next
 
     def run(worker):
-        for part in todo:
-            work(worker, part)
+        for k in todo:
+            results[k] = work(worker, parts[k])
 
     helpers = _TEAM.helpers if points >= _LEAST else 0
     others = [_TEAM.pool.submit(run, worker + 1) for worker in range(helpers)]
     run(0)
     for other in others:
         other.result()
+    return [results[k] for k in range(len(parts))]
 
 
 def spread(work, size, width=None):
-    """Call ``work(chunk)`` for slices of so many numbers, or rows of a `width`."""
+    """Results of ``work(chunk)`` for slices of so many numbers, or rows of a `width`."""
     length = _ROWS if width else _CHUNK
     chunks = (slice(start, min(start + length, size)) for start in range(0, size, length))
-    share(lambda _, chunk: work(chunk), chunks, size * (width or 1))
+    return share(lambda _, chunk: work(chunk), chunks, size * (width or 1))
 
 
 def find(test, size):
     """Indices among `size` numbers for which ``test(chunk)``, an array of truth values, holds."""
-    found = {}
-
-    def look(chunk):
-        found[chunk.start] = np.flatnonzero(test(chunk)) + chunk.start
-
-    spread(look, size)
-    return np.concatenate([found[start] for start in sorted(found)])
+    return np.concatenate(spread(lambda c: np.flatnonzero(test(c)) + c.start, size))
 
 
 def take(field, points):

@@ -179,26 +179,17 @@ def solve(
     with sharing.threads(threads):
         scale = half_space.measure_scale(heights)
         warn_of_heights(scale[1], lengths[0])
-        options = (tol, start, max_iterations, solid, periodic)
-        return press(heights, lengths, pressure, *options, scale=scale)
+        problem = active_set.Problem(heights, lengths, pressure, solid, bool(periodic))
+        return press(problem, tol, start, max_iterations, scale)
 
 
-def press(
-    heights,
-    lengths,
-    pressure,
-    tol,
-    start=None,
-    limit=1000,
-    solid=HALF_SPACE,
-    periodic=True,
-    scale=None,
-):
-    """Solve as `solve` does, of arguments that were checked, in any unit: nothing is warned of.
+def press(problem, tol, start=None, limit=1000, scale=None):
+    """Solve as `solve` does, a problem that was checked, in any unit: nothing is warned of.
 
     `scale`: what `half_space.measure_scale` returns, if it is known.
     """
-    mean, rms = scale or half_space.measure_scale(heights)
+    heights, lengths, pressure = problem.heights, problem.sides, problem.load
+    periodic, (mean, rms) = problem.periodic, scale or half_space.measure_scale(heights)
     if pressure == 0 or (rms == 0 and periodic):  # no contact, or full contact of a flat
         top = float(heights.max() if rms > 0 else heights.flat[0])
         gap = top - heights if rms > 0 else np.zeros(heights.shape)
@@ -209,7 +200,8 @@ def press(
         scaled = np.empty(heights.shape)
         sharing.evaluate(lambda h: (h - mean) / unit, scaled.ravel(), heights.ravel())
         load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
-        problem = active_set.Problem(scaled, sides, load, solid.in_unit(lengths[0]), bool(periodic))
+        solid = problem.solid.in_unit(lengths[0])
+        problem = replace(problem, heights=scaled, sides=sides, load=load, solid=solid)
         guess = {"pressure": start.pressure} if start is not None and start.area_fraction else None
         state = _relax(problem, guess, tol, limit)
         # Nothing else refers to these fields: they may be large, and are scaled in place.
