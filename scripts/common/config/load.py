@@ -30,7 +30,7 @@ _REASONS = {
     "string_too_short": "must not be empty",
     "string_pattern_mismatch": "is no name: use letters, digits, dot, dash and underscore",
     "int_type": "must be a whole number",
-    "float_type": "must be a number such as 0.01 or 1.0e-2; YAML takes 1e-2 for a text",
+    "float_type": "must be a number",
     "string_type": "must be a text",
     "bool_type": "must be true or false",
     "list_type": "must be a list",
@@ -137,4 +137,6 @@ def one_line(error: Mapping[str, Any]) -> str:
         choices = (word for word in re.findall(r"[\w.]+", details["expected"]) if word != "or")
         return unknown(path, value, choices)
     reason = _REASONS.get(error["type"], error["msg"]).format(**details)
+    if error["type"] == "float_type" and re.fullmatch(r"[-+.\deE]*\d", str(value)):
+        reason += ", not a text: leave off quotes, and write 1.0e-2 for 1e-2"
     return f"{path} = {value!r} {reason.replace('1 entries', '1 entry')}"

@@ -5,7 +5,7 @@ compiled loops and numpy's operations on long arrays let other threads run meanw
 """
 
 import threading
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from contextlib import contextmanager
 
 import numpy as np
@@ -48,9 +48,12 @@ def share(work, parts, points):
         for k in todo:
             results[k] = work(worker, parts[k])
 
-    helpers = _TEAM.helpers if points >= _LEAST else 0
+    helpers = min(_TEAM.helpers, len(parts) - 1) if points >= _LEAST else 0
     others = [_TEAM.pool.submit(run, worker + 1) for worker in range(helpers)]
-    run(0)
+    try:
+        run(0)
+    finally:  # nobody writes on once this returns, or raises
+        wait(others)
     for other in others:
         other.result()
     return [results[k] for k in range(len(parts))]

@@ -121,8 +121,8 @@ def solve(
     periodic : bool
         Whether surface and pressure repeat. If not, the surface is a rigid body with free edges,
         pressed into an unbounded half-space; each height is that of a pixel. The total force is
-        `pressure` times the area within `length`. This takes as long as a periodic surface where
-        few points touch, and four times as long elsewhere. It needs a half-space as `solid`.
+        `pressure` times the area within `length`. It needs a half-space as `solid`, and
+        takes up to five times as long as a periodic surface.
     threads : int
         Threads that share the work on grids from 400 by 400 points on, at least 1. The solution
         is the same, bit by bit, for any number. Many solutions at once, each on one thread, are the
