@@ -213,10 +213,8 @@ class AdhesionSet(Adhesive):
     seeds: f.Count = optional("largest number of realisations that are simulated in full")
     refine: Literal[1, 2, 4] = optional("refinement of the case's grid; default 1")
     half_from: f.Positive = optional(
-        (
-            "range over h_rms from which states are solved on every second point along each side, "
-            "where that leaves 4 points per shortest wavelength; default never"
-        )
+        "range over h_rms from which states are solved on every second point along each side, "
+        "where that leaves 4 points per shortest wavelength; default never"
     )
     maps: AdhesiveMaps = optional("states whose fields are kept")
 
