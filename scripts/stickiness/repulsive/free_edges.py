@@ -18,7 +18,7 @@ from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, sharing
 
 SPACING = 4  # of the grid of the smooth part, in pixels
-_MARGIN = 16  # points of that grid beyond twice its size: the inverse of a blur has decayed there
+_MARGIN = 24  # points of that grid beyond twice its size: the inverse of a blur has decayed there
 
 
 @dataclass(frozen=True)

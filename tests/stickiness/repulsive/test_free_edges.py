@@ -86,13 +86,15 @@ def test_convolution_is_the_direct_sum(shape, dtype, accuracy):
 )
 def test_split_is_the_convolution(shape, sides, dtype, split, accuracy):
     rng, pixel = np.random.default_rng(0), tuple(a / n for a, n in zip(sides, shape, strict=True))
-    points = np.union1d([0, shape[0] * shape[1] - 1], rng.integers(shape[0] * shape[1], size=300))
-    for count in (1, points.size):
+    size, width = shape[0] * shape[1], shape[1]
+    points = np.union1d([0, size - 1], rng.integers(size, size=300))
+    rims = np.r_[:width, size - width : size]
+    for some, factor in ((points[:1], 1), (points, 1), (rims, 2)):
         field, out = np.zeros(shape), np.empty(shape, dtype)
-        field.flat[points[:count]] = values = rng.random(count)
+        field.flat[some] = values = rng.random(some.size)
         expected = half_space.half_space(shape, sides, periodic=False).compliance(field)
-        free_edges.Split(shape, pixel, dtype, split).displace(points[:count], values, out)
-        np.testing.assert_allclose(out, expected, rtol=0, atol=accuracy * expected.max())
+        free_edges.Split(shape, pixel, dtype, split).displace(some, values, out)
+        np.testing.assert_allclose(out, expected, rtol=0, atol=factor * accuracy * expected.max())
 
 
 @pytest.mark.parametrize(("radius", "n"), [(0.05, 256), (0.1, 128), (0.3, 64)])
