@@ -103,7 +103,7 @@ def growth(chosen):
 
 
 def draw(path, table):
-    figure, (times, memory, pairs) = plt.subplots(1, 3, figsize=(9.5, 3.4), layout="constrained")
+    figure, (times, memory, pairs) = plt.subplots(1, 3, figsize=(9.5, 3.6), layout="constrained")
     panels = ((times, "elapsed"), (memory, "gigabytes"), (pairs, "pairs"))
     loads, counts = sorted(set(table.load)), sorted(set(table.threads))
     for (load, threads), rows in table.groupby(["load", "threads"]):
@@ -113,8 +113,8 @@ def draw(path, table):
         for axes, name in panels:
             axes.plot(rows.n, rows[name], marker="o", label=label, **style)
     bare = table.groupby("n").pair_seconds.min()
-    times.plot(bare.index, bare, "k^--", label="one bare FFT pair")
-    memory.plot(bare.index, 8e-9 * bare.index**2, "k--", label="one array of the grid")
+    times.plot(bare.index, bare, "k^--")
+    memory.plot(bare.index, 8e-9 * bare.index**2, "k--")
     titles = ("elapsed time [s]", "memory beside the heights [GB]", "FFT pairs")
     for (axes, _), title in zip(panels, titles, strict=True):
         axes.set_xscale("log", base=2)
@@ -125,8 +125,20 @@ def draw(path, table):
     times.set_yscale("log")
     memory.set_yscale("log")
     pairs.set_ylim(bottom=0)
-    times.legend(fontsize=8, loc="lower right")
-    memory.legend(fontsize=8)
+    times.text(
+        bare.index[-1], 0.25 * bare.iloc[-1], "bare FFT pair", ha="right", va="top", fontsize=8
+    )
+    memory.text(
+        bare.index[-1],
+        1.3e-9 * bare.index[-1] ** 2,
+        "array of the grid",
+        ha="right",
+        va="top",
+        fontsize=8,
+    )
+    figure.legend(
+        *pairs.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8
+    )
     figure.savefig(path, dpi=150)
 
 
