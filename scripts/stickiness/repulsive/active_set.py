@@ -261,7 +261,6 @@ def _predicted_from_gap(grid, gap, load):
     sharing.evaluate(np.add, surface, gap, grid.heights.ravel())
     operator.stiffness(surface.reshape(grid.shape), pressure.reshape(grid.shape))
     weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
-
     points = sharing.find(lambda c: pressure[c] + mean > np.maximum(gap[c] * weight, 0), gap.size)
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
@@ -285,9 +284,9 @@ def _predicted_from_pressure(grid, pressure, total):
 def _balanced(pressure, total):
     pressure = pressure.astype(float, copy=False)  # single precision would upset the balance
     force = pressure.sum()
-    return (
-        pressure * (total / force) if force > 0 else np.full(pressure.size, total / pressure.size)
-    )
+    if force > 0:
+        return pressure * (total / force)
+    return np.full(pressure.size, total / pressure.size)
 
 
 def _joined(grid, field, points, pressure, extra, shift):

@@ -64,7 +64,7 @@ def select_candidates(grid, last, points, below, image, shift):
     else:  # on the rectangle that holds the points
         row, column = row - row.min(), column - column.min()
         pixel = tuple(a / n for a, n in zip(grid.sides, grid.shape, strict=True))
-        split = _FreeSplit((int(row.max()) + 1, int(column.max()) + 1), pixel, grid.solid)
+        split = _FreeSplit((int(row.max()) + 1, int(column.max()) + 1), pixel)
     pairs = _pair(row, column, split, _MAX_PAIRS * _points(grid))
     if pairs is None:
         return None
@@ -172,13 +172,12 @@ class _FreeSplit(free_edges.Split):
 
     places = [(1 / free_edges.SPACING, 1)] * 2
 
-    def __init__(self, shape, pixel, solid):
+    def __init__(self, shape, pixel):
         super().__init__(shape, pixel, np.float32, free_edges.COARSE)
         self.cell = shape[0] + _REACH, shape[1] + _REACH  # a period that brings no points together
         rest = self.rest([_REACH] * 2)
         self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
-        patch = [_TABLE * a for a in pixel]
-        q = half_space.effective_wavenumbers(_PATCH, patch, solid)
+        q = half_space.wavenumbers(_PATCH, [_TABLE * a for a in pixel])
         self.beside = _tabulate(q / 2, _BESIDE)
 
 
