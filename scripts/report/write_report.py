@@ -124,7 +124,7 @@ def arrange_pairs(verdicts, surfaces):
     """Rows of all pairs, material by material, those of the user first."""
     materials = datasets.parameters(verdicts)["materials"]
     return [
-        describe_pair(verdicts.sel(material=material, surface=surface))
+        describe_pair(verdicts.sel(material=material, surface=surface), materials[material])
         | {"key": material, "material": materials[material]["label"]}
         | {"name": surface, "surface": datasets.parameters(surfaces[surface])["label"]}
         for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)

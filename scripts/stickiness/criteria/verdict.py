@@ -225,6 +225,8 @@ def describe_surface(
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
         "relative_compliance": float(solid.factor(q0)),
+        "film_response": prediction.find_film_response(spectrum, solid, q0),
+        "layer_strain": solid.strain(spectrum.h_rms, q0),
         "half_space_energy": prediction.find_half_space_energy(spectrum, solid),
         "anisotropy_error_factor": prediction.find_anisotropy_error_factor(ratio),
     }
