@@ -61,7 +61,7 @@ docs: $(VENV)/.docs  ## pages in docs/_build/html, and the reference of the conf
 	PYTHONPATH=scripts $(BIN)/python -m common.config.reference
 	$(SPHINX) -b html . docs/_build/html
 
-pictures: $(VENV)/.run  ## the pictures of README.md and docs, from results/standard and with Chromium
+pictures: $(VENV)/.run  ## pictures and examples of README.md and docs, from results/standard and with Chromium
 	$(BIN)/python docs/take_pictures.py
 
 benchmark: $(VENV)/.dev $(VENV)/.aspher  ## the contact solver beside its peers
@@ -74,6 +74,7 @@ $(VENV)/bin/python:
 
 $(VENV)/.run: envs/requirements.txt envs/constraints.txt | $(VENV)/bin/python
 	$(PIP) -r envs/requirements.txt
+	$(PIP) --no-deps --editable .
 	$(COMPILE)
 	touch $@
 
