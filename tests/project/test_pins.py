@@ -15,8 +15,8 @@ PINS = dict(re.findall(r"^([\w-]+)==(.+)$", (ROOT / "envs/dev.txt").read_text(),
 def test_hooks_have_the_versions_of_the_environment():
     hooks = yaml.safe_load((ROOT / ".pre-commit-config.yaml").read_text())["repos"]
     found = {Path(one["repo"]).name.removesuffix("-pre-commit"): one["rev"] for one in hooks}
-    assert found.pop("pre-commit-hooks")
-    assert found == {name: f"v{PINS[name]}" for name in ("codespell", "ruff", "snakefmt")}
+    pinned = {name: f"v{PINS[name]}" for name in ("codespell", "ruff", "snakefmt")}
+    assert found.items() >= pinned.items()
 
 
 def test_places_of_the_version_agree():
