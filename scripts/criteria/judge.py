@@ -1,67 +1,149 @@
-"""Verdict for every material on every surface, and the same as a page."""
+"""Verdict for every material on every surface, the same as a page, and all pairs side by side."""
 
-from itertools import product
+import numpy as np
+import pandas as pd
+from openpyxl.styles import Alignment
 
-from common import verdicts as texts
-from common.formatting import NOTHING, interval
+from common.formatting import NOTHING, interval, percent
 from common.job import start
+from common.provided import choose_mine
 from common.templates import write_page
-from common.verdicts import find_limits
+from common.verdicts import KPA, MPA, SHARES, find_limits
+from criteria.pair_roughness import ENDS
 from criteria.verdicts import judge_materials, read_surfaces
+from report.table_rows import arrange_pairs
 from stickiness import datasets
 from stickiness.criteria.a_v_table import THEORY_ERROR
-from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
-from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED
+from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+
+SHOWN = ("remaining", "pull_off", "modulus", "threshold", "probability", "energy_ratio", "margin")
+SHOWN += ("onset",)
+# Head, unit and its size of the quantities that are tabulated with their limits.
+TABULATED = {
+    "remaining": ("remains", "%", 0.01),
+    "pull_off": ("pull-off", "kPa", KPA),
+    "modulus_threshold": ("E* threshold", "MPa", MPA),
+}
 
 
 def main(job):
-    materials = job.params.materials
+    materials, output = job.params.materials, job.output
     surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
     labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)
     title = "verdicts of the stickiness criteria"
     parameters = {"materials": materials, "labels": labels}
-    datasets.write(dataset, job.output.dataset, title=title, parameters=parameters)
-    write_page(job.input.template, job.output.table, **describe_page(dataset, materials, labels))
+    datasets.write(dataset, output.dataset, title=title, parameters=parameters)
+    shown = describe_page(dataset, materials, labels)
+    write_page(job.input.template, output.table, **shown)
+    write_page(job.input.page, output.page, files=dict(output.items()), **shown)
+    frame = tabulate_pairs(dataset, shown["pairs"])
+    with datasets.whole_file(output.csv) as path:
+        frame.to_csv(path, index=False, float_format="%.6g")
+    write_workbook(frame, output.workbook)
 
 
 def describe_page(dataset, materials, labels):
-    """What the page shows; `labels` are those of the surfaces."""
+    """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
+    rows = sort_pairs(arrange_pairs(dataset, materials, labels))
+    pairs = [row | compare(select(dataset, row)) for row in rows]
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
-        "pairs": [
-            (materials[m]["label"], labels[s], *describe_pair(dataset.sel(material=m, surface=s)))
-            for m, s in product(dataset.material.values, dataset.surface.values)
-        ],
+        "shares": SHARES,
+        "pairs": pairs,
+        "cells": list(map(list_cells, pairs)),
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),
     }
 
 
-def describe_pair(pair):
-    """Cells of a pair's row after material and surface."""
+def sort_pairs(rows):
+    """Rows from large to small w/U_full, and before others those that are `mine`, the user's."""
+    rows = sorted(rows, key=lambda row: row["sort"]["energy_ratio"], reverse=True)
+    mine = choose_mine(rows)
+    return [row | {"mine": row in mine} for row in sorted(rows, key=lambda row: row not in mine)]
+
+
+def list_cells(row):
+    """Cells of a row of the table in Markdown."""
+    numbers = (row["text"][column] for column in SHOWN)
+    verdict = f"{row['word']} {row['moment']}".strip()
+    return row["material"], row["surface"], verdict, *numbers, row["dmt"], row["differs"]
+
+
+def select(dataset, row):
+    """The pair that a row describes."""
+    return dataset.sel(material=row["key"], surface=row["name"])
+
+
+def compare(pair):
+    """Whether a pair keeps each of `SHARES`, and what other criteria say of it, as texts."""
     if int(pair.verdict) == NOT_JUDGED:
-        return WORDS[NOT_JUDGED], *[NOTHING] * 10
+        return {"keeps": [(NOTHING, NOTHING)] * len(SHARES), "dmt": NOTHING, "differs": NOTHING}
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    return (
-        f"{WORDS[int(pair.verdict)]} {texts.describe_moment(pair)}".strip(),
-        texts.describe_share(pair),
-        texts.describe_pull_off(pair),
-        texts.show_stress(float(pair.modulus_quoted), texts.MPA),
-        texts.describe_threshold(pair),
-        texts.show_probability(pair),
-        show_range(pair.energy_ratio),
-        interval(*map(float, find_limits(pair, "margin")), 2),
-        show_range(pair.margin.sel(criterion=EDGES)),
-        show_range(dmt),
-        ", ".join(differs) or "none",
-    )
+    ranges = (pair.remaining.min(), pair.remaining.max()), find_limits(pair)
+    return {
+        "keeps": [tuple(says_keeps(*range_, share) for range_ in ranges) for share in SHARES],
+        "dmt": show_range(dmt),
+        "differs": ", ".join(differs) or "none",
+    }
+
+
+def says_keeps(low, high, share):
+    return "yes" if low >= share else "no" if high < share else "depends"
+
+
+def tabulate_pairs(dataset, rows):
+    """A row of numbers for every row of texts, with units in the heads; NaN where not known."""
+    found = []
+    for row in rows:
+        pair = select(dataset, row)
+        cells = {"material": row["material"], "material key": row["key"]}
+        cells |= {"surface": row["surface"], "surface key": row["name"]}
+        cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
+        cells |= {"judged": row["moment"], "E* [MPa]": float(pair.modulus_quoted) / MPA}
+        ratios = [float(pair.energy_ratio.sel(end=end)) for end in ENDS]
+        cells |= {f"w/U_full, {end} end": r for end, r in zip(ENDS, ratios, strict=True)}
+        for name, (head, unit, size) in TABULATED.items():
+            parts = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
+            numbers = zip(parts, list_numbers(pair, name), strict=True)
+            cells |= {f"{head}, {part} [{unit}]": x / size for part, x in numbers}
+        for share, answers in zip(SHARES, row["keeps"], strict=True):
+            answers = (answer.strip(NOTHING) for answer in answers)
+            by = zip(("value", "limits"), answers, strict=True)
+            cells |= {f"keeps {percent(share)} by {kind}": answer for kind, answer in by}
+        found.append(cells)
+    return pd.DataFrame(found)
+
+
+def list_numbers(pair, name):
+    """Values at both ends of the surface, low and high limit of a quantity; NaN where not known."""
+    values = [float(pair[name].sel(end=end)) for end in ENDS]
+    if np.isnan(values).any():
+        return [np.nan] * 4
+    low, high = map(float, find_limits(pair, name))
+    if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
+        return [np.nan, np.nan, low, np.nan]
+    return [*values, low, high]
+
+
+def write_workbook(frame, output):
+    """Write a table as a workbook, its head in view and ready to filter."""
+    with datasets.whole_file(output) as path, pd.ExcelWriter(path) as writer:
+        frame.to_excel(
+            writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
+        )
+        for cells in writer.sheets["pairs"].columns:
+            cells[0].alignment = Alignment(wrap_text=True)
+            longest = max(len(str(cell.value or "")) for cell in cells[1:])
+            writer.sheets["pairs"].column_dimensions[cells[0].column_letter].width = longest + 4
 
 
 def compare_thresholds(dataset, others, labels):
