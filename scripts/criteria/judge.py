@@ -1,5 +1,7 @@
 """Verdict for every material on every surface, the same as a page, and all pairs side by side."""
 
+from itertools import product
+
 import numpy as np
 import pandas as pd
 from openpyxl.styles import Alignment
@@ -14,18 +16,17 @@ from criteria.verdicts import judge_materials, read_surfaces
 from report.table_rows import arrange_pairs
 from stickiness import datasets
 from stickiness.criteria.a_v_table import THEORY_ERROR
-from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED
+from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 
-SHOWN = ("remaining", "pull_off", "modulus", "threshold", "probability", "energy_ratio", "margin")
-SHOWN += ("onset",)
 # Head, unit and its size of the quantities that are tabulated with their limits.
 TABULATED = {
     "remaining": ("remains", "%", 0.01),
     "pull_off": ("pull-off", "kPa", KPA),
     "modulus_threshold": ("E* threshold", "MPa", MPA),
 }
+PARTS = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
 
 
 def main(job):
@@ -49,15 +50,15 @@ def main(job):
 def describe_page(dataset, materials, labels):
     """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
-    rows = sort_pairs(arrange_pairs(dataset, materials, labels))
-    pairs = [row | compare(select(dataset, row)) for row in rows]
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
         "shares": SHARES,
-        "pairs": pairs,
-        "cells": list(map(list_cells, pairs)),
+        "pairs": [
+            row | compare(select(dataset, row))
+            for row in sort_pairs(arrange_pairs(dataset, materials, labels))
+        ],
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),
     }
@@ -65,16 +66,9 @@ def describe_page(dataset, materials, labels):
 
 def sort_pairs(rows):
     """Rows from large to small w/U_full, and before others those that are `mine`, the user's."""
-    rows = sorted(rows, key=lambda row: row["sort"]["energy_ratio"], reverse=True)
+    rows = sorted(rows, key=lambda row: -row["sort"]["energy_ratio"])
     mine = choose_mine(rows)
     return [row | {"mine": row in mine} for row in sorted(rows, key=lambda row: row not in mine)]
-
-
-def list_cells(row):
-    """Cells of a row of the table in Markdown."""
-    numbers = (row["text"][column] for column in SHOWN)
-    verdict = f"{row['word']} {row['moment']}".strip()
-    return row["material"], row["surface"], verdict, *numbers, row["dmt"], row["differs"]
 
 
 def select(dataset, row):
@@ -83,21 +77,23 @@ def select(dataset, row):
 
 
 def compare(pair):
-    """Whether a pair keeps each of `SHARES`, and what other criteria say of it, as texts."""
-    if int(pair.verdict) == NOT_JUDGED:
-        return {"keeps": [(NOTHING, NOTHING)] * len(SHARES), "dmt": NOTHING, "differs": NOTHING}
+    """What a pair keeps, and what other criteria say of it, as texts."""
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    ranges = (pair.remaining.min(), pair.remaining.max()), find_limits(pair)
+    by = {"value": (pair.remaining.min(), pair.remaining.max()), "limits": find_limits(pair)}
     return {
-        "keeps": [tuple(says_keeps(*range_, share) for range_ in ranges) for share in SHARES],
+        "keeps": {
+            f"keeps {percent(share)} by {kind}": says_keeps(*range_, share)
+            for share, (kind, range_) in product(SHARES, by.items())
+        },
         "dmt": show_range(dmt),
-        "differs": ", ".join(differs) or "none",
+        "differs": ", ".join(differs) or ("none" if dmt.notnull().all() else NOTHING),
     }
 
 
 def says_keeps(low, high, share):
-    return "yes" if low >= share else "no" if high < share else "depends"
+    """Whether at least a share remains between two values, empty where they are not known."""
+    return "yes" if low >= share else "no" if high < share else "depends" if high >= share else ""
 
 
 def tabulate_pairs(dataset, rows):
@@ -109,29 +105,21 @@ def tabulate_pairs(dataset, rows):
         cells |= {"surface": row["surface"], "surface key": row["name"]}
         cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
         cells |= {"judged": row["moment"], "E* [MPa]": float(pair.modulus_quoted) / MPA}
-        ratios = [float(pair.energy_ratio.sel(end=end)) for end in ENDS]
-        cells |= {f"w/U_full, {end} end": r for end, r in zip(ENDS, ratios, strict=True)}
+        cells |= {f"w/U_full, {end} end": float(pair.energy_ratio.sel(end=end)) for end in ENDS}
         for name, (head, unit, size) in TABULATED.items():
-            parts = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
-            numbers = zip(parts, list_numbers(pair, name), strict=True)
+            numbers = zip(PARTS, list_numbers(pair, name), strict=True)
             cells |= {f"{head}, {part} [{unit}]": x / size for part, x in numbers}
-        for share, answers in zip(SHARES, row["keeps"], strict=True):
-            answers = (answer.strip(NOTHING) for answer in answers)
-            by = zip(("value", "limits"), answers, strict=True)
-            cells |= {f"keeps {percent(share)} by {kind}": answer for kind, answer in by}
-        found.append(cells)
+        found.append(cells | row["keeps"])
     return pd.DataFrame(found)
 
 
 def list_numbers(pair, name):
     """Values at both ends of the surface, low and high limit of a quantity; NaN where not known."""
     values = [float(pair[name].sel(end=end)) for end in ENDS]
-    if np.isnan(values).any():
-        return [np.nan] * 4
     low, high = map(float, find_limits(pair, name))
     if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
-        return [np.nan, np.nan, low, np.nan]
-    return [*values, low, high]
+        return np.nan, np.nan, low, np.nan
+    return (*values, low, high) if np.isfinite(values).all() else [np.nan] * len(PARTS)
 
 
 def write_workbook(frame, output):
