@@ -17,7 +17,7 @@ from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.pair import NOT_JUDGED
+from stickiness.criteria.pair import NOT_JUDGED, SIGNS
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.solids.moduli import crossings
@@ -42,7 +42,7 @@ def main(job):
     }
     contact = bem = None
     if inputs.get("contact"):
-        contact = describe_contact(inputs, pairs, [entries[name] for name in mine])
+        contact = describe_contact(inputs, [entries[name] for name in mine])
     if inputs.get("measured_contact"):
         bem = describe_measured_contact(datasets.read(inputs.measured_contact, ["a_v"]))
     write_page(
@@ -105,7 +105,7 @@ def list_rates(solid, pair):
     return list(dict.fromkeys(texts))
 
 
-def describe_contact(files, pairs, mine):
+def describe_contact(files, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map."""
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
@@ -128,15 +128,12 @@ def describe_contact(files, pairs, mine):
         "pull_off": pull_off,
     }
     if not pull_off.attrs["left_out"]:
-        verdict = pairs.sel(material=made["material"])
         outside = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
         found |= {
             "outside": outside,
             "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
-            "compared": [
-                {"remaining": describe_share(each), "pull_off": describe_pull_off(each)}
-                for each in (as_pair(pull_off, ""), as_pair(pull_off, "predicted_"), verdict)
-            ],
+            "share": describe_share(as_pair(pull_off)),
+            "stress": describe_pull_off(as_pair(pull_off)),
         }
     return found
 
@@ -172,16 +169,16 @@ def overlap(pull_off, name):
     return bool(low <= model_high and model_low <= high)
 
 
-def as_pair(pull_off, prefix):
-    """Simulated or predicted numbers under the names of a verdict, at ends that agree."""
+def as_pair(pull_off):
+    """Simulated numbers under the names of a verdict, at ends that agree."""
+    names = {"remaining": "separation", "pull_off": "pull_off"}
     found = {
-        f"{name}{end}": pull_off[f"{prefix}{simulated}{end}"]
-        for name, simulated in (("remaining", "separation"), ("pull_off", "pull_off"))
-        for end in ("", "_low", "_high")
+        f"{name}{end}": pull_off[f"{simulated}{end}"]
+        for name, simulated in names.items()
+        for end in SIGNS
     }
     # Where this is large the model knows no pull-off. A simulation does.
-    found["energy_ratio"] = pull_off.energy_ratio * bool(prefix)
-    return xr.Dataset(found).expand_dims(end=2)
+    return xr.Dataset(found | {"energy_ratio": 0.0}).expand_dims(end=2)
 
 
 def describe_measured_contact(bem):
