@@ -4,7 +4,6 @@ from itertools import product
 
 import numpy as np
 import pandas as pd
-from openpyxl.styles import Alignment
 
 from common.formatting import NOTHING, interval, percent
 from common.job import start
@@ -129,9 +128,8 @@ def write_workbook(frame, output):
             writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
         )
         for cells in writer.sheets["pairs"].columns:
-            cells[0].alignment = Alignment(wrap_text=True)
-            longest = max(len(str(cell.value or "")) for cell in cells[1:])
-            writer.sheets["pairs"].column_dimensions[cells[0].column_letter].width = longest + 4
+            width = max(len(str(cell.value or "")) for cell in cells)
+            writer.sheets["pairs"].column_dimensions[cells[0].column_letter].width = width + 2
 
 
 def compare_thresholds(dataset, others, labels):

@@ -4,20 +4,19 @@ It has verdicts and their reasons, curves, contact, parameters and spectrum.
 """
 
 import numpy as np
-import xarray as xr
 
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import describe_modulus, read_material
 from common.templates import write_page
-from common.verdicts import describe_moment, describe_pull_off, describe_share
+from common.verdicts import describe_moment
 from criteria.verdicts import judge_materials, read_surfaces
 from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.pair import NOT_JUDGED, SIGNS
+from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.solids.moduli import crossings
@@ -132,8 +131,6 @@ def describe_contact(files, mine):
         found |= {
             "outside": outside,
             "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
-            "share": describe_share(as_pair(pull_off)),
-            "stress": describe_pull_off(as_pair(pull_off)),
         }
     return found
 
@@ -167,18 +164,6 @@ def overlap(pull_off, name):
     low, model_low = pull_off[f"{name}_low"], pull_off[f"predicted_{name}_low"]
     high, model_high = pull_off[f"{name}_high"], pull_off[f"predicted_{name}_high"]
     return bool(low <= model_high and model_low <= high)
-
-
-def as_pair(pull_off):
-    """Simulated numbers under the names of a verdict, at ends that agree."""
-    names = {"remaining": "separation", "pull_off": "pull_off"}
-    found = {
-        f"{name}{end}": pull_off[f"{simulated}{end}"]
-        for name, simulated in names.items()
-        for end in SIGNS
-    }
-    # Where this is large the model knows no pull-off. A simulation does.
-    return xr.Dataset(found | {"energy_ratio": 0.0}).expand_dims(end=2)
 
 
 def describe_measured_contact(bem):
