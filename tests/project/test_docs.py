@@ -38,7 +38,8 @@ def test_paths_in_the_map_exist():
 # Heads of columns that every reader knows, or that name what the table is about.
 PLAIN = """material surface errors source no claim claimed remark from subject printed correct proof
 recomputed experiment quantity observed predicted outcome on paper remarks case value allowed cost
-grid largest answer reason within the both ways heights theory without in all measured waves and means"""
+grid largest measured answer reason within the both ways heights theory without in all waves and
+means"""
 
 
 def test_heads_of_tables_are_in_the_glossary():

@@ -313,9 +313,9 @@ def test_page_shows_contact_and_pull_off(single, folder, pictures):
         "Soft tape",  # the user's material comes first
         f"{100 * float(contact.area_fraction[0]):.2g}",
         f"to {100 * float(pull_off.separation_high):.2g} %)",
-        "instead of 0.3 nm",
+        "another share, because it takes the range of the material, 0.3 nm, instead of",
         "on half-spaces of your materials",
-        "without the missing waves",
+        "and the work gained on approach instead of the work of separation",
     )
     assert "data/b.txt" in pictured.html
     assert len(pictured.html) < 4e6
