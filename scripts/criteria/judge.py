@@ -25,6 +25,7 @@ TABULATED = {
     "pull_off": ("pull-off", "kPa", KPA),
     "modulus_threshold": ("E* threshold", "MPa", MPA),
 }
+WIDTH = 26  # of a column, in characters
 PARTS = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
 
 
@@ -43,31 +44,29 @@ def main(job):
     frame = tabulate_pairs(dataset, shown["pairs"])
     with datasets.whole_file(output.csv) as path:
         frame.to_csv(path, index=False, float_format="%.6g")
-    write_workbook(frame, output.workbook)
+    with datasets.whole_file(output.workbook) as path, pd.ExcelWriter(path) as writer:
+        frame.to_excel(
+            writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
+        )
+        writer.sheets["pairs"].sheet_format.defaultColWidth = WIDTH
 
 
 def describe_page(dataset, materials, labels):
     """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
+    rows = arrange_pairs(dataset, materials, labels)
+    rows.sort(key=lambda row: row["sort"]["energy_ratio"], reverse=True)
+    mine = choose_mine(rows)
+    rows.sort(key=lambda row: row not in mine)
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
         "shares": SHARES,
-        "pairs": [
-            row | compare(select(dataset, row))
-            for row in sort_pairs(arrange_pairs(dataset, materials, labels))
-        ],
+        "pairs": [row | {"mine": row in mine} | compare(select(dataset, row)) for row in rows],
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),
     }
-
-
-def sort_pairs(rows):
-    """Rows from large to small w/U_full, and before others those that are `mine`, the user's."""
-    rows = sorted(rows, key=lambda row: -row["sort"]["energy_ratio"])
-    mine = choose_mine(rows)
-    return [row | {"mine": row in mine} for row in sorted(rows, key=lambda row: row not in mine)]
 
 
 def select(dataset, row):
@@ -119,17 +118,6 @@ def list_numbers(pair, name):
     if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
         return np.nan, np.nan, low, np.nan
     return (*values, low, high) if np.isfinite(values).all() else [np.nan] * len(PARTS)
-
-
-def write_workbook(frame, output):
-    """Write a table as a workbook, its head in view and ready to filter."""
-    with datasets.whole_file(output) as path, pd.ExcelWriter(path) as writer:
-        frame.to_excel(
-            writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
-        )
-        for cells in writer.sheets["pairs"].columns:
-            width = max(len(str(cell.value or "")) for cell in cells)
-            writer.sheets["pairs"].column_dimensions[cells[0].column_letter].width = width + 2
 
 
 def compare_thresholds(dataset, others, labels):

@@ -18,10 +18,7 @@ COLUMNS += ("errors", "modulus")
 
 
 def arrange_pairs(verdicts, materials, labels):
-    """Rows of all pairs, material by material, those of the user first.
-
-    `materials` are entries by name, and `labels` those of the surfaces.
-    """
+    """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
     return [
         describe_pair(verdicts.sel(material=material, surface=surface))
         | {"key": material, "material": materials[material]["label"]}
