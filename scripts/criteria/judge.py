@@ -9,8 +9,7 @@ from common.formatting import NOTHING, interval, percent
 from common.job import start
 from common.provided import choose_mine
 from common.templates import write_page
-from common.verdicts import KPA, MPA, SHARES, find_limits
-from criteria.pair_roughness import ENDS
+from common.verdicts import KPA, MPA, SHARES, find_limits, find_value
 from criteria.verdicts import judge_materials, read_surfaces
 from report.table_rows import arrange_pairs
 from stickiness import datasets
@@ -26,7 +25,6 @@ TABULATED = {
     "modulus_threshold": ("E* threshold", "MPa", MPA),
 }
 WIDTH = 26  # of a column, in characters
-PARTS = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
 
 
 def main(job):
@@ -78,7 +76,7 @@ def compare(pair):
     """What a pair keeps, and what other criteria say of it, as texts."""
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    by = {"value": (pair.remaining.min(), pair.remaining.max()), "limits": find_limits(pair)}
+    by = {"value": (find_value(pair), find_value(pair)), "limits": find_limits(pair)}
     return {
         "keeps": {
             f"keeps {percent(share)} by {kind}": says_keeps(*range_, share)
@@ -103,21 +101,15 @@ def tabulate_pairs(dataset, rows):
         cells |= {"surface": row["surface"], "surface key": row["name"]}
         cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
         cells |= {"judged": row["moment"], "E* [MPa]": float(pair.modulus_quoted) / MPA}
-        cells |= {f"w/U_full, {end} end": float(pair.energy_ratio.sel(end=end)) for end in ENDS}
+        cells["w/U_full"] = float(find_value(pair, "energy_ratio"))
         for name, (head, unit, size) in TABULATED.items():
-            numbers = zip(PARTS, list_numbers(pair, name), strict=True)
-            cells |= {f"{head}, {part} [{unit}]": x / size for part, x in numbers}
+            numbers = np.array([find_value(pair, name), *find_limits(pair, name)]) / size
+            if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
+                numbers[[0, 2]] = np.nan
+            parts = zip(("", ", low limit", ", high limit"), numbers, strict=True)
+            cells |= {f"{head}{part} [{unit}]": number for part, number in parts}
         found.append(cells | row["keeps"])
     return pd.DataFrame(found)
-
-
-def list_numbers(pair, name):
-    """Values at both ends of the surface, low and high limit of a quantity; NaN where not known."""
-    values = [float(pair[name].sel(end=end)) for end in ENDS]
-    low, high = map(float, find_limits(pair, name))
-    if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
-        return np.nan, np.nan, low, np.nan
-    return (*values, low, high) if np.isfinite(values).all() else [np.nan] * len(PARTS)
 
 
 def compare_thresholds(dataset, others, labels):
