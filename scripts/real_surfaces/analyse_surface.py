@@ -30,6 +30,7 @@ POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
+SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
 VARIABLE_TEXTS = {
@@ -40,12 +41,27 @@ VARIABLE_TEXTS = {
     "psd_fit": ("m^4", "fitted self-affine spectrum"),
     "fitted": ("1", "1 where the wave number is within the range of the fit"),
     "h_rms": ("m", "rms height"),
-    "h_rms_measured": ("m", "rms height of the levelled heights, without a window"),
+    "h_rms_measured": (
+        "m",
+        "rms height of the levelled heights, without a window, Sq (profile: Pq)",
+    ),
     "h_rms_as_read": ("m", "rms height of the levelled heights, with points dropped or masked"),
     "masked_spikes": ("1", "points far off all their neighbours, not used"),
     "rms_slope": ("1", "rms gradient, of waves up to q1"),
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
-    "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
+    "elastic_energy": (
+        "m",
+        "elastic energy of full contact per area over E*; if measured, with waves beyond q_cutoff "
+        "that end nobody knows where",
+    ),
+    "unresolved_energy": (
+        "1",
+        "energy of the fitted law from q_cutoff down to a wavelength of 0.3 nm over that of the "
+        "waves measured",
+    ),
+    "mean_deviation": ("m", "mean absolute height of the levelled heights, Sa (profile: Pa)"),
+    "height_range": ("m", "highest less lowest of the levelled heights, Sz (profile: Pt)"),
+    "skewness": ("1", "skewness of the levelled heights, Ssk (profile: Psk)"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
@@ -134,18 +150,24 @@ def analyse(entry):
     """Dataset of a measured surface, as configured."""
     entries = [one for _, one in measurements(entry)]
     heights = [read_levelled(one) for one in entries]
-    spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
-    spectrum = stitching.stitch(spectra)
+    found = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
+    spectrum = stitching.stitch([one for one, _ in found])
     fit, cutoff = spectrum.fit, spectrum.cutoff
+    doubts = [doubt for _, failures in found for doubt in failures]
+    doubts += [] if doubts else plausibility.doubt_fit(fit)
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
-    drawn = stitching.draw(spectrum, DRAWS, SEED, extend_to=extend_to)
+    if extend_to is not None and not fit.is_self_affine:
+        doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
+        extend_to = None
+    drawn = stitching.draw(
+        spectrum, DRAWS, SEED, extend_to=extend_to, continue_to=2 * np.pi / SHORTEST_WAVE
+    )
     trends = [one.get("detrend", "plane") for one in entries]
     as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks, doubts = [*remark_on_spectrum(spectrum, extend_to)], []
+    remarks = [*remark_on_spectrum(spectrum, extend_to)]
     for one, before in zip(heights, as_read, strict=True):
         remarks += remark_on_file(one, before)
         doubts += one.doubts
-    doubts += plausibility.doubt_fit(fit)
     if entry.get("plausibility", "check") == "ignore":
         remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
         doubts = []
@@ -168,11 +190,15 @@ def analyse(entry):
         q_cutoff=cutoff.q,
         cutoff_detected=int(cutoff.detected),
         h_rms_measured=heights[0].h_rms,
+        mean_deviation=heights[0].mean_deviation,
+        height_range=heights[0].height_range,
+        skewness=heights[0].skewness,
         h_rms_as_read=as_read[0],
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
         masked_spikes=sum(h.spikes for h in heights),
         cropped_fraction=max(h.cropped for h in heights),
+        unresolved_energy=("end", np.quantile(drawn.unresolved, END_QUANTILES)),
         q0_draws=("draw", drawn.q0),
         draw=np.arange(DRAWS),
     )
@@ -195,6 +221,11 @@ def analyse(entry):
         remarks="; ".join(remarks),
         cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
+        choices="\n".join(
+            f"{h.source} | {', '.join(h.others)} | {h.choice}"
+            for h, one in zip(heights, entries, strict=True)
+            if h.others and h.choice not in one
+        ),
         not_judged="\n".join(doubts),
     )
 

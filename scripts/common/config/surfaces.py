@@ -190,6 +190,9 @@ def _file_problems(measurement, made):
         if not made:
             yield f"file = {file!r}: no such file; give a path from the working directory"
         return
+    if advice := readers.find_packing(file):
+        yield f"file = {file!r}: {advice}"
+        return
     sides = _listed(measurement.get("length"))
     for side in [] if measurement.get("plausibility") == "ignore" else sides:
         if side > plausibility.LONGEST_SIDE:
