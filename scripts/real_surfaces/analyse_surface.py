@@ -16,7 +16,7 @@ from common.job import start
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
-from stickiness.measured import plausibility, stitching
+from stickiness.measured import plausibility, stitching, texture
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import COVERS
@@ -30,6 +30,7 @@ POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
+SHORTEST_OF_TEXTURE = "1 nm"  # unless it is given
 SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
@@ -96,9 +97,10 @@ def main(job):
 
 
 def self_affine(entry):
-    """Both ends of the range of a parametric surface."""
-    spectra = [configured_spectrum(entry, end) for end in (0, -1)]
-    smooth = spectra[0]
+    """Both ends of the range of a parametric surface, or of what a drawing says of it."""
+    is_texture = entry["kind"] == "surface_texture"
+    find = texture_spectrum if is_texture else configured_spectrum
+    smooth, rough = spectra = [find(entry, end) for end in (0, -1)]
     points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
     q = np.geomspace(smooth.q0, smooth.q1, points)
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
@@ -106,15 +108,22 @@ def self_affine(entry):
     data |= {
         "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
         "psd": (("end", "wave_number"), [s.psd(q) for s in spectra]),
-        "C0": ("end", [s.C0 for s in spectra]),
+        "C0": ("end", line if is_texture else [s.C0 for s in spectra]),
         "C0_reference_upper": ("end", line),
-        "hurst": entry["hurst"],
-        "q0": smooth.q_rolloff or smooth.q0,
+        "hurst": texture.MIDDLE_HURST if is_texture else entry["hurst"],
+        "q0": np.sqrt(smooth.q_longest * rough.q_longest),
         "q1": smooth.q1,
     }
     if "anisotropy" in entry:
         data["axis_ratio"] = entry["anisotropy"]
-    return annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
+    dataset = annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
+    ratio = si(entry.get("Rz", "0 m"), "m") / smooth.h_rms
+    if ratio and not texture.LEAST_RZ <= ratio <= texture.MOST_RZ:
+        dataset.attrs["remarks"] = (
+            f"Rz is {ratio:.1f} Rq; Gaussian heights have {texture.LEAST_RZ:g} to "
+            f"{texture.MOST_RZ:g} Rq, so the energies may be wrong"
+        )
+    return dataset
 
 
 def configured_spectrum(asked, end):
@@ -137,6 +146,24 @@ def configured_spectrum(asked, end):
         angle=np.radians(asked.get("angle", 0.0)),
         **size,
     )
+
+
+def texture_spectrum(asked, end):
+    """Self-affine spectrum of one end of what a drawing says."""
+
+    def bounds(key):
+        value = asked.get(key)
+        return [si(one, "m") for one in (value if isinstance(value, list) else [value])]
+
+    rq = bounds("Rq") if "Rq" in asked else [ra * texture.RQ_OVER_RA for ra in bounds("Ra")]
+    rsm = bounds("RSm")[-1 - end] if "RSm" in asked else None
+    if "lambda_c" in asked:
+        cutoff = si(asked["lambda_c"], "m")
+    else:
+        widest = bounds("RSm")[-1] if "RSm" in asked else 0.0
+        cutoff = texture.standard_cutoff(rq[-1] / texture.RQ_OVER_RA, widest)
+    shortest = si(asked.get("shortest_wavelength", SHORTEST_OF_TEXTURE), "m")
+    return texture.estimate_spectrum(rq[end], rsm, cutoff, shortest, rough=end != 0)
 
 
 def wave_number(asked, key, wavelength):
@@ -340,7 +367,7 @@ def annotate(dataset, **errors):
     dataset = conventions.annotate(dataset, **texts)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
     if not errors:
-        given = dict.fromkeys(SOURCES, not_applicable("given in the configuration"))
+        given = dict.fromkeys(SOURCES, not_applicable("given or assumed in the configuration"))
         return with_budget(dataset, "hurst", **given)
     parts = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
     parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
