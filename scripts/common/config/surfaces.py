@@ -82,7 +82,7 @@ class SurfaceTexture(f.Labelled):
     Rq: f.one_or_two(f.Length) = optional("rms deviation or its range, instead of Ra")
     Rz: f.Length = optional("maximum height, to check that the heights may be Gaussian")
     RSm: f.one_or_two(f.Length) = optional(
-        "mean spacing of profile elements; default a twentieth to half of lambda_c"
+        "mean spacing of profile elements; default 0.04 to 0.5 times lambda_c"
     )
     lambda_c: f.Length = optional("cut-off of the profile filter; default by ISO 4288")
     shortest_wavelength: f.Length = optional("shortest wavelength; default 1 nm")

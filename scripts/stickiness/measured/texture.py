@@ -16,7 +16,7 @@ from stickiness.spectrum.kinds import SelfAffine
 RQ_OVER_RA = float(np.sqrt(np.pi / 2))  #: of Gaussian heights
 # Of the smooth and the rough end: Hurst exponent, RSm over the wavelength of the roll-off, rms
 # height over Rq, and RSm over the cut-off if it is not known.
-HURST, SPACING, HEIGHT, RSM_OVER_CUTOFF = (1.0, 0.6), (1.0, 1.5), (1.0, 1.1), (0.5, 0.05)
+HURST, SPACING, HEIGHT, RSM_OVER_CUTOFF = (1.0, 0.6), (1.0, 1.5), (1.0, 1.1), (0.5, 0.04)
 MIDDLE_HURST = 0.8
 LEAST_RZ, MOST_RZ = 3.5, 6.5  #: of Rz over Rq; medians of the surfaces above are 3.8 to 6.1
 # Largest Ra and largest RSm for a cut-off, all in m (ISO 4288:1996, tables 1 and 3).
@@ -45,7 +45,7 @@ def estimate_spectrum(
     rq : float
         Root mean square height of the roughness profile [length].
     rsm : float, optional
-        Mean spacing of the profile's elements [length]. Default: between a twentieth and half of
+        Mean spacing of the profile's elements [length]. Default: between 0.04 and 0.5 times
         the cut-off.
     cutoff : float
         Cut-off of the profile filter [length]; longer waves are left out.
