@@ -8,6 +8,7 @@ import logging
 
 import numpy as np
 import xarray as xr
+from scipy import stats
 
 from common import conventions
 from common.config.entries import measurements
@@ -30,7 +31,6 @@ POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
 LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
-SHORTEST_OF_TEXTURE = "1 nm"  # unless it is given
 SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
@@ -50,16 +50,8 @@ VARIABLE_TEXTS = {
     "masked_spikes": ("1", "points far off all their neighbours, not used"),
     "rms_slope": ("1", "rms gradient, of waves up to q1"),
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
-    "elastic_energy": (
-        "m",
-        "elastic energy of full contact per area over E*; if measured, with waves beyond q_cutoff "
-        "that end nobody knows where",
-    ),
-    "unresolved_energy": (
-        "1",
-        "energy of the fitted law from q_cutoff down to a wavelength of 0.3 nm over that of the "
-        "waves measured",
-    ),
+    "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
+    "unresolved_energy": ("1", "energy of the law from q_cutoff to 0.3 nm over that measured"),
     "mean_deviation": ("m", "mean absolute height of the levelled heights, Sa (profile: Pa)"),
     "height_range": ("m", "highest less lowest of the levelled heights, Sz (profile: Pt)"),
     "skewness": ("1", "skewness of the levelled heights, Ssk (profile: Psk)"),
@@ -116,14 +108,7 @@ def self_affine(entry):
     }
     if "anisotropy" in entry:
         data["axis_ratio"] = entry["anisotropy"]
-    dataset = annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
-    ratio = si(entry.get("Rz", "0 m"), "m") / smooth.h_rms
-    if ratio and not texture.LEAST_RZ <= ratio <= texture.MOST_RZ:
-        dataset.attrs["remarks"] = (
-            f"Rz is {ratio:.1f} Rq; Gaussian heights have {texture.LEAST_RZ:g} to "
-            f"{texture.MOST_RZ:g} Rq, so the energies may be wrong"
-        )
-    return dataset
+    return annotate(xr.Dataset(data, coords={"end": ENDS, "wave_number": q}))
 
 
 def configured_spectrum(asked, end):
@@ -151,19 +136,17 @@ def configured_spectrum(asked, end):
 def texture_spectrum(asked, end):
     """Self-affine spectrum of one end of what a drawing says."""
 
-    def bounds(key):
-        value = asked.get(key)
-        return [si(one, "m") for one in (value if isinstance(value, list) else [value])]
+    def bound(key, end):
+        value = asked[key]
+        return si(value[end] if isinstance(value, list) else value, "m")
 
-    rq = bounds("Rq") if "Rq" in asked else [ra * texture.RQ_OVER_RA for ra in bounds("Ra")]
-    rsm = bounds("RSm")[-1 - end] if "RSm" in asked else None
-    if "lambda_c" in asked:
-        cutoff = si(asked["lambda_c"], "m")
-    else:
-        widest = bounds("RSm")[-1] if "RSm" in asked else 0.0
-        cutoff = texture.standard_cutoff(rq[-1] / texture.RQ_OVER_RA, widest)
-    shortest = si(asked.get("shortest_wavelength", SHORTEST_OF_TEXTURE), "m")
-    return texture.estimate_spectrum(rq[end], rsm, cutoff, shortest, rough=end != 0)
+    name, factor = ("Rq", 1.0) if "Rq" in asked else ("Ra", texture.RQ_OVER_RA)
+    rsm, widest = (bound("RSm", -1 - end), bound("RSm", -1)) if "RSm" in asked else (None, 0.0)
+    ra = factor * bound(name, -1) / texture.RQ_OVER_RA
+    cutoff = "lambda_c" in asked and bound("lambda_c", 0) or texture.standard_cutoff(ra, widest)
+    shortest = si(asked.get("shortest_wavelength", "1 nm"), "m")
+    rq = factor * bound(name, end)
+    return texture.estimate_spectrum(rq, rsm, cutoff, shortest, rough=end != 0)
 
 
 def wave_number(asked, key, wavelength):
@@ -217,9 +200,9 @@ def analyse(entry):
         q_cutoff=cutoff.q,
         cutoff_detected=int(cutoff.detected),
         h_rms_measured=heights[0].h_rms,
-        mean_deviation=heights[0].mean_deviation,
-        height_range=heights[0].height_range,
-        skewness=heights[0].skewness,
+        mean_deviation=np.mean(np.abs(heights[0].heights)),  # of levelled heights, whose mean is 0
+        height_range=np.ptp(heights[0].heights),
+        skewness=stats.skew(heights[0].heights, axis=None),
         h_rms_as_read=as_read[0],
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),

@@ -5,8 +5,9 @@ from functools import partial
 from inspect import signature
 
 from common.config.entries import measurements
+from common.formatting import percent
 from stickiness.measured import instrument_spectrum, topography
-from stickiness.measured.levelling import TooManyMissing
+from stickiness.measured.levelling import MAX_MISSING
 from stickiness.units import si
 
 LENGTHS = ("fit_from", "fit_to", "resolution", "tip_radius")  # of `Limits`
@@ -22,13 +23,13 @@ def read_levelled(measurement):
         heights = topography.jacksboro()
     else:
         keys = {key: measurement[key] for key in READ_KEYS if key in measurement}
-        try:
-            heights = topography.read(measurement["file"], **keys)
-        except TooManyMissing as error:
-            if keys.get("missing") == "refuse":
-                raise
-            heights = topography.read(measurement["file"], **keys | {"max_missing": ALL_MISSING})
-            heights = replace(heights, doubts=(*heights.doubts, str(error)))
+        most, keys["max_missing"] = keys.get("max_missing", MAX_MISSING), ALL_MISSING
+        heights = topography.read(measurement["file"], **keys)
+        if heights.missing_fraction > most:
+            share = f"{percent(heights.missing_fraction)} of the points of {heights.source}"
+            doubt = f"{share} are missing or not used, more than {percent(most)} (max_missing): "
+            doubt += "cut them off with missing: crop, measure again or raise max_missing"
+            heights = replace(heights, doubts=(*heights.doubts, doubt))
     return heights.detrended(measurement.get("detrend", "plane"))
 
 

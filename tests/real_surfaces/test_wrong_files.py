@@ -160,7 +160,7 @@ WITHHELD = {
     "too flat to be": (ROUGH * 1e-6, {}, ["the rms slope between points is", "outside 1e-07"]),
     "ten by ten": (ROUGH[:10, :10], {}, ["10 x 10 points", "64 points along its shorter side"]),
     "a short profile": (ROUGH[0, :30], {}, ["of 30 points", "a profile 256"]),
-    "half missing": (HALF, {}, ["more than the 10.0 %", "crop"]),
+    "half missing": (HALF, {}, ["more than 10 %", "crop"]),
     "a profile of noise": (NOISE.ravel(), {}, ["goes as q^", "too slowly for a surface"]),
     "a profile that grows": (np.diff(NOISE.ravel()), {}, ["no fit to the spectrum"]),
     "one wave": (WAVE, {"window": "none"}, ["the spectrum vanishes"]),

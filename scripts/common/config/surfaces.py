@@ -11,7 +11,7 @@ from common.config.entries import measurements
 from common.config.fields import Section, needed, optional
 from common.config.materials import ElasticPair
 from stickiness import plausibility
-from stickiness.measured import readers
+from stickiness.measured import readers, texture
 from stickiness.spectrum import kinds
 
 _BUILTIN = "builtin:jacksboro"
@@ -80,7 +80,7 @@ class SurfaceTexture(f.Labelled):
     kind: Literal["surface_texture"] = needed("parameters of profiles (ISO 21920, ISO 4287)")
     Ra: f.one_or_two(f.Length) = optional('mean deviation or its range, e.g. "0.8 um"')
     Rq: f.one_or_two(f.Length) = optional("rms deviation or its range, instead of Ra")
-    Rz: f.Length = optional("maximum height, to check that the heights may be Gaussian")
+    Rz: f.Length = optional("maximum height, to check that heights can be Gaussian")
     RSm: f.one_or_two(f.Length) = optional(
         "mean spacing of profile elements; default 0.04 to 0.5 times lambda_c"
     )
@@ -94,9 +94,13 @@ class SurfaceTexture(f.Labelled):
                 yield f"{key} = {given!r} must be [low, high]"
         if any(wide >= (self.lambda_c or 8e-3) for wide in _listed(self.RSm)):
             yield f"RSm = {self.RSm!r} must be below lambda_c, at most 8 mm"
-        # Rz is at least twice the mean deviation of every sampling length.
-        if self.Rz is not None and any(self.Rz < 2 * ra for ra in _listed(self.Ra)[:1]):
-            yield f"Rz = {self.Rz!r} must be at least twice Ra"
+        rq = _listed(self.Rq) or [texture.RQ_OVER_RA * ra for ra in _listed(self.Ra)]
+        low, high = texture.RZ_OVER_RQ
+        if self.Rz is not None and not low * rq[0] <= self.Rz <= high * rq[-1]:
+            yield (
+                f"Rz = {self.Rz!r} is outside {low * rq[0]:.2g} m to {high * rq[-1]:.2g} m of "
+                "Gaussian heights, which are assumed: measure the surface, or leave Rz out"
+            )
 
 
 # Unit of a length, here as a length.

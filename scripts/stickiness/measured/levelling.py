@@ -33,10 +33,6 @@ _CONNECTS = 1 / 3  # share of the distance of a spike from which points count to
 _ROWS = 256  # worked on at a time
 
 
-class TooManyMissing(ValueError):
-    """More points are missing than may be filled."""
-
-
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
     """Subtract the mean, plane or quadratic surface that fits a map or profile best."""
     heights = np.asarray(heights, dtype=float)
@@ -115,7 +111,7 @@ def fill_missing(
     if missing == hole.size:
         raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
     if missing / hole.size > max_missing:
-        raise TooManyMissing(
+        raise ValueError(
             f"{source}: {missing} of {hole.size} points ({100 * missing / hole.size:.1f} %) are "
             f"missing, more than the {100 * max_missing:.1f} % that are filled; cut them off with "
             "missing: crop, measure again or raise max_missing"

@@ -38,8 +38,6 @@ _PACKED = {  # first bytes of what no reader unpacks
     b"BZh": "bzip2",
     b"\xfd7zXZ\0": "xz",
     b"7z\xbc\xaf\x27\x1c": "7z",
-    b"Rar!": "RAR",
-    b"\x28\xb5\x2f\xfd": "Zstandard",
 }
 _OLD_EXCEL = b"\xd0\xcf\x11\xe0"
 _EXCEL = (

@@ -18,7 +18,7 @@ RQ_OVER_RA = float(np.sqrt(np.pi / 2))  #: of Gaussian heights
 # height over Rq, and RSm over the cut-off if it is not known.
 HURST, SPACING, HEIGHT, RSM_OVER_CUTOFF = (1.0, 0.6), (1.0, 1.5), (1.0, 1.1), (0.5, 0.04)
 MIDDLE_HURST = 0.8
-LEAST_RZ, MOST_RZ = 3.5, 6.5  #: of Rz over Rq; medians of the surfaces above are 3.8 to 6.1
+RZ_OVER_RQ = 3.5, 6.5  #: limits; medians of the surfaces above are 3.8 to 6.1
 # Largest Ra and largest RSm for a cut-off, all in m (ISO 4288:1996, tables 1 and 3).
 _CUTOFFS = {
     0.08e-3: (0.02e-6, 0.04e-3),

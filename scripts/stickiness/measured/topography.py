@@ -44,21 +44,6 @@ class _Heights:
         return float(np.std(self.heights))
 
     @property
-    def mean_deviation(self) -> float:
-        """Mean absolute height about the mean [m]: Sa of ISO 25178-2, Pa of a profile."""
-        return float(np.mean(np.abs(self.heights - self.heights.mean())))
-
-    @property
-    def height_range(self) -> float:
-        """Highest less lowest point [m]: Sz of ISO 25178-2, Pt of a profile."""
-        return float(np.ptp(self.heights))
-
-    @property
-    def skewness(self) -> float:
-        """Mean cube of the height over its rms cubed: Ssk of ISO 25178-2, Psk of a profile."""
-        return float(np.mean(((self.heights - self.heights.mean()) / self.h_rms) ** 3))
-
-    @property
     def missing_fraction(self) -> float:
         """Share of the points that were missing."""
         return self.missing / self.heights.size
