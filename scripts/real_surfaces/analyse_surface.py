@@ -12,7 +12,6 @@ from scipy import stats
 
 from common import conventions
 from common.config.entries import measurements
-from common.formatting import amount, percent
 from common.job import start
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
@@ -29,8 +28,6 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
-LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
 SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
@@ -42,10 +39,7 @@ VARIABLE_TEXTS = {
     "psd_fit": ("m^4", "fitted self-affine spectrum"),
     "fitted": ("1", "1 where the wave number is within the range of the fit"),
     "h_rms": ("m", "rms height"),
-    "h_rms_measured": (
-        "m",
-        "rms height of the levelled heights, without a window, Sq (profile: Pq)",
-    ),
+    "h_rms_measured": ("m", "rms height of the levelled heights, Sq (profile: Pq)"),
     "h_rms_as_read": ("m", "rms height of the levelled heights, with points dropped or masked"),
     "masked_spikes": ("1", "points far off all their neighbours, not used"),
     "rms_slope": ("1", "rms gradient, of waves up to q1"),
@@ -172,19 +166,12 @@ def analyse(entry):
     drawn = stitching.draw(
         spectrum, DRAWS, SEED, extend_to=extend_to, continue_to=2 * np.pi / SHORTEST_WAVE
     )
-    trends = [one.get("detrend", "plane") for one in entries]
-    as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks = [*remark_on_spectrum(spectrum, extend_to)]
-    for one, before in zip(heights, as_read, strict=True):
-        remarks += remark_on_file(one, before)
-        doubts += one.doubts
+    remarks, doubts = [], doubts + [doubt for one in heights for doubt in one.doubts]
     if entry.get("plausibility", "check") == "ignore":
-        remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
+        remarks = [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
         doubts = []
     for doubt in doubts:
         logging.warning("no verdict: %s", doubt)
-    for remark in remarks:
-        logging.info(remark)
 
     line, line_se, upper = fit.c0_at_hurst(REFERENCE_HURST)
     errors = {"hurst": fit.hurst_se, "C0_reference": line_se}
@@ -203,7 +190,7 @@ def analyse(entry):
         mean_deviation=np.mean(np.abs(heights[0].heights)),  # of levelled heights, whose mean is 0
         height_range=np.ptp(heights[0].heights),
         skewness=stats.skew(heights[0].heights, axis=None),
-        h_rms_as_read=as_read[0],
+        h_rms_as_read=heights[0].h_rms_as_read(entries[0].get("detrend", "plane")),
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
         masked_spikes=sum(h.spikes for h in heights),
@@ -271,69 +258,6 @@ def picture_of(heights):
         return picture.rename("profile")
     thin = max(1, *(n // PICTURE_POINTS for n in picture.shape))
     return picture[::thin, ::thin].astype("f4").rename("heights")
-
-
-def remark_on_file(heights, with_spikes):
-    """Remarks on points that were not used; `with_spikes` is the rms height with all points."""
-    source = heights.source
-    if heights.spikes:
-        yield (
-            f"{heights.spikes} points of {source} are spikes, far off all their neighbours; the "
-            f"rms height is {amount(with_spikes, 'm')} with all points, "
-            f"{amount(heights.h_rms, 'm')} without those not used: if they are part of the "
-            "surface, give spikes: keep"
-        )
-    if heights.cropped:
-        yield f"{percent(heights.cropped)} of {source} cut off to leave no missing points"
-    if heights.dropped:
-        yield (
-            f"{heights.dropped} points of {source} beside missing ones were measured and are "
-            "not used (missing_rim)"
-        )
-    if heights.missing > heights.spikes:
-        yield (
-            f"{percent(heights.missing_fraction)} of the points of {source} were missing and "
-            "are interpolated, smoother than the surface"
-        )
-    if heights.heights.ndim == 1:
-        yield f"{source} is a line profile: isotropy is assumed, not seen"
-
-
-def remark_on_spectrum(spectrum, extend_to):
-    """Remarks on what is not isotropic or self-affine, and on both ends of the spectrum."""
-    fit = spectrum.fit
-    if not fit.is_self_affine:
-        yield (
-            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
-            "or the instrument's blur (H too high)"
-        )
-    if fit.misfit > LARGE_MISFIT:
-        yield f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)"
-    if spectrum.anisotropy > LARGE_ANISOTROPY:
-        yield (
-            f"C depends on direction (amplitude {spectrum.anisotropy:.2f} of cos 2 phi): theory "
-            "for isotropic surfaces applies to its average at best"
-        )
-    longest, shortest = (amount(2 * np.pi / q, "m") for q in (fit.q_min, spectrum.cutoff.q))
-    if fit.q_rolloff is None:
-        yield (
-            f"no roll-off was found below wavelengths of {longest}, and longer "
-            "ones cannot show one: q0 is the lowest wave number of the scan, not of the surface"
-        )
-    left_out = "are not part of slope, curvature and a_V"
-    if extend_to is not None:
-        end = amount(2 * np.pi / extend_to, "m")
-        left_out = f"follow the fitted law down to {end}: extrapolated, not measured"
-    yield f"waves shorter than {shortest} ({spectrum.cutoff.reason}) {left_out}"
-    if not isinstance(spectrum, stitching.Stitched):
-        return
-    if np.isnan(spectrum.scatter):
-        yield "no two measurements overlap: whether they agree in height cannot be told"
-    else:
-        yield (
-            f"{len(spectrum.levels)} measurements stitched, which differ by a factor of "
-            f"{np.exp(spectrum.scatter):.2f} in C (standard deviation)"
-        )
 
 
 def annotate(dataset, **errors):

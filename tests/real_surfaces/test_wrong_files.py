@@ -5,17 +5,17 @@ import gzip
 import io
 import lzma
 import zipfile
-from dataclasses import replace
 
 import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
+from common.templates import make_environment
 from criteria.pair_roughness import find_a_v
 from criteria.verdicts import OF_SURFACES
 from real_surfaces import analyse_surface
-from stickiness import measured, surface
+from stickiness import surface
 from stickiness.spectrum import SelfAffine
 
 N = 128
@@ -233,8 +233,8 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
         np.testing.assert_allclose(found[name], clean[name], rtol=2e-3)
     # One point of 1 m in 128 x 128.
     assert float(found.h_rms_as_read) == pytest.approx(1 / 128, rel=0.01)
-    assert "the rms height is 7.81 mm with all points, " in found.remarks
-    assert "give spikes: keep" in found.remarks
+    assert "The rms height is 7.81 mm with all points, " in remarks(found)
+    assert "give <code>spikes: keep" in remarks(found)
 
 
 @pytest.mark.parametrize(
@@ -254,17 +254,17 @@ def test_many_spikes_are_told_with_their_number(tmp_path):
     islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
     many = analyse(tmp_path, changed(*islands, value=9.0))
     assert int(many.masked_spikes) == 25
-    assert "25 points of" in many.remarks
+    assert "all their neighbours: 25." in remarks(many)
 
 
-def test_remarks_name_what_is_wrong():
-    step = 2e-3 / N
-    found = [
-        measured.analyse(measured.Topography(h, step, step, "here")) for h in (NOISE, ROUGH * 1e-6)
-    ]
-    assert not found[0].fit.is_self_affine
-    lay = replace(found[0], anisotropy=0.8)
-    first, second, *_ = analyse_surface.remark_on_spectrum(lay, None)
-    assert "outside 0 < H <= 1" in first
-    assert "direction" in second
-    assert len(list(analyse_surface.remark_on_spectrum(found[1], None))) == 2  # on its ends
+def remarks(dataset):
+    """What the page remarks on a measured surface."""
+    macros = make_environment("report").get_template("macros.html.j2").module
+    return str(macros.remarks(dataset)).replace("\u00a0", " ")
+
+
+def test_remarks_name_what_is_wrong(tmp_path):
+    noise = remarks(analyse(tmp_path, NOISE).assign(anisotropy=0.8))
+    for words in ("is outside 0 &lt; H ≤ 1", "depends on direction", "No roll-off was found"):
+        assert words in noise
+    assert remarks(analyse(tmp_path, ROUGH)).count("<li>") == 2  # on its ends
