@@ -128,19 +128,26 @@ def configured_spectrum(asked, end):
 
 
 def texture_spectrum(asked, end):
-    """Self-affine spectrum of one end of what a drawing says."""
+    """Spectrum of one end of what a drawing says, see `texture`; low values are the smooth end."""
 
     def bound(key, end):
         value = asked[key]
         return si(value[end] if isinstance(value, list) else value, "m")
 
     name, factor = ("Rq", 1.0) if "Rq" in asked else ("Ra", texture.RQ_OVER_RA)
-    rsm, widest = (bound("RSm", -1 - end), bound("RSm", -1)) if "RSm" in asked else (None, 0.0)
-    ra = factor * bound(name, -1) / texture.RQ_OVER_RA
-    cutoff = "lambda_c" in asked and bound("lambda_c", 0) or texture.standard_cutoff(ra, widest)
-    shortest = si(asked.get("shortest_wavelength", "1 nm"), "m")
-    rq = factor * bound(name, end)
-    return texture.estimate_spectrum(rq, rsm, cutoff, shortest, rough=end != 0)
+    if "lambda_c" in asked:
+        cutoff = bound("lambda_c", 0)
+    else:
+        widest = bound("RSm", -1) if "RSm" in asked else 0.0
+        cutoff = texture.standard_cutoff(factor * bound(name, -1) / texture.RQ_OVER_RA, widest)
+    spacing = bound("RSm", -1 - end) if "RSm" in asked else texture.RSM_OVER_CUTOFF[end] * cutoff
+    return SelfAffine(
+        hurst=texture.HURST[end],
+        q0=2 * np.pi / cutoff,
+        q_rolloff=2 * np.pi * texture.RSM_OVER_ROLLOFF[end] / spacing,
+        q1=2 * np.pi / si(asked.get("shortest_wavelength", "1 nm"), "m"),
+        h_rms=texture.HEIGHT_OVER_RQ[end] * factor * bound(name, end),
+    )
 
 
 def wave_number(asked, key, wavelength):
@@ -219,9 +226,9 @@ def analyse(entry):
         cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
         choices="\n".join(
-            f"{h.source} | {', '.join(h.others)} | {h.choice}"
+            f"{h.source} | {', '.join(h.others)}"
             for h, one in zip(heights, entries, strict=True)
-            if h.others and h.choice not in one
+            if h.others and not {"channel", "variable"} & set(one)
         ),
         not_judged="\n".join(doubts),
     )

@@ -246,7 +246,7 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
 )
 def test_a_choice_among_data_sets_is_told_unless_it_is_made(tmp_path, content, name, key):
     found = analyse(tmp_path, content, name, **ENTRY)
-    assert found.choices == f"{tmp_path / name}: height | other | {key}"
+    assert found.choices == f"{tmp_path / name}: height | other"
     assert analyse(tmp_path, content, name, **ENTRY, **{key: "height"}).choices == ""
 
 

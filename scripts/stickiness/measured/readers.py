@@ -90,7 +90,6 @@ class Raw:
     source: str  #: file, and variable or channel
     unit: str | None = None  #: of the heights
     others: tuple[str, ...] = ()  #: other channels or variables that could be taken
-    choice: str = "variable"  #: key that takes one of them
     places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
 
@@ -185,7 +184,7 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
             steps = [_find_step(coordinate, path) for coordinate in along]
             places, unit = (None, None) if None in steps else (np.array(steps), "m")
     source, values = f"{path}: {name}", np.array(data.values)
-    return Raw(values, source, data.attrs.get("units"), others, places=places, place_unit=unit)
+    return Raw(values, source, data.attrs.get("units"), others, places, unit)
 
 
 def _choose(
@@ -280,7 +279,7 @@ def _read_text(path: Path) -> Raw:
                     f"{path}: {shapes[0][axis]} {name}, but its header says {line!r}; is the file "
                     "complete, and do decimal commas or separators split its numbers?"
                 )
-    return Raw(heights, str(path), fields.get("value unit"), places=places, place_unit=place_unit)
+    return Raw(heights, str(path), fields.get("value unit"), (), places, place_unit)
 
 
 def _split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
@@ -410,7 +409,7 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
         scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
         places = np.array(data.physical_sizes, dtype=float) * scale / heights.shape
     others = tuple(str(c.channel_id) for c in usable if c.index != info.index)
-    return Raw(heights, source, unit, others, "channel", places, place_unit)
+    return Raw(heights, source, unit, others, places, place_unit)
 
 
 def holds_heights(channel) -> bool:

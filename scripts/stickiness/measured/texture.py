@@ -1,22 +1,19 @@
-"""Spectra behind the parameters of profiles that drawings specify: Ra or Rq, and RSm.
+"""Surfaces by the parameters of profiles that drawings specify: Ra or Rq, and RSm.
 
 They fix neither the exponent nor the ends of a spectrum. But the elastic energy of full contact
 over E* Rq^2/RSm was between 2.1 and 9.7 for 45 isotropic Gaussian surfaces, whose profiles were
 evaluated by ISO 21920-2 (H = 0.6 to 1, roll-offs at 0.03 to 1 times the cut-off, shortest waves of
-1 nm to 1 um). The two spectra here have about these energies.
+1 nm to 1 um). The spectra of a smooth and of a rough end have about these energies.
 """
-
-from __future__ import annotations
 
 import numpy as np
 
-from stickiness.arguments import number
-from stickiness.spectrum.kinds import SelfAffine
-
 RQ_OVER_RA = float(np.sqrt(np.pi / 2))  #: of Gaussian heights
-# Of the smooth and the rough end: Hurst exponent, RSm over the wavelength of the roll-off, rms
-# height over Rq, and RSm over the cut-off if it is not known.
-HURST, SPACING, HEIGHT, RSM_OVER_CUTOFF = (1.0, 0.6), (1.0, 1.5), (1.0, 1.1), (0.5, 0.04)
+# Of the smooth and of the rough end; the spacing RSm over the cut-off where it is not known.
+HURST = (1.0, 0.6)
+RSM_OVER_ROLLOFF = (1.0, 1.5)  #: the wavelength of the roll-off
+HEIGHT_OVER_RQ = (1.0, 1.1)  #: rms height of the surface
+RSM_OVER_CUTOFF = (0.5, 0.04)
 MIDDLE_HURST = 0.8
 RZ_OVER_RQ = 3.5, 6.5  #: limits; medians of the surfaces above are 3.8 to 6.1
 # Largest Ra and largest RSm for a cut-off, all in m (ISO 4288:1996, tables 1 and 3).
@@ -33,43 +30,3 @@ def standard_cutoff(ra: float, rsm: float = 0.0) -> float:
     """Cut-off of the profile filter [m] by ISO 4288 for Ra [m] and, if it is known, RSm [m]."""
     known = _CUTOFFS.items()
     return next(cut for cut, (rough, wide) in known if ra <= rough and rsm <= wide)
-
-
-def estimate_spectrum(
-    rq: float, rsm: float | None, cutoff: float, shortest: float, *, rough: bool
-) -> SelfAffine:
-    """Smooth or rough end of the isotropic spectra of a surface whose profiles have an Rq.
-
-    Parameters
-    ----------
-    rq : float
-        Root mean square height of the roughness profile [length].
-    rsm : float, optional
-        Mean spacing of the profile's elements [length]. Default: between 0.04 and 0.5 times
-        the cut-off.
-    cutoff : float
-        Cut-off of the profile filter [length]; longer waves are left out.
-    shortest : float
-        Shortest wavelength [length].
-    rough : bool
-        Which end.
-
-    Returns
-    -------
-    SelfAffine
-        Isotropic spectrum with a roll-off.
-
-    Raises
-    ------
-    ValueError
-        If a length is not positive, or they are not in the order shortest, `rsm`, `cutoff`.
-    """
-    number("cutoff", cutoff)
-    rsm = RSM_OVER_CUTOFF[rough] * cutoff if rsm is None else number("rsm", rsm)
-    return SelfAffine(
-        hurst=HURST[rough],
-        q0=2 * np.pi / cutoff,
-        q_rolloff=2 * np.pi * SPACING[rough] / rsm,
-        q1=2 * np.pi / number("shortest", shortest),
-        h_rms=HEIGHT[rough] * number("rq", rq),
-    )

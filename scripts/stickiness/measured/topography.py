@@ -36,7 +36,6 @@ class _Heights:
     as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
     others: tuple[str, ...] = ()  #: channels or variables of the file that could be taken as well
-    choice: str = ""  #: key that takes one of them
 
     @property
     def h_rms(self) -> float:
@@ -220,7 +219,6 @@ def read(
         "as_read": heights * scale if dropped or masked else None,
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
         "others": raw.others,
-        "choice": raw.choice,
     }
     if x is not None:
         return Profile(filled, *steps, source, float(gaps.max()), **known)
