@@ -20,10 +20,7 @@ COLUMNS += ("errors", "modulus")
 
 
 def arrange_pairs(verdicts, materials, labels):
-    """Rows of all pairs, material by material, those of the user first.
-
-    `materials` are entries by name, and `labels` those of the surfaces.
-    """
+    """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
     return [
         describe_pair(verdicts.sel(material=material, surface=surface), materials[material])
         | {"key": material, "material": materials[material]["label"]}

@@ -28,6 +28,7 @@ def main(job):
     inputs = job.input
     surface = datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"])
     entries, pairs = job.params.materials, judge(job).sel(surface=job.wildcards.real_surface)
+    surface_labels = datasets.parameters(pairs)["labels"]
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
     mine = [name for name in names if name not in provided.MATERIALS]
     at_first = mine or names[: surface_figures.SHOWN]
@@ -57,7 +58,8 @@ def main(job):
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
         verdicts=[
-            describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
+            describe_verdict(pairs.sel(material=name), entries[name], surface_labels)
+            | {"mine": name in mine}
             for name in names
         ],
         shown_at_first=len(at_first),
@@ -72,20 +74,20 @@ def judge(job):
     """Write the verdicts on the surface, and return them."""
     surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
-    (label,) = (datasets.parameters(surface)["label"] for surface in surfaces.values())
+    labels = {n: datasets.parameters(s)["label"] for n, s in (surfaces | material_surfaces).items()}
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
-    title = f"verdicts of the stickiness criteria: {label}"
-    parameters = {"materials": job.params.materials, "label": label}
+    title = f"verdicts of the stickiness criteria: {labels[job.wildcards.real_surface]}"
+    parameters = {"materials": job.params.materials, "labels": labels}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     return datasets.read(job.output.verdicts)
 
 
-def describe_verdict(pair, entry):
+def describe_verdict(pair, entry, labels):
     """Verdict on one material, with its properties as given and every criterion's reason."""
     judged = int(pair.verdict) != NOT_JUDGED
     return describe_pair(pair, entry) | {
         "material": entry["label"],
-        "given": describe_modulus(entry),
+        "given": describe_modulus(entry, labels),
         "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
     }
 
