@@ -96,8 +96,8 @@ def describe_bounds(pair, entry):
     text, low, high = shown
     least, most = (bound.partition(" = ")[2] for bound in (low, high))
     least = least.removesuffix(most[most.rfind(" ") :])  # the unit, if they have one
-    limits = f" ({least or 0} to {most or 'any'})" if text else "beyond use"
-    return {"threshold": text + limits, "sticks_below": low, "fails_above": high}
+    text = f"{text} ({least or 0} to {most or 'any'})" if text else "none that matters"
+    return {"threshold": text, "sticks_below": low, "fails_above": high}
 
 
 def list_rates(material, pair):
