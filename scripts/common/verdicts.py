@@ -101,11 +101,6 @@ def show_probability(pair):
     return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
 
 
-def describe_threshold(pair):
-    """E* [MPa] below which the wanted share remains, with its limits."""
-    return describe_stress(pair, "modulus_threshold", MPA)
-
-
 def describe_stress(pair, name, unit):
     """Value in a unit [Pa], with the limits of all that is unknown."""
     low, high = map(float, find_limits(pair, name))

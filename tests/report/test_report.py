@@ -374,7 +374,7 @@ def test_thresholds_have_one_unit_and_all_limits(verdicts, values, limits, text)
         modulus_threshold_low=("end", [limits[0]] * 2),
         modulus_threshold_high=("end", [limits[1]] * 2),
     )
-    assert texts.describe_threshold(found) == text
+    assert texts.describe_stress(found, "modulus_threshold", texts.MPA) == text
 
 
 def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
