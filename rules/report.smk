@@ -2,7 +2,7 @@
 
 PAGE_PARTS = [
     project_file(f"report/{part}")
-    for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")
+    for part in ("macros.html.j2", "left_out.j2", "thresholds.html.j2", "page.css", "page.js")
 ]
 
 
@@ -83,6 +83,7 @@ rule write_surface:
         material_surfaces=MATERIAL_SURFACES,
     output:
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+        contact_laws=f"{RESULTS}/criteria/verdicts/{{real_surface}}.json",
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(

@@ -3,6 +3,8 @@
 It has verdicts and their reasons, curves, contact, parameters and spectrum.
 """
 
+import json
+
 import numpy as np
 import xarray as xr
 
@@ -11,13 +13,22 @@ from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import describe_modulus, read_material
 from common.templates import write_page
-from common.verdicts import describe_moment, describe_pull_off, describe_share
+from common.verdicts import (
+    describe_moment,
+    describe_pull_off,
+    describe_share,
+    find_limits,
+    find_value,
+)
+from criteria.thresholds import ASKED, find_thresholds
 from criteria.verdicts import judge_materials, read_surfaces
 from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
-from stickiness import datasets
+from stickiness import __version__, datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.pair import NOT_JUDGED
+from stickiness.criteria.contact_law import describe_contact_law
+from stickiness.criteria.pair import NOT_JUDGED, SIGNS, WORDS
+from stickiness.criteria.thresholds import CONTACT_AREA
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.statistics import COVERS
@@ -57,6 +68,7 @@ def main(job):
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
+        contact_area=CONTACT_AREA,
         verdicts=[
             describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
             for name in names
@@ -75,10 +87,29 @@ def judge(job):
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
     (label,) = (datasets.parameters(surface)["label"] for surface in surfaces.values())
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
+    (surface,) = surfaces.values()
+    verdicts = find_thresholds(verdicts, surface, material_surfaces, job.params.materials)
     title = f"verdicts of the stickiness criteria: {label}"
     parameters = {"materials": job.params.materials, "label": label}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
+    laws = [
+        {"material": entry["label"]} | describe_law(verdicts.sel(material=name).squeeze(), entry)
+        for name, entry in job.params.materials.items()
+    ]
+    with datasets.whole_file(job.output.contact_laws) as path:
+        made = {"version": __version__, "surface": label, "pairs": laws}
+        path.write_text(json.dumps(made, indent=1, ensure_ascii=False, allow_nan=False))
     return datasets.read(job.output.verdicts)
+
+
+def describe_law(pair, entry):
+    """Verdict and effective attraction of a pair for DEM and FE models."""
+    solid = read_material(entry)
+    known = {name: getattr(solid, name) for name in ("law", "modulus", "work_of_adhesion", "range")}
+    for name in ("remaining", "pull_off"):
+        known[name] = [float(x) for x in (find_value(pair, name), *find_limits(pair, name))]
+    found = describe_contact_law(**known, energy_ratio=float(pair.energy_ratio.max()))
+    return {"verdict": WORDS[int(pair.verdict)], **found}
 
 
 def describe_verdict(pair, entry):
@@ -87,6 +118,11 @@ def describe_verdict(pair, entry):
     return describe_pair(pair, entry) | {
         "material": entry["label"],
         "given": describe_modulus(entry),
+        "thresholds": {
+            name: [float(pair[f"{name}{end}"]) for end in SIGNS]
+            for name in ASKED
+            if not np.isnan(pair[f"{name}_low"])
+        },
         "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
     }
 

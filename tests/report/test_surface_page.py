@@ -70,6 +70,7 @@ def write_page(found, folder, materials=MATERIALS, bem=None, **pictures):
         inputs["measured_contact"] = paths["bem"]
     outputs = {"page": str(folder / "report/surfaces/plate.html"), "verdicts": paths["verdicts"]}
     outputs |= {name: str(folder / f"{name}.png") for name in ("figure", "curves")}
+    outputs["contact_laws"] = str(folder / "laws.json")
     asked = {"material_surfaces": [], "materials": materials, "frequencies": FREQUENCIES}
     write_surface.main(make_job(inputs, outputs, wildcards=PLATE, **asked))
     return Page(Path(outputs["page"]).read_text(encoding="utf-8"))
