@@ -93,7 +93,7 @@ def judge(job):
     parameters = {"materials": job.params.materials, "label": label}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     laws = [
-        {"material": entry["label"]} | describe_law(verdicts.sel(material=name).squeeze(), entry)
+        describe_law(verdicts.sel(material=name).squeeze("surface"), entry)
         for name, entry in job.params.materials.items()
     ]
     with datasets.whole_file(job.output.contact_laws) as path:
@@ -105,11 +105,14 @@ def judge(job):
 def describe_law(pair, entry):
     """Verdict and effective attraction of a pair for DEM and FE models."""
     solid = read_material(entry)
-    known = {name: getattr(solid, name) for name in ("law", "modulus", "work_of_adhesion", "range")}
-    for name in ("remaining", "pull_off"):
-        known[name] = [float(x) for x in (find_value(pair, name), *find_limits(pair, name))]
-    found = describe_contact_law(**known, energy_ratio=float(pair.energy_ratio.max()))
-    return {"verdict": WORDS[int(pair.verdict)], **found}
+    limited = (
+        [float(x) for x in (find_value(pair, name), *find_limits(pair, name))]
+        for name in ("remaining", "pull_off")
+    )
+    given = solid.modulus, solid.work_of_adhesion, solid.range
+    found = describe_contact_law(*given, *limited, float(pair.energy_ratio.max()))
+    word = WORDS[int(pair.verdict)]
+    return {"material": entry["label"], "verdict": word, "law": solid.law, **found}
 
 
 def describe_verdict(pair, entry):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,18 +27,11 @@ CONTACT_AREA = 0.05  #: share of the nominal area
 # Relative, of areas by theory: covers simulations at these areas (H = 0.3 to 0.9, magnifications of
 # 16 to 256). On thin bonded layers theory has as little as half of the area.
 AREA_ERROR, AREA_ERROR_LAYER, AREAS = 0.15, 0.45, (0.005, 0.35)
-ROUGHEST, DEEPEST = 1e3, 25.0  #: searched, over the heights, and over 1/q of the longest waves
+ROUGHEST, DEEPEST = 1e3, 25.0  # searched, over the heights, and over 1/q of the longest waves
 _PER_DECADE, _FINER, _TIMES = 5, 9, 6  # points of the first search, of finer ones; searches
-
 _FREQUENCIES = np.geomspace(1e-12, 1e12, 24_001)  # [Hz] of a Prony series
 
-_TEXTS = {  # unit, and what stands for no value that sticks
-    "modulus": ("sticks below a modulus of", "Pa", 0.0),
-    "rms_height": ("sticks below an rms height of", "m", 0.0),
-    "thickness": ("sticks above a thickness of", "m", np.inf),
-    "rate": ("sticks below a rate of", "Hz", 0.0),
-    "pressure": ("pressure for the area of contact", "Pa", 0.0),
-}
+Remain = Callable[[Pair], NDArray]
 
 
 class Threshold(NamedTuple):
@@ -57,15 +51,6 @@ class Thresholds:
     thickness: Threshold | None  #: sticks above [m]; None of a half-space
     pressure: Threshold  #: mean pressure [Pa] that makes the area of contact, without adhesion
     rate: Threshold | None  #: sticks below [Hz]; None without `storage`
-
-    def __str__(self) -> str:
-        lines = []
-        for name, (text, unit, none) in _TEXTS.items():
-            if getattr(self, name) is not None:
-                words = {0.0: "any", np.inf: "any"} | {none: "none"}
-                shown = (words.get(x, f"{x:.3g} {unit}") for x in getattr(self, name))
-                lines.append("{}: {} ({} to {})".format(text, *shown))
-        return "\n".join(lines)
 
 
 def thresholds(
@@ -94,8 +79,8 @@ def thresholds(
     Returns
     -------
     Thresholds
-        At a threshold the verdict has the wanted share to 1e-4; at the limits of a threshold one of
-        the limits of the share.
+        At a threshold the verdict has the wanted share to 1e-4; at its limits one of the limits of
+        the share.
 
     Examples
     --------
@@ -108,45 +93,85 @@ def thresholds(
     if not AREAS[0] <= contact_area <= AREAS[1]:
         raise ValueError(f"contact_area must be in {AREAS}, got {contact_area!r}")
     judged = verdict(surface, **{"a_v": (BROAD_A_V,) * 3} | material)
-    pair, spectrum, solid = judged.pair, judged.spectrum, material.get("solid", HALF_SPACE)
-
-    def put_on(thickness: NDArray) -> Pair:
-        layers = [replace(solid, thickness=d) for d in thickness]
-        of_layers = {
-            "elastic_energy": [spectrum.elastic_energy(layer) for layer in layers],
-            "relative_compliance": [layer.factor(pair.q0) for layer in layers],
-            "layer_strain": [layer.strain(pair.h_rms, pair.q0) for layer in layers],
-        }
-        return replace(pair, **{name: np.array(x) for name, x in of_layers.items()})
-
-    def search(change: Callable[[NDArray], Pair], start: float, stop: float) -> Threshold:
-        at = start, stop, pair.wanted_share
-        value, *limits = (
-            find_crossing(lambda x, sign=sign: change(x).remaining(sign), *at, sign > 0)
-            for sign in (0, -1, 1)
-        )
-        return Threshold(value, *sorted(limits))
-
-    as_given = material["modulus"] / pair.modulus  # Young's modulus or E*
-    hardest = pair.work_of_adhesion / pair.elastic_energy / LEAST_LENGTH
+    pair, spectra, solid = judged.pair, [judged.spectrum], material.get("solid", HALF_SPACE)
     found = judged.modulus_threshold, *judged.modulus_threshold_limits
-    modulus = Threshold(*(as_given * x if x < 0.99 * hardest else np.inf for x in found))
-    thickness = rate = None
-    if solid != HALF_SPACE:
-        thickness = search(put_on, DEEPEST / spectrum.band[0], pair.h_rms)
-    if storage is not None:
-        known = getattr(storage, "frequencies", _FREQUENCIES)
-        rate = Threshold(*(find_rate(storage, x, known) for x in modulus))
-    heights = pair.range / RANGES[-1], ROUGHEST * pair.h_rms
-    error_factor = pair.anisotropy_error_factor
-    pressures = find_pressures(spectrum, solid, pair.q0, error_factor, contact_area)
+    any_modulus = 0.99 * pair.work_of_adhesion / (LEAST_LENGTH * pair.elastic_energy)
+    as_given = material["modulus"] / pair.modulus  # Young's modulus or E*
+    modulus = Threshold(*(as_given * x if x < any_modulus else np.inf for x in found))
+    known = getattr(storage, "frequencies", _FREQUENCIES)
     return Thresholds(
         modulus=modulus,
-        rms_height=search(lambda h_rms: pair.scaled(h_rms / pair.h_rms), *heights),
-        thickness=thickness,
-        pressure=Threshold(*(pair.modulus * pressures).tolist()),
-        rate=rate,
+        rms_height=find_rms_height(pair, pair.h_rms),
+        thickness=find_thickness(pair, solid, spectra),
+        pressure=find_pressure(spectra, solid, pair, contact_area),
+        rate=storage and Threshold(*(find_rate(storage, x, known) for x in modulus)),
     )
+
+
+def remain_at_ends(pair: Pair) -> NDArray:
+    """Low limit, value and high limit of the share that remains, along a last axis."""
+    return np.stack([pair.remaining(sign) for sign in (-1, 0, 1)], axis=-1)
+
+
+def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Threshold:
+    """Find the rms height [m] below which the wanted share remains; `h_rms` is the one there is.
+
+    `pair` has arrays for the ends of what is known of a surface, or for draws. `remain` makes
+    shares (x, end, limit) of it.
+    """
+
+    def scale(height: NDArray) -> NDArray:
+        return remain(pair.scaled(height[:, None] / h_rms))
+
+    return _search(scale, pair.range / RANGES[-1], ROUGHEST * h_rms, pair.wanted_share)
+
+
+def find_thickness(
+    pair: Pair, solid: Solid, spectra: list[Spectrum], remain: Remain = remain_at_ends
+) -> Threshold | None:
+    """Find the thickness [m] of a layer above which the wanted share remains; None of a half-space.
+
+    `spectra` are those of the ends. Draws change as both ends do on average. Others as of
+    `find_rms_height`.
+    """
+    if solid == HALF_SPACE:
+        return None
+    q0 = float(np.mean(pair.q0))
+
+    def put_on(thickness: NDArray) -> NDArray:
+        layers = [solid, *(replace(solid, thickness=d) for d in thickness)]
+        energy = np.array(
+            [[spectrum.elastic_energy(one) for spectrum in spectra] for one in layers]
+        )
+        if np.size(pair.h_rms) > len(spectra):
+            energy = np.exp(np.log(energy).mean(axis=1, keepdims=True))
+        softness = np.array([[one.factor(q0)] for one in layers])
+        changed = {
+            "elastic_energy": pair.elastic_energy * energy[1:] / energy[0],
+            "relative_compliance": pair.relative_compliance * softness[1:] / softness[0],
+            "layer_strain": np.array(
+                [np.atleast_1d(one.strain(pair.h_rms, pair.q0)) for one in layers[1:]]
+            ),
+        }
+        return remain(replace(pair, **changed))
+
+    return _search(put_on, DEEPEST / spectra[0].band[0], np.min(pair.h_rms), pair.wanted_share)
+
+
+def _search(remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float):
+    """Find the geometric mean of the thresholds of all ends, and their farthest limits."""
+    kept = cache(lambda places: remain(np.array(places)))  # the first are the same for all limits
+
+    def find(end: int, limit: int) -> float:
+        return find_crossing(
+            lambda x: kept(tuple(x))[:, end, limit], start, stop, wanted, last=limit == 2
+        )
+
+    ends = kept((start,)).shape[1]
+    found = np.array([[find(end, limit) for limit in range(3)] for end in range(ends)])
+    with np.errstate(invalid="ignore"):  # none at one end, any at the other
+        value = float(np.prod(found[:, 1]) ** (1 / ends))
+    return Threshold(value, float(found.min()), float(found.max()))
 
 
 def find_crossing(
@@ -181,10 +206,14 @@ def find_rate(storage: Modulus, modulus: float, frequencies: ArrayLike) -> float
     return passed[0] if passed else np.inf if below else 0.0
 
 
-def find_pressures(
-    spectrum: Spectrum, solid: Solid, q0: float, error_factor: float, area: float = CONTACT_AREA
-) -> NDArray:
-    """Mean pressure [E*] at an area of contact, with its low and high limit."""
-    error, harder = min(AREA_ERROR * error_factor, 0.9), max(1 - float(solid.factor(q0)), 0.0)
+def find_pressure(
+    spectra: list[Spectrum], solid: Solid, pair: Pair, area: float = CONTACT_AREA
+) -> Threshold:
+    """Find the mean pressure [Pa] at an area of contact of both ends, without adhesion."""
+    q0, unlike = float(np.mean(pair.q0)), float(np.mean(pair.anisotropy_error_factor))
+    error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
     areas = area * np.array([1.0, (1 - error) * (1 - AREA_ERROR_LAYER * harder), 1 + error])
-    return Persson(spectrum, correction="wang2017", solid=solid).pressure_at_area(areas)
+    theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
+    found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
+    value = np.exp(np.log(found[:, 0]).mean())
+    return Threshold(float(value), float(found[:, 1].min()), float(found[:, 2].max()))

@@ -56,15 +56,12 @@ class StickinessVerdict:
         """Return the effective attraction for DEM and FE models, in SI units and ready for JSON."""
         pair = self.pair
         found = describe_contact_law(
-            law=pair.law,
-            modulus=pair.modulus,
-            work_of_adhesion=pair.work_of_adhesion,
-            range=pair.range,
-            remaining=(self.remaining, *self.remaining_limits),
-            pull_off=(self.pull_off, *self.pull_off_limits),
-            energy_ratio=pair.adhesion_length / pair.elastic_energy,
+            *(pair.modulus, pair.work_of_adhesion, pair.range),
+            (self.remaining, *self.remaining_limits),
+            (self.pull_off, *self.pull_off_limits),
+            pair.adhesion_length / pair.elastic_energy,
         )
-        return {"version": __version__, "verdict": self.word, **found}
+        return {"version": __version__, "verdict": self.word, "law": pair.law, **found}
 
     def __str__(self) -> str:
         pair = self.pair
