@@ -114,16 +114,13 @@ def remain_at_ends(pair: Pair) -> NDArray:
 
 
 def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Threshold:
-    """Find the rms height [m] below which the wanted share remains; `h_rms` is the one there is.
+    """Find the rms height [m] below which the wanted share remains; `h_rms` is what `pair` has.
 
-    `pair` has arrays for the ends of what is known of a surface, or for draws. `remain` makes
+    `pair` has arrays of the ends of what is known of a surface, or of draws, and `remain` makes
     shares (x, end, limit) of it.
     """
-
-    def scale(height: NDArray) -> NDArray:
-        return remain(pair.scaled(height[:, None] / h_rms))
-
-    return _search(scale, pair.range / RANGES[-1], ROUGHEST * h_rms, pair.wanted_share)
+    ends = pair.range / RANGES[-1], ROUGHEST * h_rms
+    return _search(lambda x: pair.scaled(x / h_rms), remain, *ends, pair.wanted_share)
 
 
 def find_thickness(
@@ -131,46 +128,46 @@ def find_thickness(
 ) -> Threshold | None:
     """Find the thickness [m] of a layer above which the wanted share remains; None of a half-space.
 
-    `spectra` are those of the ends. Draws change as both ends do on average. Others as of
-    `find_rms_height`.
+    `spectra` are of the ends; draws change as both do on average. Others as of `find_rms_height`.
     """
-    if solid == HALF_SPACE:
-        return None
-    q0 = float(np.mean(pair.q0))
 
-    def put_on(thickness: NDArray) -> NDArray:
-        layers = [solid, *(replace(solid, thickness=d) for d in thickness)]
-        energy = np.array(
-            [[spectrum.elastic_energy(one) for spectrum in spectra] for one in layers]
-        )
+    def put_on(thickness: NDArray) -> Pair:
+        layers = [solid, *(replace(solid, thickness=d) for d in thickness[:, 0])]
+        energy = np.array([[one.elastic_energy(layer) for one in spectra] for layer in layers])
         if np.size(pair.h_rms) > len(spectra):
             energy = np.exp(np.log(energy).mean(axis=1, keepdims=True))
-        softness = np.array([[one.factor(q0)] for one in layers])
-        changed = {
-            "elastic_energy": pair.elastic_energy * energy[1:] / energy[0],
-            "relative_compliance": pair.relative_compliance * softness[1:] / softness[0],
-            "layer_strain": np.array(
-                [np.atleast_1d(one.strain(pair.h_rms, pair.q0)) for one in layers[1:]]
-            ),
-        }
-        return remain(replace(pair, **changed))
-
-    return _search(put_on, DEEPEST / spectra[0].band[0], np.min(pair.h_rms), pair.wanted_share)
-
-
-def _search(remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float):
-    """Find the geometric mean of the thresholds of all ends, and their farthest limits."""
-    kept = cache(lambda places: remain(np.array(places)))  # the first are the same for all limits
-
-    def find(end: int, limit: int) -> float:
-        return find_crossing(
-            lambda x: kept(tuple(x))[:, end, limit], start, stop, wanted, last=limit == 2
+        soft = np.array([np.atleast_1d(layer.factor(pair.q0)) for layer in layers])
+        strain = np.array([np.atleast_1d(x.strain(pair.h_rms, pair.q0)) for x in layers[1:]])
+        return replace(
+            pair,
+            elastic_energy=pair.elastic_energy * energy[1:] / energy[0],
+            relative_compliance=pair.relative_compliance * soft[1:] / soft[0],
+            layer_strain=strain,
         )
 
-    ends = kept((start,)).shape[1]
-    found = np.array([[find(end, limit) for limit in range(3)] for end in range(ends)])
+    if solid == HALF_SPACE:
+        return None
+    ends = DEEPEST / spectra[0].band[0], np.min(pair.h_rms)
+    return _search(put_on, remain, *ends, pair.wanted_share)
+
+
+def _search(
+    change: Callable[[NDArray], Pair], remain: Remain, start: float, stop: float, wanted: float
+) -> Threshold:
+    """Find the geometric mean of the thresholds of all ends, and their farthest limits."""
+
+    @cache  # the first places are the same for all limits
+    def kept(places: tuple[float, ...]) -> NDArray:
+        return remain(change(np.array(places)[:, None]))
+
+    found = np.array(
+        [
+            find_crossing(lambda x, at=at: kept(tuple(x))[:, *at], start, stop, wanted, at[1] == 2)
+            for at in np.ndindex(kept((start,)).shape[1:])
+        ]
+    ).reshape(-1, 3)
     with np.errstate(invalid="ignore"):  # none at one end, any at the other
-        value = float(np.prod(found[:, 1]) ** (1 / ends))
+        value = float(np.prod(found[:, 1]) ** (1 / len(found)))
     return Threshold(value, float(found.min()), float(found.max()))
 
 
@@ -195,15 +192,17 @@ def find_crossing(
 
 
 def find_rate(storage: Modulus, modulus: float, frequencies: ArrayLike) -> float:
-    """Find the frequency [Hz] up to which a storage modulus stays below another one.
+    """Find the highest frequency [Hz] at which a storage modulus is below another one.
 
-    0 or infinity if that is at none of the increasing `frequencies`, or at all of them.
+    0 or infinity if that is at none of the increasing `frequencies`, or at the last one.
     """
     if not 0 < modulus < np.inf:
         return float(modulus)
+    moduli = np.asarray(storage.storage(frequencies))
+    if moduli[np.isfinite(moduli)][-1] < modulus:
+        return np.inf
     passed = [hertz for hertz, rises in crossings(storage, modulus, frequencies) if rises]
-    below = np.nanmin(storage.storage(frequencies)) < modulus
-    return passed[0] if passed else np.inf if below else 0.0
+    return max(passed, default=0.0)
 
 
 def find_pressure(
@@ -214,6 +213,5 @@ def find_pressure(
     error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
     areas = area * np.array([1.0, (1 - error) * (1 - AREA_ERROR_LAYER * harder), 1 + error])
     theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
-    found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
-    value = np.exp(np.log(found[:, 0]).mean())
-    return Threshold(float(value), float(found[:, 1].min()), float(found[:, 2].max()))
+    value, low, high = pair.modulus * np.transpose([x.pressure_at_area(areas) for x in theories])
+    return Threshold(float(np.exp(np.log(value).mean())), float(low.min()), float(high.max()))
