@@ -85,55 +85,35 @@ def test_a_surface_that_is_known_has_the_thresholds_of_the_library(name):
     assert np.isfinite(three(pair, "rate_threshold")).all() == (name == "slow")
 
 
-@pytest.mark.parametrize(("apart", "draws"), [(2.0, 0), (1.0, 60)])
-@pytest.mark.parametrize("name", ["deep", "layer", "film"])
-def test_limits_put_back_into_the_verdict_decide(name, apart, draws):
-    entry = MATERIALS[name]
-    pair = judge({name: entry}, wall(1e-6, apart, draws)).sel(material=name)
-    value, *heights = three(pair, "rms_height_threshold")
-    assert heights[0] < value < heights[1]
-    middle = 1e-6 * apart**0.5
-    again = [judge({"": entry}, wall(1e-6 * h / middle, apart, draws)) for h in heights]
-    for place, judged in enumerate(again):
-        assert find_limits(judged)[place].item() == pytest.approx(0.1, rel=1e-3)
-    if name == "deep":
-        return
-    surface, tried = wall(0.5e-6 if name == "film" else 0.7e-6, apart, draws), 0
-    pair = judge({name: entry}, surface).sel(material=name)
-    _, thinnest, thickest = three(pair, "thickness_threshold")
-    for place, thickness in enumerate((thickest, thinnest)):
-        if 0 < thickness < np.inf:
-            # A layer may jump there, to what it does not withstand.
-            around = [f"{thickness * factor!r} m" for factor in (0.999, 1.001)]
-            judged = judge({d: entry | {"thickness": d} for d in around}, surface)
-            thinner, thicker = find_limits(judged)[place].values
-            assert thinner < 0.1 < thicker
-            tried += 1
-    assert tried
-
-
-def test_verdict_and_thresholds_of_random_pairs_agree():
-    """A pair sticks for certain if and only if it is on the right side of all of its limits."""
-    rng = np.random.default_rng(3)
+@pytest.mark.parametrize(("apart", "draws"), [(2.0, 0), (1.5, 40)])
+def test_verdict_and_thresholds_of_random_pairs_agree(apart, draws):
+    """A pair is on the same side of all its limits as its share is."""
+    rng, words, outside = np.random.default_rng(3), set(), []
+    layers = [{}, {"backing": "bonded"}, {"backing": BACKING}]
     entries = {
         str(i): SLOW
-        | {"work_of_adhesion": f"{10 ** rng.uniform(-3, 0)!r} J/m^2"}
-        | ({"thickness": f"{10 ** rng.uniform(-5.5, -3)!r} m"} if i % 2 else {})
-        for i in range(12)
+        | {"work_of_adhesion": f"{float(10 ** rng.uniform(-3, 0))!r} J/m^2"}
+        | (layers[i % 3] and layers[i % 3] | {"thickness": f"{float(rng.uniform(3, 90))!r} um"})
+        for i in range(15)
     }
-    found, words = judge(entries, wall(1e-6, 1.5, 40)), set()
+    found = judge(entries, wall(1e-6, apart, draws))
     for name, entry in entries.items():
         pair = found.sel(material=name)
         low, high = (float(limit) >= 0.1 for limit in find_limits(pair))
         words.add((low, high))
-        _, least, most = three(pair, "rms_height_threshold")
-        assert (least > 1e-6 * 1.5**0.5, most > 1e-6 * 1.5**0.5) == (low, high)
+        height, (value, least, most) = 1e-6 * apart**0.5, three(pair, "rms_height_threshold")
+        assert least <= value <= most
+        assert (least > height, most > height) == (low, high)
         _, slowest, fastest = three(pair, "rate_threshold")
         assert (slowest > 1, fastest > 1) == (low, high)
         _, thinnest, thickest = three(pair, "thickness_threshold")
         if "thickness" in entry:
             thickness = read_material(entry).solid.thickness
-            assert (thickest < thickness, thinnest < thickness) == (low, high)
+            # Between its limits a layer on a film may stick where thicker ones do not.
+            assert low >= (thickest < thickness)
+            assert high <= (thinnest < thickness)
+            outside.append(not thinnest < thickness < thickest)
         else:
             assert np.isnan(thinnest)
     assert len(words) == 3
+    assert sum(outside) > 5

@@ -70,7 +70,7 @@ def thresholds(
         As of `verdict`. Other rms heights have a spectrum of the same shape.
     contact_area : float
         Share of the nominal area, 0.005 to 0.35, down to the shortest wave of the surface. By
-        `Persson` with Wang and Müser's correction (doi:10.1007/s11249-017-0886-9).
+        `Persson` with Wang and Müser's correction (Tribol. Lett. 65:103, 2017).
     storage : solids.moduli.Prony or Table, optional
         Modulus against the frequency, Young's or E* as `modulus`.
     **material
