@@ -1,10 +1,5 @@
 # The report of all results, and for every real surface its verdicts and a page.
 
-PAGE_PARTS = [
-    project_file(f"report/{part}")
-    for part in ("macros.html.j2", "left_out.j2", "thresholds.html.j2", "page.css", "page.js")
-]
-
 
 def figure_sources(wildcards, output):
     """Datasets that each figure shows."""
@@ -78,7 +73,7 @@ rule write_surface:
     input:
         unpack(contact_of_surface),
         template=project_file("report/surface.html.j2"),
-        parts=PAGE_PARTS,
+        parts=[*PAGE_PARTS, project_file("report/thresholds.html.j2")],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         material_surfaces=MATERIAL_SURFACES,
     output:

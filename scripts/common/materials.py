@@ -107,8 +107,8 @@ def show_modulus(modulus, entry, digits=2):
     return f"{name} = {text}"
 
 
-def describe_modulus(entry):
-    """Modulus as the configuration states it, with the layer and the roughness of the solid."""
+def describe_modulus(entry, labels):
+    """Modulus as configured, with the layer and, by the `labels` of surfaces, the roughness."""
     if "plane_strain_modulus" in entry:
         text = f"E* = {entry['plane_strain_modulus']}"
     elif "youngs_modulus_table" in entry:
@@ -130,4 +130,4 @@ def describe_modulus(entry):
             base = f" on a film of {backing['thickness']} and {backing['youngs_modulus']}"
         text += f", {entry['thickness']} thick{base}"
     text = text.replace(" um", " µm")
-    return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
+    return f"{text}, rough as {labels[entry['surface']]}" if "surface" in entry else text

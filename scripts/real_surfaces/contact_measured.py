@@ -24,7 +24,8 @@ from stickiness.traction_laws import Exponential
 from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
-SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "residual", "attractive_area"]
+SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "attractive_area"]
+SOLVED_VARIABLES += ["residual", "iterations"]
 # With adhesion. Areas of contact change by less than 1e-3 of themselves from here to 1e-5 where
 # the grid hardly resolves the attraction, which is where solutions are slow.
 PRECISION = {"tol": 1e-3, "max_iterations": 10000}
@@ -42,6 +43,8 @@ VARIABLE_TEXTS = {
     "adhesive_attractive_area": "area with gaps up to the range of attraction, by pixels",
     "adhesive_mean_gap": "mean gap over h_rms with adhesion",
     "adhesive_residual": "unbalanced pressure over the strength or the flattening pressure",
+    "adhesive_iterations": "iterations of conjugate gradients with adhesion",
+    "modulus": ("Pa", "plane-strain modulus E*"),
     "edge_resolution": f"pixel over range^2 E*/w; edges are resolved up to {edge_zone.COARSEST}",
     "applied_pressure": ("Pa", "mean pressure"),
 }
@@ -113,7 +116,8 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     if any(isinstance(pressure, str) for pressure in bem["pressures"]):
         over_modulus = [si(pressure, "Pa") / material.modulus for pressure in bem["pressures"]]
         pressures = np.sort(over_modulus) / (q0 * h_rms)
-    block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)[SOLVED_VARIABLES]
+    block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)
+    block = conventions.add_convergence(block[SOLVED_VARIABLES], tolerance)
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=gamma)
     areas = [theory.gap_cumulative(ranges, p) for p in pressures]
     scale = 1.5 * block.pressure * block["range"] ** (2 / 3)
@@ -128,6 +132,7 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
         grids = scaled[::2, ::2], scaled
         curves = [press_with_adhesion(grid, lengths, pressures, law) for grid in grids]
         block = block.merge(xr.concat(curves, "resolution"))
+        block["modulus"] = material.modulus
         block["applied_pressure"] = "pressure", pressures * material.modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])
     return block.assign(h_rms=h_rms, q1=q_max)
@@ -172,7 +177,7 @@ def press_with_adhesion(heights, lengths, pressures, law):
         row = xr.Dataset({"adhesive_contact_area": state.repulsive_area_fraction})
         row["adhesive_attractive_area"] = np.mean(attracted)
         row["adhesive_mean_gap"] = state.mean_gap
-        row["adhesive_residual"] = state.residual
+        row["adhesive_residual"], row["adhesive_iterations"] = state.residual, state.iterations
         rows.append(row)
         logging.info(
             f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "
@@ -181,7 +186,8 @@ def press_with_adhesion(heights, lengths, pressures, law):
     curve = xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
     pixel = max(side / n for side, n in zip(lengths, heights.shape, strict=True))
     resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
-    return curve.assign(edge_resolution=resolution)
+    curve = curve.assign(edge_resolution=resolution)
+    return conventions.add_convergence(curve, PRECISION["tol"], "adhesive_")
 
 
 if __name__ == "__main__":

@@ -68,7 +68,7 @@ def draw_spectrum(ax, surface):
         ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
     ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / 1e3)  # room for the legend
-    ax.legend(loc="lower left")
+    ax.legend(loc="best")  # noise grows with q
 
 
 def draw_measured(ax, surface, q):

@@ -1,8 +1,8 @@
-"""Verdicts, criteria and sizes of surfaces as rows of tables, for both kinds of page."""
+"""Verdicts, criteria and sizes of surfaces as rows of tables, for all pages."""
 
 import numpy as np
 
-from common import formatting
+from common import formatting, provided
 from common import verdicts as texts
 from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
 from common.materials import read_material, show_modulus
@@ -17,6 +17,17 @@ NEAR = 0.1  # relative, within which more digits tell a modulus from its thresho
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 COLUMNS = ("remaining", "pull_off", "threshold", "energy_ratio", "margin", "onset", "probability")
 COLUMNS += ("errors", "modulus")
+
+
+def arrange_pairs(verdicts, materials, labels):
+    """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
+    return [
+        describe_pair(verdicts.sel(material=material, surface=surface), materials[material])
+        | {"key": material, "material": materials[material]["label"]}
+        | {"name": surface, "surface": labels[surface]}
+        for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
+        for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
+    ]
 
 
 def describe_pair(pair, entry):

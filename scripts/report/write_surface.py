@@ -6,20 +6,13 @@ It has verdicts and their reasons, curves, contact, parameters and spectrum.
 import json
 
 import numpy as np
-import xarray as xr
 
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import describe_modulus, read_material
 from common.templates import write_page
-from common.verdicts import (
-    describe_moment,
-    describe_pull_off,
-    describe_share,
-    find_limits,
-    find_value,
-)
+from common.verdicts import describe_moment, find_limits, find_value
 from criteria.thresholds import ASKED, find_thresholds
 from criteria.verdicts import judge_materials, read_surfaces
 from report import interactive, pages, surface_figures
@@ -40,6 +33,7 @@ def main(job):
     inputs = job.input
     surface = datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"])
     entries, pairs = job.params.materials, judge(job).sel(surface=job.wildcards.real_surface)
+    surface_labels = datasets.parameters(pairs)["labels"]
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
     mine = [name for name in names if name not in provided.MATERIALS]
     at_first = mine or names[: surface_figures.SHOWN]
@@ -54,7 +48,7 @@ def main(job):
     }
     contact = bem = None
     if inputs.get("contact"):
-        contact = describe_contact(inputs, pairs, [entries[name] for name in mine])
+        contact = describe_contact(inputs, [entries[name] for name in mine])
     if inputs.get("measured_contact"):
         bem = describe_measured_contact(datasets.read(inputs.measured_contact, ["a_v"]))
     write_page(
@@ -70,7 +64,8 @@ def main(job):
         wanted=DEFAULT_SHARE,
         contact_area=CONTACT_AREA,
         verdicts=[
-            describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
+            describe_verdict(pairs.sel(material=name), entries[name], surface_labels)
+            | {"mine": name in mine}
             for name in names
         ],
         shown_at_first=len(at_first),
@@ -85,19 +80,19 @@ def judge(job):
     """Write the verdicts on the surface, and return them."""
     surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
-    (label,) = (datasets.parameters(surface)["label"] for surface in surfaces.values())
+    labels = {n: datasets.parameters(s)["label"] for n, s in (surfaces | material_surfaces).items()}
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
-    (surface,) = surfaces.values()
-    verdicts = find_thresholds(verdicts, surface, material_surfaces, job.params.materials)
-    title = f"verdicts of the stickiness criteria: {label}"
-    parameters = {"materials": job.params.materials, "label": label}
+    name = job.wildcards.real_surface
+    verdicts = find_thresholds(verdicts, surfaces[name], material_surfaces, job.params.materials)
+    title = f"verdicts of the stickiness criteria: {labels[name]}"
+    parameters = {"materials": job.params.materials, "labels": labels}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     laws = [
-        describe_law(verdicts.sel(material=name).squeeze("surface"), entry)
-        for name, entry in job.params.materials.items()
+        describe_law(verdicts.sel(material=material, surface=name), entry)
+        for material, entry in job.params.materials.items()
     ]
     with datasets.whole_file(job.output.contact_laws) as path:
-        made = {"version": __version__, "surface": label, "pairs": laws}
+        made = {"version": __version__, "surface": labels[name], "pairs": laws}
         path.write_text(json.dumps(made, indent=1, ensure_ascii=False, allow_nan=False))
     return datasets.read(job.output.verdicts)
 
@@ -115,12 +110,12 @@ def describe_law(pair, entry):
     return {"material": entry["label"], "verdict": word, "law": solid.law, **found}
 
 
-def describe_verdict(pair, entry):
+def describe_verdict(pair, entry, labels):
     """Verdict on one material, with its properties as given and every criterion's reason."""
     judged = int(pair.verdict) != NOT_JUDGED
     return describe_pair(pair, entry) | {
         "material": entry["label"],
-        "given": describe_modulus(entry),
+        "given": describe_modulus(entry, labels),
         "thresholds": {
             name: [float(pair[f"{name}{end}"]) for end in SIGNS]
             for name in ASKED
@@ -130,7 +125,7 @@ def describe_verdict(pair, entry):
     }
 
 
-def describe_contact(files, pairs, mine):
+def describe_contact(files, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map."""
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
@@ -153,15 +148,10 @@ def describe_contact(files, pairs, mine):
         "pull_off": pull_off,
     }
     if not pull_off.attrs["left_out"]:
-        verdict = pairs.sel(material=made["material"])
         outside = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
         found |= {
             "outside": outside,
             "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
-            "compared": [
-                {"remaining": describe_share(each), "pull_off": describe_pull_off(each)}
-                for each in (as_pair(pull_off, ""), as_pair(pull_off, "predicted_"), verdict)
-            ],
         }
     return found
 
@@ -195,18 +185,6 @@ def overlap(pull_off, name):
     low, model_low = pull_off[f"{name}_low"], pull_off[f"predicted_{name}_low"]
     high, model_high = pull_off[f"{name}_high"], pull_off[f"predicted_{name}_high"]
     return bool(low <= model_high and model_low <= high)
-
-
-def as_pair(pull_off, prefix):
-    """Simulated or predicted numbers under the names of a verdict, at ends that agree."""
-    found = {
-        f"{name}{end}": pull_off[f"{prefix}{simulated}{end}"]
-        for name, simulated in (("remaining", "separation"), ("pull_off", "pull_off"))
-        for end in ("", "_low", "_high")
-    }
-    # Where this is large the model knows no pull-off. A simulation does.
-    found["energy_ratio"] = pull_off.energy_ratio * bool(prefix)
-    return xr.Dataset(found).expand_dims(end=2)
 
 
 def describe_measured_contact(bem):

@@ -247,11 +247,12 @@ def test_thinner_tapes_keep_less_and_the_row_says_why():
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
-        ({"surface": "wall"}, ", rough as wall"),
+        ({"surface": "wall"}, ", rough as the brick wall"),
         ({"thickness": "50 um"}, ", 50 µm thick on a rigid base"),
         ({"thickness": "50 um", "backing": "slip"}, ", 50 µm thick, free to slip on a rigid base"),
         ({"thickness": "50 um", "backing": FILM}, ", 50 µm thick on a film of 25 µm and 3 GPa"),
     ],
 )
 def test_layers_are_described(keys, text):
-    assert describe_modulus(TAPE | keys) == "E = 0.1 MPa, ν = 0.5" + text
+    labels = {"wall": "the brick wall"}
+    assert describe_modulus(TAPE | keys, labels) == "E = 0.1 MPa, ν = 0.5" + text

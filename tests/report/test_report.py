@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from common import verdicts as texts
 from common.formatting import number
 from report import interactive, pages, write_report
-from report.table_rows import describe_pair, describe_surface
+from report.table_rows import arrange_pairs, describe_pair, describe_surface
 from stickiness import datasets
 from stickiness import error_budget as budget
 from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES, WORDS
@@ -274,7 +274,8 @@ def page(results, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def pairs(verdicts, surfaces):
-    return write_report.arrange_pairs(verdicts, surfaces)
+    labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
+    return arrange_pairs(verdicts, datasets.parameters(verdicts)["materials"], labels)
 
 
 @pytest.mark.slow

@@ -1,0 +1,96 @@
+"""Pairs side by side: the same as text and as numbers, one row a pair."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from helpers.pages import Page, make_job
+
+from common.verdicts import SHARES, find_limits, find_value
+from criteria import judge, verdicts
+from stickiness import datasets
+from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.criteria.registry import REMAINING
+from stickiness.spectrum import SelfAffine
+
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0.1)
+COMMON = {"work_of_adhesion": "50 mJ/m^2", "range": "0.3 nm"}
+FILM = {"youngs_modulus": "4 GPa", "poisson_ratio": 0.4, "thickness": "50 um"}
+MATERIALS = {
+    "psa": COMMON | {"label": "adhesive", "plane_strain_modulus": "0.1 MPa"},
+    "tape": COMMON | FILM | {"label": "a | b", "youngs_modulus": "60 kPa", "backing": FILM},
+    "stiff": COMMON | {"label": "stiff, brittle", "plane_strain_modulus": "1 GPa"},
+}
+SURFACES = {"asphalt": 1e-5, "pane < 1 m": 1e-7, "spiky": 1e-7}  # rms heights in m
+
+
+@pytest.fixture
+def written(monkeypatch, tmp_path):
+    """Files that the rule writes, by name."""
+    surfaces, q = {}, np.geomspace(1e5, 1e9, 60)
+    for name, h_rms in SURFACES.items():
+        ends = [SelfAffine(hurst=0.8, q0=1e5, q1=1e9, h_rms=h) for h in (h_rms, 2 * h_rms)]
+        data = {n: ("end", [getattr(s, n) for s in ends]) for n in verdicts.MOMENTS}
+        data["elastic_energy"] = "end", [s.elastic_energy() for s in ends]
+        data["psd"] = ("end", "wave_number"), [s.psd(q) for s in ends]
+        data = xr.Dataset(data | {"q0": 1e5, "q1": 1e9}, {"end": ["smooth", "rough"]})
+        attrs = {
+            "parameters": json.dumps({"label": name}),
+            "not_judged": name[:5] * (name[0] == "s"),
+        }
+        surfaces[name] = data.assign_coords(wave_number=q).assign_attrs(attrs)
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+    monkeypatch.setattr(judge, "read_surfaces", lambda *_: surfaces)
+    names = {"dataset": "nc", "table": "md", "page": "html", "csv": "csv", "workbook": "xlsx"}
+    outputs = {name: str(tmp_path / f"v.{ending}") for name, ending in names.items()}
+    inputs = {
+        "surfaces": [],
+        "template": "report/verdicts.md.j2",
+        "page": "report/verdicts.html.j2",
+    }
+    grid = {"minimum": 1.0, "maximum": 10.0, "per_decade": 1}
+    asked = {"frequencies": grid, "material_surfaces": [], "surfaces": list(SURFACES)}
+    judge.main(make_job(inputs, outputs, materials=MATERIALS, **asked))
+    return outputs
+
+
+def test_rows_are_sorted_and_say_what_the_verdicts_say(written):
+    frame, dataset = pd.read_csv(written["csv"]), datasets.read(written["dataset"])
+    assert len(frame) == len(MATERIALS) * len(SURFACES)
+    # The user's pairs come first. In both parts w/U_full falls; what is not judged is last.
+    mine = frame["material key"].ne("psa") & frame["surface key"].ne("asphalt")
+    assert (mine == frame.entry.eq("yours")).all()
+    assert mine.is_monotonic_decreasing
+    ratios = frame["w/U_full"]
+    for part in (mine, ~mine):
+        assert ratios[part].fillna(-1).is_monotonic_decreasing
+    for _, row in frame.iterrows():
+        pair = dataset.sel(material=row["material key"], surface=row["surface key"])
+        if row["surface key"] == "spiky":
+            assert row.verdict == "not judged"
+            assert row.filter(regex="remains|pull-off|threshold|keeps").isna().all()
+            continue
+        value, limits = float(find_value(pair)), [float(x) for x in find_limits(pair)]
+        wanted = [100 * x for x in (value, *limits)]
+        assert row.filter(like="remains").tolist() == pytest.approx(wanted, rel=1e-5)
+        for share in SHARES:
+            assert row[f"keeps {100 * share:g} % by value"] == ("yes" if value >= share else "no")
+            kept = sum(limit >= share for limit in limits)
+            assert row[f"keeps {100 * share:g} % by limits"] == ("no", "depends", "yes")[kept]
+        margin = find_value(pair.sel(criterion=REMAINING), "margin")
+        threshold = row["E* threshold [MPa]"] / row["E* [MPa]"]
+        assert threshold == pytest.approx(float(margin), rel=1e-4)
+    # Near full contact only a low limit of the pull-off is known.
+    unknown = frame[ratios > 10].filter(like="pull-off").isna()
+    assert unknown.all().tolist() == [True, False, True]
+
+
+def test_workbook_holds_numbers_and_the_page_words(written):
+    frame, sheet = pd.read_csv(written["csv"]), pd.read_excel(written["workbook"])
+    pd.testing.assert_frame_equal(sheet, frame, check_dtype=False, rtol=1e-5)
+    page = Page(Path(written["page"]).read_text(encoding="utf-8"))
+    page.check("a | b", "pane < 1 m", "Keeps 30 %", "not judged", "peel force")
+    assert "| a \\| b | pane < 1 m |" in Path(written["table"]).read_text(encoding="utf-8")
