@@ -73,12 +73,11 @@ def ask(solid, judged, rough, spectra):
 
     rate = None
     if solid.depends_on_rate and np.isnan(solid.dwell):
-        moduli = (
-            find_value(judged, "modulus_threshold"),
-            *find_limits(judged, "modulus_threshold"),
-        )
-        hertz = judged.frequency.values
-        rate = [questions.find_rate(solid.plane_strain, float(x), hertz) for x in moduli]
+        moduli = find_value(judged, "modulus_threshold"), *find_limits(judged, "modulus_threshold")
+        rate = [
+            questions.find_rate(solid.plane_strain, float(x), judged.frequency.values, place == 2)
+            for place, x in enumerate(moduli)
+        ]
     return (
         questions.find_rms_height(pair, float(np.sqrt(h_rms.prod())), remain),
         questions.find_thickness(pair, layer, spectra, remain),

@@ -19,7 +19,7 @@ from stickiness.spectrum import SelfAffine, Tabulated
 A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 Q = np.geomspace(6e4, 6e7, 200)
 SHAPE = SelfAffine(hurst=0.8, q0=Q[0], q1=Q[-1], h_rms=1.0)
-FREQUENCIES = np.geomspace(1e-2, 1e2, 241)  # between which crossings are interpolated
+FREQUENCIES = np.geomspace(1e-3, 1e3, 13)
 TAPE = {"label": "tape", "youngs_modulus": "1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "60 mJ/m^2", "range": "3 nm", "source": "made up"}
 SERIES = {"equilibrium": "0.1 MPa", "terms": [["2 MPa", "0.1 s"], ["100 MPa", "1 ms"]]}

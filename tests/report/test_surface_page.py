@@ -181,13 +181,10 @@ def test_the_page_tells_what_would_make_pairs_stick(page, folder):
         assert ("{} ({} to {})".format(*rates) in page.text) == (name == "gel")
         assert law["material"] == entry["label"]
         assert law["modulus"]["value"] == float(pair.modulus_quoted)
-        work, low, high = (law["effective_work_of_adhesion"][x] for x in ("value", "low", "high"))
         limits = [float(x * pair.work_of_adhesion) for x in find_limits(pair)]
-        assert [low, high] == pytest.approx(limits)
-        distance = law["effective_range"]
-        if "value" in distance:
-            assert distance["value"] * law["pull_off_stress"]["value"] == pytest.approx(work)
-            assert distance["low"] <= distance["value"] <= distance["high"]
+        work = law["effective_work_of_adhesion"]
+        assert [work["low"], work["high"]] == pytest.approx(limits)
+        assert law["pull_off_stress"]["low"] == float(find_limits(pair, "pull_off")[0])
 
 
 def test_page_of_a_material_with_a_dwell_names_it_and_shows_more_than_all_adhesion(folder):
@@ -320,7 +317,7 @@ def test_rates_of_the_page_follow_the_modulus(pairs):
     assert (at[0] > 1) == bool(find_limits(pair)[0] >= DEFAULT_SHARE)
     moduli = solid.plane_strain.storage(np.array(at))
     limits = [float(x) for x in find_limits(pair, "modulus_threshold")]
-    np.testing.assert_allclose(moduli, limits, rtol=0.1)
+    np.testing.assert_allclose(moduli, limits, rtol=0.1)  # of two digits
 
 
 @pytest.fixture(scope="module")

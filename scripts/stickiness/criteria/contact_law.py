@@ -20,31 +20,23 @@ def describe_contact_law(
 ) -> dict[str, dict[str, Any]]:
     """Return what is given of a pair, in SI units, and its effective attraction, ready for JSON.
 
-    `remaining` and `pull_off` are (value, low, high). Over the pull-off the effective work is the
-    effective range: a smooth surface would have to attract over it with that stress. What is not
-    known is left out: the range where nothing pulls, and all but the low limit of the pull-off
-    where `energy_ratio`, work of adhesion over the energy of full contact, is large.
+    `remaining` and `pull_off` are (value, low, high). What is not known is left out: all but the
+    low limit of the pull-off where `energy_ratio`, the work of adhesion over the energy of full
+    contact, is large.
     """
     work, stress = work_of_adhesion * np.array(remaining), np.array(pull_off, dtype=float)
     if energy_ratio > PULL_OFF_UNKNOWN:
         stress[[0, 2]] = np.nan
-    distance = np.divide(work, stress, out=np.full(3, np.nan), where=stress > 0)
-    known = np.fmin.reduce(distance), np.fmax.reduce(distance)
-    distance[1:] = known if np.isfinite(distance[0]) else np.nan
     found = {
         "modulus": ("Pa", [modulus]),
         "work_of_adhesion": ("J/m^2", [work_of_adhesion]),
         "range": ("m", [range]),
         "effective_work_of_adhesion": ("J/m^2", work),
         "pull_off_stress": ("Pa", stress),
-        "effective_range": ("m", distance),
     }
+    ends = "value", "low", "high"
     return {
-        name: {
-            end: float(x)
-            for end, x in zip(("value", "low", "high"), values, strict=False)
-            if np.isfinite(x)
-        }
+        name: {end: float(x) for end, x in zip(ends, values, strict=False) if np.isfinite(x)}
         | {"unit": unit}
         for name, (unit, values) in found.items()
     }

@@ -20,7 +20,7 @@ from stickiness.criteria.verdict import verdict
 from stickiness.persson.theory import Persson
 from stickiness.remaining.prediction import LEAST_LENGTH
 from stickiness.solids import HALF_SPACE, Solid
-from stickiness.solids.moduli import Modulus, Prony, Table, crossings
+from stickiness.solids.moduli import Modulus, Prony, Table
 from stickiness.spectrum.interface import Spectrum
 
 CONTACT_AREA = 0.05  #: share of the nominal area
@@ -29,7 +29,7 @@ CONTACT_AREA = 0.05  #: share of the nominal area
 AREA_ERROR, AREA_ERROR_LAYER, AREAS = 0.15, 0.45, (0.005, 0.35)
 ROUGHEST, DEEPEST = 1e3, 25.0  # searched, over the heights, and over 1/q of the longest waves
 _PER_DECADE, _FINER, _TIMES = 5, 9, 6  # points of the first search, of finer ones; searches
-_FREQUENCIES = np.geomspace(1e-12, 1e12, 24_001)  # [Hz] of a Prony series
+_FREQUENCIES = 1e-12, 1e12  # [Hz], of a Prony series
 
 Remain = Callable[[Pair], NDArray]
 
@@ -98,13 +98,13 @@ def thresholds(
     any_modulus = 0.99 * pair.work_of_adhesion / (LEAST_LENGTH * pair.elastic_energy)
     as_given = material["modulus"] / pair.modulus  # Young's modulus or E*
     modulus = Threshold(*(as_given * x if x < any_modulus else np.inf for x in found))
-    known = getattr(storage, "frequencies", _FREQUENCIES)
     return Thresholds(
         modulus=modulus,
         rms_height=find_rms_height(pair, pair.h_rms),
         thickness=find_thickness(pair, solid, spectra),
         pressure=find_pressure(spectra, solid, pair, contact_area),
-        rate=storage and Threshold(*(find_rate(storage, x, known) for x in modulus)),
+        rate=storage
+        and Threshold(*(find_rate(storage, x, _FREQUENCIES, x == modulus.high) for x in modulus)),
     )
 
 
@@ -120,7 +120,7 @@ def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -
     shares (x, end, limit) of it.
     """
     ends = pair.range / RANGES[-1], ROUGHEST * h_rms
-    return _search(lambda x: pair.scaled(x / h_rms), remain, *ends, pair.wanted_share)
+    return _search(lambda x: remain(pair.scaled(x / h_rms)), *ends, pair.wanted_share)
 
 
 def find_thickness(
@@ -131,43 +131,42 @@ def find_thickness(
     `spectra` are of the ends; draws change as both do on average. Others as of `find_rms_height`.
     """
 
-    def put_on(thickness: NDArray) -> Pair:
+    def put_on(thickness: NDArray) -> NDArray:
         layers = [solid, *(replace(solid, thickness=d) for d in thickness[:, 0])]
         energy = np.array([[one.elastic_energy(layer) for one in spectra] for layer in layers])
         if np.size(pair.h_rms) > len(spectra):
             energy = np.exp(np.log(energy).mean(axis=1, keepdims=True))
         soft = np.array([np.atleast_1d(layer.factor(pair.q0)) for layer in layers])
-        strain = np.array([np.atleast_1d(x.strain(pair.h_rms, pair.q0)) for x in layers[1:]])
-        return replace(
-            pair,
-            elastic_energy=pair.elastic_energy * energy[1:] / energy[0],
-            relative_compliance=pair.relative_compliance * soft[1:] / soft[0],
-            layer_strain=strain,
-        )
+        changed = {
+            "elastic_energy": pair.elastic_energy * energy[1:] / energy[0],
+            "relative_compliance": pair.relative_compliance * soft[1:] / soft[0],
+            "layer_strain": [np.atleast_1d(x.strain(pair.h_rms, pair.q0)) for x in layers[1:]],
+        }
+        return remain(replace(pair, **{name: np.array(x) for name, x in changed.items()}))
 
-    if solid == HALF_SPACE:
-        return None
     ends = DEEPEST / spectra[0].band[0], np.min(pair.h_rms)
-    return _search(put_on, remain, *ends, pair.wanted_share)
+    return None if solid == HALF_SPACE else _search(put_on, *ends, pair.wanted_share)
 
 
 def _search(
-    change: Callable[[NDArray], Pair], remain: Remain, start: float, stop: float, wanted: float
+    remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float
 ) -> Threshold:
     """Find the geometric mean of the thresholds of all ends, and their farthest limits."""
 
     @cache  # the first places are the same for all limits
     def kept(places: tuple[float, ...]) -> NDArray:
-        return remain(change(np.array(places)[:, None]))
+        return remain(np.array(places)[:, None])
 
-    found = np.array(
-        [
-            find_crossing(lambda x, at=at: kept(tuple(x))[:, *at], start, stop, wanted, at[1] == 2)
-            for at in np.ndindex(kept((start,)).shape[1:])
-        ]
-    ).reshape(-1, 3)
+    def find(end: int, limit: int) -> float:
+        def share(x: NDArray) -> NDArray:
+            return kept(tuple(x))[:, end, limit]
+
+        return find_crossing(share, start, stop, wanted, last=limit == 2)
+
+    ends = range(kept((start,)).shape[1])
+    found = np.array([[find(end, limit) for limit in range(3)] for end in ends])
     with np.errstate(invalid="ignore"):  # none at one end, any at the other
-        value = float(np.prod(found[:, 1]) ** (1 / len(found)))
+        value = float(np.prod(found[:, 1]) ** (1 / len(ends)))
     return Threshold(value, float(found.min()), float(found.max()))
 
 
@@ -191,18 +190,17 @@ def find_crossing(
     return float(np.sqrt(x[0] * x[-1]))
 
 
-def find_rate(storage: Modulus, modulus: float, frequencies: ArrayLike) -> float:
-    """Find the highest frequency [Hz] at which a storage modulus is below another one.
+def find_rate(
+    storage: Modulus, modulus: float, frequencies: ArrayLike, last: bool = False
+) -> float:
+    """Find the frequency [Hz] up to which a storage modulus stays below another one.
 
-    0 or infinity if that is at none of the increasing `frequencies`, or at the last one.
+    0 or infinity if at none or all of those between the first and the last of `frequencies`. A
+    table with a peak may fall below again: see `find_crossing` for `last`.
     """
-    if not 0 < modulus < np.inf:
-        return float(modulus)
-    moduli = np.asarray(storage.storage(frequencies))
-    if moduli[np.isfinite(moduli)][-1] < modulus:
-        return np.inf
-    passed = [hertz for hertz, rises in crossings(storage, modulus, frequencies) if rises]
-    return max(passed, default=0.0)
+    known = getattr(storage, "frequencies", frequencies)
+    start, stop = np.clip((known[0], known[-1]), frequencies[0], frequencies[-1])
+    return find_crossing(lambda f: modulus / storage.storage(f), start, stop, 1.0, last)
 
 
 def find_pressure(

@@ -87,7 +87,10 @@ def test_no_thickness_or_rate_sticks_or_every_one_does():
     layer = replace(LAYER, thickness=soft.thickness.high)
     assert layer.strain(1e-6, 1.2e5) == pytest.approx(0.3, rel=1e-3)
     assert table.storage(between.rate.value) == pytest.approx(between.modulus.value, rel=1e-4)
-    assert [find_rate(table, e, (0.1, 10.0)) for e in (0.0, 9e4, 2e7)] == [0.0, 0.0, np.inf]
+    assert [find_rate(table, e, (1e-3, 1e3)) for e in (0.0, 9e4, 2e7)] == [0.0, 0.0, np.inf]
+    peak = Table((0.01, 1.0, 100.0), (1e4, 1e6, 1e4))
+    found = [find_rate(peak, 1e5, (1e-3, 1e3), last) for last in (False, True)]
+    assert found == [pytest.approx(0.1, rel=1e-4), np.inf]
 
 
 def test_several_crossings_widen_the_limits():
