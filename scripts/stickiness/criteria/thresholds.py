@@ -25,7 +25,7 @@ from stickiness.spectrum.interface import Spectrum
 
 CONTACT_AREA = 0.05  #: share of the nominal area
 # Relative, of areas by theory: covers simulations at these areas (H = 0.3 to 0.9, magnifications of
-# 16 to 256). On thin bonded layers theory has as little as half of the area.
+# 16 to 256, cells of two waves and more). On thin bonded layers theory has as little as half of it.
 AREA_ERROR, AREA_ERROR_LAYER, AREAS = 0.15, 0.45, (0.005, 0.35)
 ROUGHEST, DEEPEST = 1e3, 25.0  # searched, over the heights, and over 1/q of the longest waves
 _PER_DECADE, _FINER, _TIMES = 5, 9, 6  # points of the first search, of finer ones; searches
@@ -211,5 +211,6 @@ def find_pressure(
     error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
     areas = area * np.array([1.0, (1 - error) * (1 - AREA_ERROR_LAYER * harder), 1 + error])
     theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
-    value, low, high = pair.modulus * np.transpose([x.pressure_at_area(areas) for x in theories])
-    return Threshold(float(np.exp(np.log(value).mean())), float(low.min()), float(high.max()))
+    found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
+    value = float(np.exp(np.log(found[:, 0]).mean()))
+    return Threshold(value, float(found[:, 1].min()), float(found[:, 2].max()))
