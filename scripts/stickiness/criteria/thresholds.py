@@ -28,7 +28,7 @@ CONTACT_AREA = 0.05  #: share of the nominal area
 # 16 to 256, cells of two waves and more). On thin bonded layers theory has as little as half of it.
 AREA_ERROR, AREA_ERROR_LAYER, AREAS = 0.15, 0.45, (0.005, 0.35)
 ROUGHEST, DEEPEST = 1e3, 25.0  # searched, over the heights, and over 1/q of the longest waves
-_PER_DECADE, _FINER, _TIMES = 5, 9, 6  # points of the first search, of finer ones; searches
+_PER_DECADE, _FINER, _TIMES = 5, 5, 10  # points of the first search, of finer ones; searches
 _FREQUENCIES = 1e-12, 1e12  # [Hz], of a Prony series
 
 Remain = Callable[[Pair], NDArray]
@@ -179,9 +179,9 @@ def find_crossing(
     """
     x = np.geomspace(start, stop, 2 + int(_PER_DECADE * abs(np.log10(stop / start))))
     for finer in range(_TIMES):
-        enough = share(x) >= wanted
-        if finer:
-            enough[0], enough[-1] = True, False
+        enough = share(x[1:-1] if finer else x) >= wanted
+        if finer:  # between a place that has enough and one that has not
+            enough = np.concatenate([[True], enough, [False]])
         before, after = np.append(True, enough), np.append(enough, False)
         count = np.flatnonzero(before)[-1] if last else np.argmin(after)
         if count in (0, x.size):
