@@ -11,11 +11,8 @@ import numpy as np
 import xarray as xr
 
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
-from stickiness.remaining.prediction import (
-    Roughness,
-    find_anisotropy_error_factor,
-    find_film_response,
-)
+from stickiness.remaining.prediction import MODULUS_FACTORS, Roughness, find_film_response
+from stickiness.remaining.prediction import find_anisotropy_error_factor as find_error_factor
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum import combine as add_roughness
 from stickiness.spectrum.kinds import Tabulated
@@ -72,7 +69,8 @@ def describe(surface):
         **{bound: pair[name] for name, bound in BOUNDS.items() if name in pair},
         stiffening=xr.ones_like(pair.elastic_energy),
         relative_compliance=1.0,
-        anisotropy_error_factor=find_anisotropy_error_factor(float(surface.get("axis_ratio", 1.0))),
+        film_response=(("end", "response", "factor"), np.zeros((2, 2, len(MODULUS_FACTORS)))),
+        anisotropy_error_factor=find_error_factor(float(surface.get("axis_ratio", 1.0))),
     )
 
 
@@ -158,10 +156,8 @@ def read_draws(pair, law):
     """`Roughness` of the draws of a measured surface, for a law by name; None of others."""
     if "h_rms_draws" not in pair:
         return None
-    # Slopes of the draws are not kept; those of both ends hardly differ.
-    pair = pair.assign(law=law, rms_slope=pair.rms_slope.mean("end"))
-    names = [field.name for field in fields(Roughness) if field.name in pair]
-    known = {name: pair.get(f"{name}_draws", pair[name]).values for name in names}
-    if "film_response" in known:
-        known["film_response"] = known["film_response"].mean(axis=0)
-    return Roughness(**known)
+    # Slopes and layers of the draws are not kept; those of both ends hardly differ.
+    means = {name: pair[name].mean("end") for name in ("rms_slope", "film_response")}
+    pair = pair.assign(law=law, **means)
+    names = [field.name for field in fields(Roughness)]
+    return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})

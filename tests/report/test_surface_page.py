@@ -203,7 +203,7 @@ def test_page_of_a_material_with_a_dwell_names_it_and_shows_more_than_all_adhesi
         "Tape sticks only locally at 1 Hz:",
         "Rested tape sticks after 1 h of dwell, broken at 20 Hz:",
         "times the work of adhesion remains. This includes the factor 3.3 (1 to 3.3)",
-        "It sticks up to E = 72 kPa; its modulus after 1 h of dwell is 54 kPa.",
+        "It sticks for certain up to E = 72 kPa; its modulus after 1 h of dwell is 54 kPa.",
         "Threshold E = 86 kPa (72 to 110 kPa) the material: E = 180 kPa",
     )
     assert "dwell time [s]" in page.html
