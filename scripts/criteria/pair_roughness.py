@@ -33,20 +33,27 @@ def combine(material, surface, a_v, second=None):
 
     `a_v` is what `find_a_v` has for the surface.
     """
-    pair, doubts = describe(surface), [find_doubts([surface, second])]
+    pair, doubts = conform(material, surface, second), [find_doubts([surface, second])]
     if second is not None:
-        pair = add_surfaces(surface, second, material.solid)
         spectra = zip(ENDS, find_spectra(surface, second), strict=True)
         try:
             a_v = [find_end_a_v(pair, *each) for each in spectra]
         except ValueError:  # attractive areas vanish within rounding
             doubts.append(TOO_DIFFERENT)
-    if material.solid != HALF_SPACE:
-        pair = put_on_layer(pair, material.solid, find_spectra(surface, second))
     at = [each.at(material.range / h) for each, h in zip(a_v, pair.h_rms.values, strict=True)]
     names = ("a_v", "a_v_low", "a_v_high")
     pair = pair.assign({n: ("end", x) for n, x in zip(names, np.transpose(at), strict=True)})
     return pair.assign_attrs(not_judged="\n".join(filter(None, doubts)))
+
+
+def conform(material, surface, second=None):
+    """Roughness that the solid of a `Material` has to conform to."""
+    pair = describe(surface)
+    if second is not None:
+        pair = add_surfaces(surface, second, material.solid)
+    if material.solid == HALF_SPACE:
+        return pair
+    return put_on_layer(pair, material.solid, find_spectra(surface, second))
 
 
 def find_doubts(surfaces):

@@ -259,7 +259,7 @@ def follow(pair, solids, draws, dim, moduli, factors, heights):
     """
     known = xr.DataArray(~np.isnan(moduli), dims=(dim, "material"))
     moduli = np.where(known, moduli, pair.modulus[:, 0, 0])
-    at = scale_heights(pair, heights[:, None, None, None])
+    at = pair.scaled(heights[:, None, None, None])
     factors = np.where(known.values[..., None], factors, 1.0)
     by_limit = tuple(np.moveaxis(factors, -1, 0)[..., None, None])
     moduli = moduli[..., None, None]
@@ -276,20 +276,13 @@ def follow(pair, solids, draws, dim, moduli, factors, heights):
     return tuple(x.where(known).transpose(*DIMS, dim, missing_dims="ignore") for x in curves)
 
 
-def scale_heights(rough, factor):
-    """A `Pair` or a `Roughness` with its heights times a factor: no spectrum is integrated."""
-    powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
-    powers |= {"layer_strain": 1} if isinstance(rough, pairs.Pair) else {}
-    return replace(rough, **{n: getattr(rough, n) * factor**power for n, power in powers.items()})
-
-
 def follow_draws(solid, draws, moduli, factors, heights):
     """Quantiles of the share over the draws of a surface, ``(dim, quantile)``; NaN without."""
     if draws is None:
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     along, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
     moduli, heights, *factors = along[..., None]
-    rough = scale_heights(draws, heights).at_modulus(moduli / solid.modulus)
+    rough = draws.scaled(heights).at_modulus(moduli / solid.modulus)
     errors = draw_errors(draws)
     factors = choose_factor(factors, errors)
     shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors, factors)

@@ -8,8 +8,8 @@ from common.formatting import NOTHING, amount, interval, number, percent, quanti
 from common.materials import read_material, show_modulus
 from stickiness.criteria.pair import BROAD_A_V, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.criteria.thresholds import find_rate
 from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.solids.moduli import crossings
 from stickiness.statistics import COVERS
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  # of the verdicts, in the order of codes
@@ -108,14 +108,10 @@ def list_rates(material, pair):
     if not material.depends_on_rate or np.isfinite(material.dwell):
         return []
     found = []
-    for threshold in map(float, texts.find_limits(pair, "modulus_threshold")):
-        least = max(threshold, texts.LEAST_STRESS)
-        passed = crossings(material.plane_strain, least, pair.frequency.values)
-        words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in passed]
-        if not words:
-            always = np.nanmax(pair.modulus.values) < threshold
-            words = ["at every frequency" if always else "at no frequency"]
-        found.append(" and ".join(words))
+    for last, threshold in enumerate(map(float, texts.find_limits(pair, "modulus_threshold"))):
+        hertz = find_rate(material.plane_strain, threshold, pair.frequency.values, bool(last))
+        words = {0.0: "at no frequency", np.inf: "at every frequency"}
+        found.append(words.get(hertz, f"below {number(hertz, 2)} Hz"))
     return list(dict.fromkeys(found))
 
 

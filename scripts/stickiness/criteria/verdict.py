@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from stickiness import __version__
 from stickiness.arguments import number, positive
 from stickiness.criteria.a_v_table import RANGES, surface_a_v
+from stickiness.criteria.contact_law import describe_contact_law
 from stickiness.criteria.pair import LIMITED, MOST_STRAIN, REGIMES, WORDS, Pair, decide, judge
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
@@ -49,6 +51,18 @@ class StickinessVerdict:
     a_v_limits: tuple[float, float]
     margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
     pair: Pair  #: the surface and the material, in SI units
+    spectrum: Spectrum = field(repr=False)  #: of the surface
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the effective attraction for DEM and FE models, in SI units and ready for JSON."""
+        pair = self.pair
+        found = describe_contact_law(
+            *(pair.modulus, pair.work_of_adhesion, pair.range),
+            (self.remaining, *self.remaining_limits),
+            (self.pull_off, *self.pull_off_limits),
+            pair.adhesion_length / pair.elastic_energy,
+        )
+        return {"version": __version__, "verdict": self.word, "law": pair.law, **found}
 
     def __str__(self) -> str:
         pair = self.pair
@@ -211,6 +225,7 @@ def verdict(
         a_v_limits=(low, high),
         margins=margins,
         pair=pair,
+        spectrum=spectrum,
     )
 
 

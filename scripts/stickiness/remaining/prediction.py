@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -108,6 +109,14 @@ class Roughness:
             elastic_energy=self.elastic_energy * found[..., 0],
             relative_compliance=self.relative_compliance * found[..., 1],
         )
+
+    def scaled(self, factor: ArrayLike) -> Self:
+        """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
+        powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
+        powers["layer_strain"] = 1  # of a `Pair`
+        known = {name: getattr(self, name, None) for name in powers}
+        scaled = {n: x * factor ** powers[n] for n, x in known.items() if x is not None}
+        return replace(self, **scaled)
 
     def share(
         self,
