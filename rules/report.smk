@@ -67,6 +67,7 @@ rule write_report:
         "../envs/environment.yaml"
     params:
         presets=PRESETS,
+        surfaces=REAL_SURFACES,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
         code=source_hash("report/write_report.py"),
@@ -98,6 +99,7 @@ rule write_surface:
         "../envs/environment.yaml"
     params:
         **JUDGED,
+        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         code=source_hash("report/write_surface.py"),
     script:
         "../scripts/report/write_surface.py"

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from stickiness.plausibility import LIMITS
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL
@@ -61,6 +62,14 @@ def read_material(entry):
         dwell=si(entry["dwell"], "s") if "dwell" in entry else np.nan,
         broken_at=si(entry.get("broken_at", "1 Hz"), "Hz"),
     )
+
+
+def find_doubts(entry):
+    """Sentences about values that hardly any real pair has, as the configuration states them."""
+    for key, (usual, _, reason, unit) in LIMITS.items():
+        if key in entry and not usual[0] <= si(entry[key], unit) <= usual[1]:
+            name = key.replace("_", " ")
+            yield f"{entry['label']}: {name} = {entry[key]} is improbable: {reason}"
 
 
 def read_solid(entry):

@@ -5,6 +5,7 @@ from itertools import product
 from common import verdicts as texts
 from common.formatting import NOTHING, interval
 from common.job import start
+from common.materials import find_doubts
 from common.templates import write_page
 from common.verdicts import find_limits
 from criteria.verdicts import judge_materials, read_surfaces
@@ -16,9 +17,8 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 
 
 def main(job):
-    materials = job.params.materials
-    surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
-    labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
+    materials, labels = job.params.materials, job.params.labels
+    surfaces = read_surfaces(labels, job.input.surfaces)
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)
     title = "verdicts of the stickiness criteria"
@@ -34,6 +34,7 @@ def describe_page(dataset, materials, labels):
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
+        "doubts": [doubt for entry in materials.values() for doubt in find_doubts(entry)],
         "pairs": [
             (materials[m]["label"], labels[s], *describe_pair(dataset.sel(material=m, surface=s)))
             for m, s in product(dataset.material.values, dataset.surface.values)

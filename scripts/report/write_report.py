@@ -46,7 +46,7 @@ def main(job):
         {name: datasets.read(path) for name, path in files[kind].items()}
         for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
-    pairs = arrange_pairs(verdicts, surfaces)
+    pairs = arrange_pairs(verdicts)
     materials = datasets.parameters(verdicts)["materials"]
     embed = pages.embed_figure
     write_page(
@@ -77,6 +77,7 @@ def main(job):
         experiments=experiments.describe(tested),
         experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),
         surfaces=surfaces,
+        described=params.surfaces,
         sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
         answers={name: at_load(answer) for name, answer in answers.items()},
         comparisons={name: compare_theory(data) for name, data in comparisons.items()},
@@ -120,13 +121,14 @@ def count(words, tones):
     return [(word, counts[word], tones.get(word, "open")) for word in order if counts[word]]
 
 
-def arrange_pairs(verdicts, surfaces):
+def arrange_pairs(verdicts):
     """Rows of all pairs, material by material, those of the user first."""
-    materials = datasets.parameters(verdicts)["materials"]
+    made = datasets.parameters(verdicts)
+    materials, labels = made["materials"], made["labels"]
     return [
         describe_pair(verdicts.sel(material=material, surface=surface))
         | {"key": material, "material": materials[material]["label"]}
-        | {"name": surface, "surface": datasets.parameters(surfaces[surface])["label"]}
+        | {"name": surface, "surface": labels[surface]}
         for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
         for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
     ]

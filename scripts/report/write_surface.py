@@ -9,7 +9,7 @@ import xarray as xr
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
-from common.materials import describe_modulus, read_material
+from common.materials import describe_modulus, find_doubts, read_material
 from common.templates import write_page
 from common.verdicts import describe_moment, describe_pull_off, describe_share
 from criteria.verdicts import judge_materials, read_surfaces
@@ -42,20 +42,20 @@ def main(job):
     }
     contact = bem = None
     if inputs.get("contact"):
-        contact = describe_contact(inputs, pairs, [entries[name] for name in mine])
+        contact = describe_contact(inputs, pairs, entries, mine)
     if inputs.get("measured_contact"):
         bem = describe_measured_contact(datasets.read(inputs.measured_contact, ["a_v"]))
     write_page(
         inputs.template,
         job.output.page,
         files=dict(inputs.items()) | {"verdicts": job.output.verdicts},
-        report=f"{job.output.page.rsplit('/', 2)[0]}/report.html",
         surface=surface,
-        made=datasets.parameters(surface),
+        made=job.params.surface,
         sizes=describe_surface(surface),
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
+        doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         verdicts=[
             describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
             for name in names
@@ -72,10 +72,9 @@ def judge(job):
     """Write the verdicts on the surface, and return them."""
     surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
-    (label,) = (datasets.parameters(surface)["label"] for surface in surfaces.values())
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
-    title = f"verdicts of the stickiness criteria: {label}"
-    parameters = {"materials": job.params.materials, "label": label}
+    title = f"verdicts of the stickiness criteria: {job.params.surface['label']}"
+    parameters = {"materials": job.params.materials, "label": job.params.surface["label"]}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     return datasets.read(job.output.verdicts)
 
@@ -105,12 +104,13 @@ def list_rates(solid, pair):
     return list(dict.fromkeys(texts))
 
 
-def describe_contact(files, pairs, mine):
+def describe_contact(files, pairs, entries, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map."""
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
         return None
-    loads = list_loads(contact, {entry["label"]: read_material(entry) for entry in mine})
+    solids = {entries[name]["label"]: read_material(entries[name]) for name in mine}
+    loads = list_loads(contact, solids)
     texts = []
     for load in loads:
         pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
@@ -123,7 +123,7 @@ def describe_contact(files, pairs, mine):
         "still": pages.embed_png(files.contact_figure),
         "data": contact,
         "loads": loads,
-        "pulled": made["label"],
+        "pulled": entries[made["material"]]["label"],
         "moment": describe_moment(read_material(made)).partition(",")[0],
         "pull_off": pull_off,
     }
