@@ -10,6 +10,8 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-com
 # modules for other versions of Python do not matter.
 COMPILE := $(BIN)/python -m compileall -qq -j$(CORES) -x '/tests?/' $(VENV)/lib || true
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
+# Where Python looks for further packages: the library is found from all folders.
+PATHS = $$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 
 .PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures
 
@@ -67,6 +69,7 @@ $(VENV)/bin/python:
 
 $(VENV)/.run: envs/requirements.txt envs/constraints.txt | $(VENV)/bin/python
 	$(PIP) -r envs/requirements.txt
+	@echo "$(CURDIR)/scripts" > "$(PATHS)/stickiness.pth"
 	$(COMPILE)
 	touch $@
 

@@ -66,10 +66,10 @@ def read_material(entry):
 
 def find_doubts(entry):
     """Sentences about values that hardly any real pair has, as the configuration states them."""
-    for key, (usual, _, reason, unit) in LIMITS.items():
-        if key in entry and not usual[0] <= si(entry[key], unit) <= usual[1]:
-            name = key.replace("_", " ")
-            yield f"{entry['label']}: {name} = {entry[key]} is improbable: {reason}"
+    for key, limits in LIMITS.items():
+        if key in entry and si(entry[key], limits.unit) > limits.usual:
+            name = f"{entry['label']}: {key.replace('_', ' ')}"
+            yield f"{name} = {entry[key]} is improbable: {limits.reason}"
 
 
 def read_solid(entry):

@@ -14,9 +14,7 @@ WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 
 def main(job):
     read = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
-    labelled = zip(job.params.labels.values(), read, strict=True)
-    # The lines of constant C0 are surfaces, too, but drawn without ends.
-    surfaces = [(label, s) for label, s in labelled if not label.startswith("C0 =")]
+    surfaces = list(zip(job.params.labels.values(), read, strict=True))
     ratios = [1.25, 1]
     with plotting.open_figure(job.output, "A;B", 7.2, sharex=True, height_ratios=ratios) as panels:
         draw_spectra(panels["A"], surfaces, 0)

@@ -23,8 +23,9 @@ REFUSED_SIDE = (
 class Limits(NamedTuple):
     """Values of real solids and surfaces in SI units, most with room to spare."""
 
-    usual: tuple[float, float]  #: outside, a value is improbable, and warned of
-    possible: tuple[float, float]  #: outside, a configuration is refused
+    least: float
+    usual: float  #: above, a value is improbable
+    most: float
     reason: str
     unit: str = ""  #: empty if the reason says what to give
 
@@ -32,22 +33,21 @@ class Limits(NamedTuple):
 #: By the name of the argument, or of the key in the configuration.
 LIMITS = {
     "length": Limits(
-        *2 * ((SHORTEST_SIDE, LONGEST_SIDE),),
+        *(SHORTEST_SIDE, LONGEST_SIDE, LONGEST_SIDE),
         "give the side of the heights in m (2e-3 for 2 mm)",
     ),
     "rms_slope": Limits(
-        *2 * ((1e-7, 1.0),), "small slopes are assumed; give heights and lengths both in m"
+        *(1e-7, 1.0, 1.0), "small slopes are assumed; give heights and lengths both in m"
     ),
-    "modulus": Limits(*2 * ((10.0, 1e13),), "gels are stiffer and diamond is softer", "Pa"),
+    "modulus": Limits(10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"),
     "work_of_adhesion": Limits(
-        (1e-5, 3.0),
-        (1e-6, 10.0),
+        *(1e-6, 3.0, 10.0),
         "clean metals reach 3 J/m^2, other solids 0.1 J/m^2; is it in mJ/m^2, or an energy of "
         "peeling, which includes dissipation?",
         "J/m^2",
     ),
-    "range": Limits((1e-11, 1e-7), (1e-11, 1e-5), "molecules attract over 0.2 to 1 nm", "m"),
-    "thickness": Limits((1e-8, 1e-2), (1e-10, 1.0), "adhesives have 1 um to 3 mm", "m"),
+    "range": Limits(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
+    "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),
 }
 
 
@@ -76,7 +76,7 @@ def warn_of_heights(rms_height: float, length: float) -> None:
 def warn_of_si(**values: float) -> None:
     """Warn of a value, by its name in `LIMITS`, that hardly any real pair has in SI units."""
     for name, value in values.items():
-        (low, high), _, reason, unit = LIMITS[name]
+        low, high, _, reason, unit = LIMITS[name]
         if not low <= value <= high:
             text = f"{name} = {value:.3g} is outside {low:g} to {high:g}: {reason}"
             text += f"; give it in {unit}" if unit else ""

@@ -230,8 +230,13 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     assert (pairs.verdict == NOT_JUDGED).all()
     assert np.isnan(pairs.probability).all()
     assert not pairs.disagrees.any()
-    text = write_page(found, folder).text
-    for words in ("Not judged.", "of the points have the one value 0", "give missing_value: 0"):
+    text = write_page(found, folder, {"gel": GEL | {"range": "0.3 um"}}).text
+    for words in (
+        "Gel <soft>: range = 0.3 µm is improbable: molecules attract",
+        "Not judged.",
+        "of the points have the one value 0",
+        "give missing_value: 0",
+    ):
         assert words in text
     assert "stick: " not in text
     assert not surface_figures.find_curves(pairs, {"gel": "gel"})

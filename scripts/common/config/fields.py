@@ -148,10 +148,9 @@ def quantity(word: str, unit: str, limits: str = "") -> Any:
         value = Quantity(given, unit)
         if not value > 0:
             raise ValueError(f"{given!r} must be positive")
-        if limits:
-            (low, high), reason = LIMITS[limits].possible, LIMITS[limits].reason
-            if not low <= value <= high:
-                raise ValueError(f"{given!r} must be in {low:g} … {high:g} {unit}: {reason}")
+        if limits and not (one := LIMITS[limits]).least <= value <= one.most:
+            between = f"{one.least:g} … {one.most:g} {unit}"
+            raise ValueError(f"{given!r} must be in {between}: {one.reason}")
         return value
 
     schema = pydantic.WithJsonSchema({"type": "string", "quantity": word})
