@@ -10,10 +10,8 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-com
 # modules for other versions of Python do not matter.
 COMPILE := $(BIN)/python -m compileall -qq -j$(CORES) -x '/tests?/' $(VENV)/lib || true
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
-# Where Python looks for further packages: the library is found from all folders.
-PATHS = $$($(BIN)/python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
 
-.PHONY: install reproduce draft test test-quick lint format dag benchmark docs pictures
+.PHONY: install reproduce draft test test-quick coverage lint format dag benchmark docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -32,9 +30,16 @@ test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
 	$(PYTEST) -m "not slow and not workflow and not peers"
 
-lint: $(VENV)/.dev  ## format and lint, nothing changed
+coverage: $(VENV)/.dev  ## statements and branches of the library that its quick tests reach
+	OMP_NUM_THREADS=1 $(BIN)/python -m coverage run -m pytest tests/stickiness \
+		-m "not slow and not workflow and not peers"
+	$(BIN)/python -m coverage report --skip-covered
+
+lint: $(VENV)/.dev  ## format, spelling, types and layers, nothing changed
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
+	$(BIN)/codespell
+	$(BIN)/mypy
 	PYTHONPATH=scripts $(BIN)/lint-imports --no-cache
 	$(BIN)/snakefmt --check Snakefile rules
 	$(BIN)/python tests/helpers/lint_rules.py
@@ -56,7 +61,7 @@ docs: $(VENV)/.docs  ## pages in docs/_build/html, and the reference of the conf
 	PYTHONPATH=scripts $(BIN)/python -m common.config.reference
 	$(SPHINX) -b html . docs/_build/html
 
-pictures: $(VENV)/.run  ## the pictures of README.md and docs, from results/standard and with Chromium
+pictures: $(VENV)/.run  ## pictures and examples of README.md and docs, from results/standard and with Chromium
 	$(BIN)/python docs/take_pictures.py
 
 benchmark: $(VENV)/.dev $(VENV)/.aspher  ## the contact solver beside its peers
@@ -69,7 +74,7 @@ $(VENV)/bin/python:
 
 $(VENV)/.run: envs/requirements.txt envs/constraints.txt | $(VENV)/bin/python
 	$(PIP) -r envs/requirements.txt
-	@echo "$(CURDIR)/scripts" > "$(PATHS)/stickiness.pth"
+	$(PIP) --no-deps --editable .
 	$(COMPILE)
 	touch $@
 

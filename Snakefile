@@ -52,7 +52,7 @@ include: "rules/stability.smk"
 
 TARGETS = {
     **{figure: f"{RESULTS}/figures/{figure}.png" for figure in FIGURES},
-    "verdicts": f"{RESULTS}/criteria/verdicts.md",
+    "verdicts": expand(f"{RESULTS}/criteria/verdicts.{{kind}}", kind=["html", "md", "csv", "xlsx"]),
     "experiments": [
         f"{RESULTS}/experiments/experiments.md",
         f"{RESULTS}/figures/experiments.png",

@@ -8,6 +8,8 @@ import os
 import sys
 from pathlib import Path
 
+import bokeh
+
 SCRIPTS = str(Path(__file__).parents[1] / "scripts")
 sys.path.insert(0, SCRIPTS)
 os.environ["PYTHONPATH"] = SCRIPTS  # of the notebook's kernel
@@ -51,8 +53,9 @@ html_title = f"{project} {release}"
 
 
 def setup(app):
-    """Let the folder of the pages open at the index."""
+    """Let the folder of the pages open at the index, and have the examples in it."""
     app.connect("build-finished", write_entrance)
+    app.connect("build-finished", copy_examples)
 
 
 def write_entrance(app, error):
@@ -63,3 +66,17 @@ def write_entrance(app, error):
             f'<meta http-equiv="refresh" content="0; url={page}"><a href="{page}">{project}</a>\n'
         )
         (Path(app.outdir) / "index.html").write_text(text, encoding="utf-8")
+
+
+def copy_examples(app, error):
+    """Copy the example pages, and put in the scripts that `take_pictures.py` left out."""
+    if app.builder.format == "html" and error is None:
+        target = Path(app.outdir) / "docs/example"
+        target.mkdir(parents=True, exist_ok=True)
+        for page in Path(__file__).parent.glob("example/*.html"):
+            text = page.read_text(encoding="utf-8")
+            for name in ("bokeh.min.js", "bokeh-widgets.min.js"):
+                script = Path(bokeh.__file__).parent / "server/static/js" / name
+                inline = f"<script>{script.read_text(encoding='utf-8')}</script>"
+                text = text.replace(f'<script src="{name}"></script>', inline)
+            (target / page.name).write_text(text, encoding="utf-8")

@@ -1,7 +1,15 @@
-"""Take the pictures of README.md and docs from results/standard, pages as Chromium shows them."""
+"""Take pictures and example pages of README.md and docs from results/standard.
+
+Pictures of pages are as Chromium shows them. The examples are the report of that run and the page
+of the tutorial's wall, without Bokeh's scripts, which `conf.py` puts back.
+"""
 
 from __future__ import annotations
 
+import base64
+import io
+import os
+import re
 import shutil
 import subprocess
 import sys
@@ -50,8 +58,44 @@ def shot(browser: str, page: Path, height: int, hidden: str) -> Image.Image:
     return picture.crop((0, 0, picture.width, min(bottom + 10, picture.height)))
 
 
+def judge_wall() -> Path:
+    """Make the page of the tutorial's wall and tape."""
+    folder = RESULTS.parent / "example"
+    folder.mkdir(parents=True, exist_ok=True)
+    wall = folder / "wall.txt"
+    size = ("--length", "2 mm", "--height-unit", "um")
+    tape = ("--modulus", "0.2 MPa", "--work", "60 mJ/m^2", "--label", "painted wall")
+    for command in (
+        ("examples/make_wall.py", wall),
+        ("-m", "stickiness", wall, *size, *tape, "--output", folder / "run"),
+    ):
+        environment = os.environ | {"PYTHONPATH": "scripts"}
+        subprocess.run([sys.executable, *command], cwd=DOCS.parent, env=environment, check=True)
+    return folder / "run/results/draft/report/surfaces/wall.html"
+
+
+def copy_example(page: Path) -> None:
+    """Write a page to docs/example, with small pictures, and without Bokeh and links to data."""
+    text = page.read_text(encoding="utf-8")
+    scripts = r"<script[^>]*>\s*/\* BEGIN (bokeh[\w.-]*\.js) \*/.*?</script>"
+    text = re.sub(scripts, r'<script src="\1"></script>', text, flags=re.DOTALL)
+    link = r'<a [^>]*?href="(?!https?:|#|data:)[^"]*"[^>]*>(.*?)</a>'
+    text = re.sub(link, r"\1", text, flags=re.DOTALL)
+    text = re.sub(r"data:image/png;base64,([\w+/=]+)", shrink, text)
+    copy = DOCS / "example" / page.name
+    copy.parent.mkdir(exist_ok=True)
+    copy.write_text(text, encoding="utf-8")
+
+
+def shrink(found: re.Match) -> str:
+    """Return the picture of a page in a smaller format."""
+    picture, small = Image.open(io.BytesIO(base64.b64decode(found[1]))), io.BytesIO()
+    picture.convert("RGB").quantize(128).convert("RGB").save(small, "WEBP", lossless=True)
+    return f"data:image/webp;base64,{base64.b64encode(small.getvalue()).decode()}"
+
+
 def main() -> None:
-    """Take all pictures anew."""
+    """Take all pictures and copy the examples anew."""
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     if browser is None:
         sys.exit("no chromium on the path (apt install chromium)")
@@ -61,6 +105,8 @@ def main() -> None:
     for name in FIGURES:
         picture = Image.open(RESULTS / f"figures/{name}.png").convert("RGB")
         picture.quantize(128).save(DOCS / f"{name}.png", optimize=True)
+    for page in (RESULTS / "report/report.html", judge_wall()):
+        copy_example(page)
 
 
 if __name__ == "__main__":

@@ -8,6 +8,12 @@ A_V_FILES = {
     "theory": f"{RESULTS}/fits/a_v/sweeps/fig3c.nc",
 }
 
+# What pages are made of, here and in report.smk.
+PAGE_PARTS = [
+    project_file(f"report/{part}")
+    for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")
+]
+
 
 rule map_criterion:
     input:
@@ -49,7 +55,8 @@ rule judge:
     input:
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         template=project_file("report/verdicts.md.j2"),
-        part=project_file("report/left_out.j2"),
+        page=project_file("report/verdicts.html.j2"),
+        parts=PAGE_PARTS,
     output:
         dataset=f"{RESULTS}/criteria/verdicts.nc",
         table=report(
@@ -57,6 +64,13 @@ rule judge:
             category="Verdicts",
             caption="../report/verdicts.rst",
         ),
+        page=report(
+            f"{RESULTS}/criteria/verdicts.html",
+            category="Verdicts",
+            caption="../report/verdicts.rst",
+        ),
+        csv=f"{RESULTS}/criteria/verdicts.csv",
+        workbook=f"{RESULTS}/criteria/verdicts.xlsx",
     log:
         f"{RESULTS}/logs/judge/criteria/verdicts.log",
     benchmark:

@@ -1,10 +1,5 @@
 # The report of all results, and for every real surface its verdicts and a page.
 
-PAGE_PARTS = [
-    project_file(f"report/{part}")
-    for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")
-]
-
 
 def figure_sources(wildcards, output):
     """Datasets that each figure shows."""

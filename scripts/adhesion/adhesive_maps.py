@@ -23,8 +23,8 @@ def main(job):
         given_load = {"pressure": pressure, "start": states[-1] if states else None}
         states.append(adhesive.solve(heights, length, law, **given_load, tol=TOLERANCE))
     text = "repulsion less attraction over E* q0 h_rms"
-    texts = {"contact_pressure": text, "residual": STATE["residual"]}
-    dataset = gather_fields(states, pressures, surface, **texts)
+    texts = {"contact_pressure": text, **{n: STATE[n] for n in ("residual", "iterations")}}
+    dataset = gather_fields(states, pressures, surface, TOLERANCE, **texts)
     title = "gap and pressure fields of one realisation in adhesive contact"
     made = {"law": adhesion["law"], "q0_h_rms": roughness(adhesion), **given}
     parameters = {**datasets.parameters(surface), **made}

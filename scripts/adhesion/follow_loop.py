@@ -14,7 +14,7 @@ import pandas as pd
 import xarray as xr
 
 from common.adhesion_sets import ATTRIBUTES, LEAST, STATE, scaled_law
-from common.conventions import annotate
+from common.conventions import add_convergence, annotate
 from common.error_budgets import SIMULATED
 from common.job import start
 from common.model_surfaces import pixels, read_first
@@ -30,7 +30,7 @@ SOLVER = 5e-4
 BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
 STEPS = (2, 1)
 MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
-NOT_KEPT = ("repulsive_pressure", "attraction", "iterations")
+NOT_KEPT = ("repulsive_pressure", "attraction")
 STATES = {ATTRIBUTES.get(n, n): text for n, text in STATE.items() if n not in NOT_KEPT}
 STATES["mean_gap"] = "mean gap over h_rms"
 QUOTED = {
@@ -105,7 +105,7 @@ def add_quoted(dataset):
     coarse, fine = (
         xr.Dataset(quoted).drop_vars("state").isel(resolution=grid, drop=True) for grid in (0, -1)
     )
-    dataset = annotate(dataset.assign(fine), **VARIABLES)
+    dataset = add_convergence(annotate(dataset.assign(fine), **VARIABLES), TOLERANCE)
     for name in QUOTED:
         change, solver = fine[name] - coarse[name], SOLVER * fine[name]
         dataset = with_budget(

@@ -78,6 +78,7 @@ def main(job):
         "coarsest": edge_zone.COARSEST,
     }
     dataset = conventions.annotate(dataset, **VARIABLES)
+    dataset = conventions.add_convergence(dataset, LOOSEST)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -20,7 +20,7 @@ from stickiness.repulsive import solver, subpixel
 
 SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "fft_pairs")
 AREAS = ("attractive_area", "pixel_attractive_area")
-COARSELY_SOLVED = ("area_fraction", "mean_gap", "residual", "rms_slope")
+COARSELY_SOLVED = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
 # First seeds of coarse solutions and of described waves; the configuration keeps these sets apart.
 SOLVED_FROM, DESCRIBED_FROM = 100_001, 1_000_001
 # Quantities that a case may want beyond areas and mean gaps.

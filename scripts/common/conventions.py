@@ -57,6 +57,13 @@ def annotate(dataset, **texts):
     return datasets.annotate(dataset, **known)
 
 
+def add_convergence(dataset, tolerance, prefix=""):
+    """Add whether the residual of every state is within the tolerance."""
+    met = (dataset[f"{prefix}residual"] <= tolerance).astype("i1")
+    text = f"1 where the residual is at most {tolerance:g}, 0 where there is no state"
+    return dataset.assign({f"{prefix}converged": met.assign_attrs(units="1", long_name=text)})
+
+
 def at_load(data):
     return data.sel(pressure=LOAD, method="nearest")
 

@@ -4,10 +4,12 @@ import numpy as np
 import xarray as xr
 from scipy.fft import next_fast_len
 
-from common.conventions import Q0, annotate
+from common.conventions import Q0, add_convergence, annotate
 from stickiness import datasets
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.surface import synthesise
+
+SOLVED = ("mean_gap", "residual", "iterations")  # of the states whose fields are kept
 
 
 def model_spectrum(surface):
@@ -70,15 +72,15 @@ def read_all(paths, variables):
     return xr.concat([datasets.read(path, variables) for path in paths], "seed", join="outer")
 
 
-def gather_fields(states, pressures, surface, **texts):
-    """Gap, pressure and residual of one state a pressure; `texts` describe the latter two."""
+def gather_fields(states, pressures, surface, tolerance, **texts):
+    """Fields of one state a pressure, and how well it is solved; `texts` describe variables."""
     dims = ("pressure", "x", "y")
     dataset = xr.Dataset(
         {
             "gap": (dims, [state.gap for state in states]),
             "contact_pressure": (dims, [state.pressure for state in states]),
-            "residual": ("pressure", [state.residual for state in states]),
+            **{n: ("pressure", [getattr(state, n) for state in states]) for n in SOLVED},
         },
         coords={"pressure": pressures, "x": surface.x, "y": surface.y},
     )
-    return annotate(dataset, **texts)
+    return add_convergence(annotate(dataset, **texts), tolerance)

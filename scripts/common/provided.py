@@ -12,6 +12,14 @@ def user_defined_first(names, provided):
     return sorted(names, key=lambda name: name in provided)
 
 
+def choose_mine(pairs):
+    """Rows of the user's materials on the user's surfaces, or on all where one kind is missing."""
+    of_materials = [pair for pair in pairs if pair["key"] not in MATERIALS]
+    of_surfaces = [pair for pair in pairs if pair["name"] not in SURFACES]
+    both = [pair for pair in of_materials if pair in of_surfaces]
+    return both or of_materials or of_surfaces
+
+
 def choose_pictured(materials):
     """The material whose pull-off is pictured: the user's first one, or else the softest."""
     softest = min(materials, key=lambda name: read_material(materials[name]).modulus)

@@ -5,7 +5,7 @@ wavelength, as every fine one is too. Of still more surfaces only the long waves
 """
 
 from common.contact_curves import COARSE, VARIABLES, coarse_solutions
-from common.conventions import annotate, logarithmic_grid
+from common.conventions import add_convergence, annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import grid_points
 from stickiness import datasets
@@ -24,7 +24,7 @@ def main(job):
         "pixels_per_wavelength": COARSE,
         "grid_points": grid_points(surface, COARSE),
     }
-    dataset = annotate(dataset, **VARIABLES)
+    dataset = add_convergence(annotate(dataset, **VARIABLES), asked.tolerance)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -8,7 +8,7 @@ control variate for the many coarse solutions of `solve_coarse`.
 import numpy as np
 
 from common.contact_curves import VARIABLES, load_curves, steps_of
-from common.conventions import annotate, logarithmic_grid
+from common.conventions import add_convergence, annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets
@@ -31,7 +31,7 @@ def main(job):
         "case": job.wildcards.case,
         "tolerance": job.params.tolerance,
     }
-    dataset = annotate(dataset, **VARIABLES)
+    dataset = add_convergence(annotate(dataset, **VARIABLES), job.params.tolerance)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -1,68 +1,136 @@
-"""Verdict for every material on every surface, and the same as a page."""
+"""Verdict for every material on every surface, the same as a page, and all pairs side by side."""
 
 from itertools import product
 
-from common import verdicts as texts
-from common.formatting import NOTHING, interval
+import numpy as np
+import pandas as pd
+
+from common.formatting import NOTHING, interval, percent
 from common.job import start
 from common.materials import find_doubts
+from common.provided import choose_mine
 from common.templates import write_page
-from common.verdicts import find_limits
+from common.verdicts import KPA, MPA, SHARES, find_limits
+from criteria.pair_roughness import ENDS
 from criteria.verdicts import judge_materials, read_surfaces
+from report.table_rows import arrange_pairs
 from stickiness import datasets
 from stickiness.criteria.a_v_table import THEORY_ERROR
-from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, WORDS
-from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.criteria.pair import FULL_SHARE
+from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+
+# Head, unit and its size of the quantities that are tabulated with their limits.
+TABULATED = {
+    "remaining": ("remains", "%", 0.01),
+    "pull_off": ("pull-off", "kPa", KPA),
+    "modulus_threshold": ("E* threshold", "MPa", MPA),
+}
+PARTS = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
 
 
 def main(job):
-    materials, labels = job.params.materials, job.params.labels
+    materials, labels, output = job.params.materials, job.params.labels, job.output
     surfaces = read_surfaces(labels, job.input.surfaces)
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)
     title = "verdicts of the stickiness criteria"
     parameters = {"materials": materials, "labels": labels}
-    datasets.write(dataset, job.output.dataset, title=title, parameters=parameters)
-    write_page(job.input.template, job.output.table, **describe_page(dataset, materials, labels))
+    datasets.write(dataset, output.dataset, title=title, parameters=parameters)
+    shown = describe_page(dataset, materials, labels)
+    write_page(job.input.template, output.table, **shown)
+    write_page(job.input.page, output.page, files=dict(output.items()), **shown)
+    frame = tabulate_pairs(dataset, shown["pairs"])
+    with datasets.whole_file(output.csv) as path:
+        frame.to_csv(path, index=False, float_format="%.6g")
+    write_workbook(frame, output.workbook)
 
 
 def describe_page(dataset, materials, labels):
-    """What the page shows; `labels` are those of the surfaces."""
+    """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
         "doubts": [doubt for entry in materials.values() for doubt in find_doubts(entry)],
+        "shares": SHARES,
         "pairs": [
-            (materials[m]["label"], labels[s], *describe_pair(dataset.sel(material=m, surface=s)))
-            for m, s in product(dataset.material.values, dataset.surface.values)
+            row | compare(select(dataset, row))
+            for row in sort_pairs(arrange_pairs(dataset, materials, labels))
         ],
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),
     }
 
 
-def describe_pair(pair):
-    """Cells of a pair's row after material and surface."""
-    if int(pair.verdict) == NOT_JUDGED:
-        return WORDS[NOT_JUDGED], *[NOTHING] * 10
+def sort_pairs(rows):
+    """Rows from large to small w/U_full, and before others those that are `mine`, the user's."""
+    rows = sorted(rows, key=lambda row: -row["sort"]["energy_ratio"])
+    mine = choose_mine(rows)
+    return [row | {"mine": row in mine} for row in sorted(rows, key=lambda row: row not in mine)]
+
+
+def select(dataset, row):
+    """The pair that a row describes."""
+    return dataset.sel(material=row["key"], surface=row["name"])
+
+
+def compare(pair):
+    """What a pair keeps, and what other criteria say of it, as texts."""
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    return (
-        f"{WORDS[int(pair.verdict)]} {texts.describe_moment(pair)}".strip(),
-        texts.describe_share(pair),
-        texts.describe_pull_off(pair),
-        texts.show_stress(float(pair.modulus_quoted), texts.MPA),
-        texts.describe_threshold(pair),
-        texts.show_probability(pair),
-        show_range(pair.energy_ratio),
-        interval(*map(float, find_limits(pair, "margin")), 2),
-        show_range(pair.margin.sel(criterion=EDGES)),
-        show_range(dmt),
-        ", ".join(differs) or "none",
-    )
+    by = {"value": (pair.remaining.min(), pair.remaining.max()), "limits": find_limits(pair)}
+    return {
+        "keeps": {
+            f"keeps {percent(share)} by {kind}": says_keeps(*range_, share)
+            for share, (kind, range_) in product(SHARES, by.items())
+        },
+        "dmt": show_range(dmt),
+        "differs": ", ".join(differs) or ("none" if dmt.notnull().all() else NOTHING),
+    }
+
+
+def says_keeps(low, high, share):
+    """Whether at least a share remains between two values, empty where they are not known."""
+    return "yes" if low >= share else "no" if high < share else "depends" if high >= share else ""
+
+
+def tabulate_pairs(dataset, rows):
+    """A row of numbers for every row of texts, with units in the heads; NaN where not known."""
+    found = []
+    for row in rows:
+        pair = select(dataset, row)
+        cells = {"material": row["material"], "material key": row["key"]}
+        cells |= {"surface": row["surface"], "surface key": row["name"]}
+        cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
+        cells |= {"judged": row["moment"], "E* [MPa]": float(pair.modulus_quoted) / MPA}
+        cells |= {f"w/U_full, {end} end": float(pair.energy_ratio.sel(end=end)) for end in ENDS}
+        for name, (head, unit, size) in TABULATED.items():
+            numbers = zip(PARTS, list_numbers(pair, name), strict=True)
+            cells |= {f"{head}, {part} [{unit}]": x / size for part, x in numbers}
+        found.append(cells | row["keeps"])
+    return pd.DataFrame(found)
+
+
+def list_numbers(pair, name):
+    """Values at both ends of the surface, low and high limit of a quantity; NaN where not known."""
+    values = [float(pair[name].sel(end=end)) for end in ENDS]
+    low, high = map(float, find_limits(pair, name))
+    if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
+        return np.nan, np.nan, low, np.nan
+    return (*values, low, high) if np.isfinite(values).all() else [np.nan] * len(PARTS)
+
+
+def write_workbook(frame, output):
+    """Write a table as a workbook, its head in view and ready to filter."""
+    with datasets.whole_file(output) as path, pd.ExcelWriter(path) as writer:
+        frame.to_excel(
+            writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
+        )
+        for cells in writer.sheets["pairs"].columns:
+            width = max(len(str(cell.value or "")) for cell in cells)
+            writer.sheets["pairs"].column_dimensions[cells[0].column_letter].width = width + 2
 
 
 def compare_thresholds(dataset, others, labels):

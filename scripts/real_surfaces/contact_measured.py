@@ -24,7 +24,14 @@ from stickiness.traction_laws import Exponential
 from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
-SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "residual", "attractive_area"]
+SOLVED_VARIABLES = [
+    "area_fraction",
+    "mean_gap",
+    "edge_gap",
+    "residual",
+    "iterations",
+    "attractive_area",
+]
 # With adhesion. Areas of contact change by less than 1e-3 of themselves from here to 1e-5 where
 # the grid hardly resolves the attraction, which is where solutions are slow.
 PRECISION = {"tol": 1e-3, "max_iterations": 10000}
@@ -42,6 +49,8 @@ VARIABLE_TEXTS = {
     "adhesive_attractive_area": "area with gaps up to the range of attraction, by pixels",
     "adhesive_mean_gap": "mean gap over h_rms with adhesion",
     "adhesive_residual": "unbalanced pressure over the strength or the flattening pressure",
+    "adhesive_iterations": "iterations of conjugate gradients with adhesion",
+    "modulus": ("Pa", "plane-strain modulus E*"),
     "edge_resolution": f"pixel over range^2 E*/w; edges are resolved up to {edge_zone.COARSEST}",
     "applied_pressure": ("Pa", "mean pressure"),
 }
@@ -65,6 +74,9 @@ def main(job):
     title = f"contact of the measured heights of {job.wildcards.real_surface}"
     parameters = {"surface": job.wildcards.real_surface, "source": heights.source, **entry}
     found = conventions.annotate(found, **VARIABLE_TEXTS)
+    found = conventions.add_convergence(found, params.tolerance)
+    if "adhesive_residual" in found:
+        found = conventions.add_convergence(found, PRECISION["tol"], "adhesive_")
     datasets.write(found, job.output[0], title=title, parameters=parameters)
 
 
@@ -128,6 +140,7 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
         grids = scaled[::2, ::2], scaled
         curves = [press_with_adhesion(grid, lengths, pressures, law) for grid in grids]
         block = block.merge(xr.concat(curves, "resolution"))
+        block["modulus"] = material.modulus
         block["applied_pressure"] = "pressure", pressures * material.modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])
     return block.assign(h_rms=h_rms, q1=q_max)
@@ -172,7 +185,7 @@ def press_with_adhesion(heights, lengths, pressures, law):
         row = xr.Dataset({"adhesive_contact_area": state.repulsive_area_fraction})
         row["adhesive_attractive_area"] = np.mean(attracted)
         row["adhesive_mean_gap"] = state.mean_gap
-        row["adhesive_residual"] = state.residual
+        row["adhesive_residual"], row["adhesive_iterations"] = state.residual, state.iterations
         rows.append(row)
         logging.info(
             f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "

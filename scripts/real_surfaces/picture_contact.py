@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 from scipy.special import erfinv
 
-from common import conventions
+from common import adhesion_sets, conventions
 from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.contact_picture import draw_still
@@ -44,6 +44,7 @@ PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
 PULL_OFF_TOLERANCE, PULL_OFF_STEPS = 1e-3, 20
+SOLVED = ("residual", "iterations")
 OPEN, ATTRACTED, TOUCHING = range(3)
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
@@ -71,6 +72,8 @@ TEXTS = {
     "attracted_area": "area with gaps up to the range over nominal area, by pixels",
     "zone": "state of a pixel",
     "jumps": "jumps on the way there and back",
+    "modulus": ("Pa", "plane-strain modulus E*"),
+    "work_of_adhesion": ("J/m^2", "work of adhesion"),
     "range": ("m", "range of the attraction simulated"),
     "material_range": ("m", "range of the attraction of the material"),
     "zone_width": "width of the cohesive zone, range^2/(adhesion length), times q0",
@@ -165,7 +168,7 @@ def press(rough, q0, q_cutoff):
         logging.info("load %d: area %.4f", len(rows), state.area_fraction)
     fine = xr.concat(rows, "pressure")
     coarse = load_curve(rough.heights[::2, ::2], rough.sides, loads, (), CONTACT_TOLERANCE)
-    data = fine[[*fields, "area_fraction", "mean_gap", "residual"]]
+    data = fine[[*fields, "area_fraction", "mean_gap", "residual", "iterations"]]
     for name in ("area_fraction", "mean_gap"):
         error = find_error(fine[name].values, coarse[name].values)
         data[f"{name}_discretisation_error"] = "pressure", error
@@ -182,7 +185,8 @@ def press(rough, q0, q_cutoff):
     data = data.assign_coords(pressure=loads / (q0 * h_rms), **rough.centres(2))
     for name in (*fields, "heights"):
         data[name].encoding = {"zlib": True}
-    return conventions.annotate(data.assign_attrs(left_out="", measurement=""), **TEXTS)
+    data = conventions.annotate(data.assign_attrs(left_out="", measurement=""), **TEXTS)
+    return conventions.add_convergence(data, CONTACT_TOLERANCE)
 
 
 def halve(field):
@@ -235,11 +239,14 @@ def separate(rough, band, material, squeeze):
         {
             "mean_gap": ("state", found.gap),
             "mean_traction": ("state", -material.modulus * found.pressure),
+            **{n: ("state", [getattr(point.state, n) for point in found.points]) for n in SOLVED},
             "separating": ("state", found.separating.astype("i1")),
             "zone": (("state", "x", "y"), zones),
             "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
             "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
             "jumps": found.jumps,
+            "modulus": material.modulus,
+            "work_of_adhesion": material.work_of_adhesion,
             "range": range_,
             "material_range": material.range,
             "zone_width": q0 * law.maugis_range**2 / length,
@@ -253,14 +260,17 @@ def separate(rough, band, material, squeeze):
         attrs={"left_out": ""},
     )
     dataset.zone.encoding = {"zlib": True}
-    dataset = conventions.annotate(dataset, **TEXTS)
+    texts = {**TEXTS, "residual": adhesion_sets.STATE["residual"]}
+    dataset = conventions.annotate(dataset, **texts)
+    dataset = conventions.add_convergence(dataset, PULL_OFF_TOLERANCE)
     for name, text in QUOTED.items():
         scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
         for prefix, by, of in (("", "", found), ("predicted_", ", by the model", predicted)):
             values = (getattr(of, name), *getattr(of, f"{name}_limits"))
             for end, value in zip(("", "_low", "_high"), values, strict=True):
-                attrs = {"units": unit, "long_name": text + by + end.replace("_", ", ")}
-                dataset[f"{prefix}{name}{end}"] = (), scale * value, attrs
+                described = {f"{prefix}{name}{end}": (unit, text + by + end.replace("_", ", "))}
+                dataset = dataset.assign(dict.fromkeys(described, scale * value))
+                datasets.annotate(dataset, **described)
     return dataset
 
 

@@ -28,6 +28,7 @@ OTHERS = {
     "jumps": "jumps on the way there and back",
     "pixels_in_zone": "width of the cohesive zone in pixels",
     "fft_pairs": "convolutions",
+    "residual": "largest residual of a state of the path",
 }
 COARSE, HALF = "the grid does not resolve the cohesive zone", "half grid too coarse"
 GRID_ERRORS = {
@@ -98,7 +99,8 @@ def measure(heights, length, law, squeeze):
         warnings.simplefilter("ignore", PlausibilityWarning)
         half_grid = pixels >= 2 * measurement.RESOLVED
         found = measurement.measure(heights, length, law, squeeze, half_grid=half_grid)
-    row |= {key: getattr(found, key) for key in (*QUOTED, *OTHERS)}
+    row["residual"] = max(point.state.residual for point in found.points)
+    row |= {key: getattr(found, key) for key in (*QUOTED, *OTHERS) if key != "residual"}
     for key in QUOTED:
         low, high = getattr(found, f"{key}_limits")
         row[f"{key}_grid_error"] = (high - low) / 2

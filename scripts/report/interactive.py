@@ -80,7 +80,7 @@ def plot_shares(label, **settings):
 
 
 def draw_pairs(verdicts, pairs):
-    """Remaining share of the `pairs` of `write_report.arrange_pairs`, with limits, by w/U_full."""
+    """Remaining share of the `pairs` of `table_rows.arrange_pairs`, with limits, by w/U_full."""
     ranges = {"x_range": (LEAST_RATIO / 1.5, MOST_RATIO * 1.5), "y_range": (-3, 103)}
     plot = plot_shares("work of adhesion over energy of full contact", height=460, **ranges)
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)

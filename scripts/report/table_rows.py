@@ -1,8 +1,8 @@
-"""Verdicts, criteria and sizes of surfaces as rows of tables, for both kinds of page."""
+"""Verdicts, criteria and sizes of surfaces as rows of tables, for all pages."""
 
 import numpy as np
 
-from common import formatting
+from common import formatting, provided
 from common import verdicts as texts
 from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
 from stickiness.criteria.pair import BROAD_A_V, NOT_JUDGED, SIGNS, WORDS
@@ -15,6 +15,20 @@ REGIME_TEXTS = ("weak", "between weak and tough", "tough, near JKR", "strong, bu
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 COLUMNS = ("remaining", "pull_off", "threshold", "energy_ratio", "margin", "onset", "probability")
 COLUMNS += ("errors", "modulus")
+
+
+def arrange_pairs(verdicts, materials, labels):
+    """Rows of all pairs, material by material, those of the user first.
+
+    `materials` are entries by name, and `labels` those of the surfaces.
+    """
+    return [
+        describe_pair(verdicts.sel(material=material, surface=surface))
+        | {"key": material, "material": materials[material]["label"]}
+        | {"name": surface, "surface": labels[surface]}
+        for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
+        for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
+    ]
 
 
 def describe_pair(pair):

@@ -7,14 +7,14 @@ import numpy as np
 import pandas as pd
 
 from common import experiment_outcomes as experiments
-from common import provided
 from common.conventions import at_load
 from common.job import start
 from common.materials import describe_modulus
+from common.provided import choose_mine
 from common.templates import write_page
 from common.verdicts import count_pairs
 from report import interactive, pages
-from report.table_rows import TONES, describe_pair, describe_surface
+from report.table_rows import TONES, arrange_pairs, describe_surface
 from stickiness import datasets, error_budget
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
@@ -46,8 +46,9 @@ def main(job):
         {name: datasets.read(path) for name, path in files[kind].items()}
         for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
-    pairs = arrange_pairs(verdicts)
     materials = datasets.parameters(verdicts)["materials"]
+    labels = {name: entry["label"] for name, entry in params.surfaces.items()}
+    pairs = arrange_pairs(verdicts, materials, labels)
     embed = pages.embed_figure
     write_page(
         inputs.template,
@@ -121,19 +122,6 @@ def count(words, tones):
     return [(word, counts[word], tones.get(word, "open")) for word in order if counts[word]]
 
 
-def arrange_pairs(verdicts):
-    """Rows of all pairs, material by material, those of the user first."""
-    made = datasets.parameters(verdicts)
-    materials, labels = made["materials"], made["labels"]
-    return [
-        describe_pair(verdicts.sel(material=material, surface=surface))
-        | {"key": material, "material": materials[material]["label"]}
-        | {"name": surface, "surface": labels[surface]}
-        for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
-        for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
-    ]
-
-
 def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
     """Settings of every preset, with their predicted cost and errors."""
     given = models, Surface.of(surface), presets["pressures"]
@@ -152,14 +140,6 @@ def compare_theory(comparison):
     """Relative difference of theory from simulation [%] at three of the loads."""
     some = np.unique(np.linspace(0, comparison.sizes["pressure"] - 1, 5).astype(int)[1:4])
     return 100 * comparison.isel(variant=0, pressure=some).interp({"range": COMPARED_RANGE})
-
-
-def choose_mine(pairs):
-    """Pairs of the user's materials on the user's surfaces, or on all where one kind is missing."""
-    of_materials = [pair for pair in pairs if pair["key"] not in provided.MATERIALS]
-    of_surfaces = [pair for pair in pairs if pair["name"] not in provided.SURFACES]
-    both = [pair for pair in of_materials if pair in of_surfaces]
-    return both or of_materials or of_surfaces
 
 
 def find_disagreements(verdicts):

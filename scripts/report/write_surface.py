@@ -4,14 +4,13 @@ It has verdicts and their reasons, curves, contact, parameters and spectrum.
 """
 
 import numpy as np
-import xarray as xr
 
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import describe_modulus, find_doubts, read_material
 from common.templates import write_page
-from common.verdicts import describe_moment, describe_pull_off, describe_share
+from common.verdicts import describe_moment
 from criteria.verdicts import judge_materials, read_surfaces
 from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
@@ -42,7 +41,7 @@ def main(job):
     }
     contact = bem = None
     if inputs.get("contact"):
-        contact = describe_contact(inputs, pairs, entries, mine)
+        contact = describe_contact(inputs, entries, mine)
     if inputs.get("measured_contact"):
         bem = describe_measured_contact(datasets.read(inputs.measured_contact, ["a_v"]))
     write_page(
@@ -104,7 +103,7 @@ def list_rates(solid, pair):
     return list(dict.fromkeys(texts))
 
 
-def describe_contact(files, pairs, entries, mine):
+def describe_contact(files, entries, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map."""
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
@@ -128,15 +127,10 @@ def describe_contact(files, pairs, entries, mine):
         "pull_off": pull_off,
     }
     if not pull_off.attrs["left_out"]:
-        verdict = pairs.sel(material=made["material"])
         outside = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
         found |= {
             "outside": outside,
             "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
-            "compared": [
-                {"remaining": describe_share(each), "pull_off": describe_pull_off(each)}
-                for each in (as_pair(pull_off, ""), as_pair(pull_off, "predicted_"), verdict)
-            ],
         }
     return found
 
@@ -170,18 +164,6 @@ def overlap(pull_off, name):
     low, model_low = pull_off[f"{name}_low"], pull_off[f"predicted_{name}_low"]
     high, model_high = pull_off[f"{name}_high"], pull_off[f"predicted_{name}_high"]
     return bool(low <= model_high and model_low <= high)
-
-
-def as_pair(pull_off, prefix):
-    """Simulated or predicted numbers under the names of a verdict, at ends that agree."""
-    found = {
-        f"{name}{end}": pull_off[f"{prefix}{simulated}{end}"]
-        for name, simulated in (("remaining", "separation"), ("pull_off", "pull_off"))
-        for end in ("", "_low", "_high")
-    }
-    # Where this is large the model knows no pull-off. A simulation does.
-    found["energy_ratio"] = pull_off.energy_ratio * bool(prefix)
-    return xr.Dataset(found).expand_dims(end=2)
 
 
 def describe_measured_contact(bem):

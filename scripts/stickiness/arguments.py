@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import wraps
 from inspect import signature
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -99,7 +100,7 @@ def grid(name: str, values: ArrayLike, square: bool = False) -> NDArray:
     return array
 
 
-def plain(value: ArrayLike) -> bool | float | NDArray:
+def plain(value: ArrayLike) -> Any:
     """Return a Python scalar for a scalar, so that results print and serialise as one expects."""
     value = np.asarray(value)
     return value if value.ndim else value.item()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -17,6 +18,18 @@ import xarray as xr
 
 from stickiness import __version__
 
+# Sign conventions by names of variables; every file states them.
+_SIGNS = {
+    r"(\w+_)?mean_gap(_mean)?": "not negative; rigid displacement, distance of the mean planes of "
+    "the elastic surface and the heights, without the mean compression of a layer",
+    r"(edge_)?gap(_mean)?": "0 in contact, positive outside",
+    r"(\w+_)?pressure(_mean)?": "positive in compression; the total load is the mean times the "
+    "nominal area",
+    r"attraction\w*": "positive where the surfaces attract each other",
+    r"\w+_traction|(predicted_)?pull_off(_low|_high|_quantile)?": "positive in tension",
+    r"interaction_energy": "negative where the surfaces attract each other",
+    r"heights?": "positive towards the elastic solid",
+}
 _TEXTS = ("units", "long_name", "nan_means")
 _CODES = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4")
 
@@ -38,9 +51,13 @@ def provenance() -> dict[str, str]:
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
-    """Set `units`, `long_name` and, if a variable may hold NaN, what that means (in this order)."""
+    """Set `units`, `long_name` and, if a variable may hold NaN, what that means (in this order).
+
+    What the sign of a pressure or a gap means follows from the name of the variable.
+    """
     for name, texts in described.items():
-        dataset[name].attrs = dict(zip(_TEXTS, texts, strict=False))
+        signs = (("sign_convention", s) for p, s in _SIGNS.items() if re.fullmatch(p, name))
+        dataset[name].attrs = dict([*signs, *zip(_TEXTS, texts, strict=False)])
     return dataset
 
 

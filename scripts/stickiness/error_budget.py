@@ -58,8 +58,8 @@ def with_budget(dataset: xr.Dataset, name: str, **components: ErrorComponent) ->
         for source, part in zip(SOURCES, parts, strict=True)
         if np.isnan(part.error).any()
     ]
-    missing = ", or ".join(dict.fromkeys(filter(None, missing)))
-    gaps = {"nan_means": missing} if missing else {}
+    reasons = ", or ".join(dict.fromkeys(filter(None, missing)))
+    gaps = {"nan_means": reasons} if reasons else {}
     long_name = f"error by source, covers 90 %: {text}"
     error.attrs = {"units": units, "long_name": long_name, **gaps, "comment": comment}
     total.attrs = {"units": units, "long_name": f"error by all sources: {text}", **gaps}

@@ -159,7 +159,11 @@ class LennardJones(TractionLaw):
 
 EXPONENTIAL = "exponential"  #: the law that simulations are made with
 #: Laws by the names that a configuration gives them.
-LAWS = {"maugis": Maugis, EXPONENTIAL: Exponential, "van_der_waals": VanDerWaals}
+LAWS: dict[str, type[TractionLaw]] = {
+    "maugis": Maugis,
+    EXPONENTIAL: Exponential,
+    "van_der_waals": VanDerWaals,
+}
 #: Laws with which what remains of adhesion is predicted; with that of Maugis it was up to seven
 #: times too small where attraction is weak.
 PREDICTED = (EXPONENTIAL, "van_der_waals")

@@ -35,6 +35,26 @@ def test_paths_in_the_map_exist():
     assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
+# Heads of columns that every reader knows, or that name what the table is about.
+PLAIN = """material surface errors source no claim claimed remark from subject printed correct proof
+recomputed experiment quantity observed predicted outcome on paper remarks case value allowed cost
+grid largest answer reason within the both ways heights theory without in all measured waves and means"""
+
+
+def test_heads_of_tables_are_in_the_glossary():
+    terms = re.findall(r"^\| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text("utf-8"), re.M)
+    known = {*PLAIN.split(), *re.findall(r"[\w*]+", re.sub(r"[\\_]", "", " ".join(terms)).lower())}
+    missing = set()
+    for page in sorted((ROOT / "report").glob("*.html.j2")):
+        text = re.sub(r"{%.*?%}|{{.*?}}", " ", page.read_text(encoding="utf-8"))
+        for head in re.findall(r'<th scope="col"[^>]*>(.*?)</th>', text):
+            words = re.findall(
+                r"[^\W\d][\w*]*", re.sub(r"<br>.*|<[^>]*>|\[.*?\]|&\w+;", "", head).lower()
+            )
+            missing |= {(page.name, head, word) for word in words if word not in known}
+    assert missing == set()
+
+
 @pytest.mark.slow
 def test_the_example_of_the_library_runs(tmp_path):
     done = subprocess.run(

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from common import verdicts as texts
 from common.formatting import number
 from report import interactive, pages, write_report
-from report.table_rows import describe_pair, describe_surface
+from report.table_rows import arrange_pairs, describe_pair, describe_surface
 from stickiness import datasets
 from stickiness import error_budget as budget
 from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES, WORDS
@@ -277,7 +277,8 @@ def page(results, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def pairs(verdicts):
-    return write_report.arrange_pairs(verdicts)
+    made = datasets.parameters(verdicts)
+    return arrange_pairs(verdicts, made["materials"], made["labels"])
 
 
 @pytest.mark.slow

@@ -10,15 +10,19 @@ passes over points one by one, each with a small jump (a Maugis zone always does
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from stickiness.adhesive import solver
 from stickiness.adhesive.solver import APPROACH, SEPARATION, Adhesion, PullOffError
 from stickiness.arguments import grid, number
-from stickiness.solids import HALF_SPACE
+from stickiness.repulsive.solver import Contact
+from stickiness.solids import HALF_SPACE, Solid
+from stickiness.traction_laws import TractionLaw
 
 # Smooth law or not: by which a step may be refined for the sake of the balance alone.
 _SUBSTEPS = {True: 16, False: 4}
@@ -42,20 +46,20 @@ class PathPoint:
 
 
 def path(
-    heights,
-    length,
-    law,
-    values,
-    control="pressure",
-    start=None,
-    tol=1e-8,
-    balance=1e-5,
-    smallest_jump=1e-3,
-    located=1e-4,
-    steps=20,
-    max_states=5000,
-    max_iterations=3000,
-    solid=HALF_SPACE,
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    law: TractionLaw,
+    values: Iterable[float],
+    control: Literal["pressure", "mean_gap"] = "pressure",
+    start: str | Adhesion | Contact | ArrayLike | None = None,
+    tol: float = 1e-8,
+    balance: float = 1e-5,
+    smallest_jump: float = 1e-3,
+    located: float = 1e-4,
+    steps: int = 20,
+    max_states: int = 5000,
+    max_iterations: int = 3000,
+    solid: Solid = HALF_SPACE,
 ) -> Iterator[PathPoint]:
     """Follow the contact through rising and falling pressure or mean gap.
 

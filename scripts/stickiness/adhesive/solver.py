@@ -4,6 +4,7 @@ import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.equilibrium import relax
@@ -12,8 +13,8 @@ from stickiness.arguments import grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
-from stickiness.repulsive.solver import ConvergenceError
-from stickiness.solids import HALF_SPACE, check_solid
+from stickiness.repulsive.solver import Contact, ConvergenceError
+from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.traction_laws import TractionLaw, check_law
 
 APPROACH, SEPARATION = "approach", "separation"
@@ -59,12 +60,12 @@ class Adhesion:
     rms_height: float  #: about the mean
 
     @property
-    def energy(self):
+    def energy(self) -> float:
         """Elastic plus interaction energy per nominal area [E* length]."""
         return self.elastic_energy + self.interaction_energy
 
     @property
-    def enthalpy(self):
+    def enthalpy(self) -> float:
         """Energy plus the potential energy of the load, lowest in the deepest state [E* length]."""
         return self.energy + self.mean_pressure * self.mean_gap
 
@@ -74,15 +75,15 @@ class PullOffError(ConvergenceError):
 
 
 def solve(
-    heights,
-    length,
-    law,
-    pressure=None,
-    mean_gap=None,
-    start=None,
-    tol=1e-8,
-    max_iterations=3000,
-    solid=HALF_SPACE,
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    law: TractionLaw,
+    pressure: float | None = None,
+    mean_gap: float | None = None,
+    start: str | Adhesion | Contact | ArrayLike | None = None,
+    tol: float = 1e-8,
+    max_iterations: int = 3000,
+    solid: Solid = HALF_SPACE,
 ) -> Adhesion:
     """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import get_args
 
 import numpy as np
 import xarray as xr
@@ -19,11 +20,11 @@ from scipy.special import ndtri
 
 from stickiness.arguments import plain, positive
 from stickiness.criteria.formulas import pastewka_robbins_a_v
-from stickiness.persson.theory import Persson
+from stickiness.persson.theory import Persson, Variant
 from stickiness.spectrum.interface import Spectrum
 
 PARTED = 1.5  #: ratio of the theory's variants from which on neither resolves the edges of contact
-VARIANTS = ("afferrante2018", "almqvist2011")  #: P(0) infinite and finite: limits on the truth
+VARIANTS = get_args(Variant)  #: P(0) infinite and finite: limits on the truth
 NORMAL_90 = float(ndtri(0.95))  #: standard errors either side that cover 90 %
 LOAD = 0.065  #: mean pressure over E* q0 h_rms, amid those where area grows with load in proportion
 RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evaluated

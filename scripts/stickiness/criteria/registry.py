@@ -37,11 +37,11 @@ class Criterion:
     name: str  #: in datasets
     label: str  #: for people
     #: threshold over actual value in the criterion's usual form; sticky above 1
-    margin: Callable[[Pair], NDArray]
+    margin: Callable[[Pair], float | NDArray]
     reason: str  #: what it looks at, for `str.format` with the facts of a pair on its page
     power: float | None = None  #: of the adhesion length, that the margin is proportional to
     #: adhesion length [m] above which the pair sticks, of a margin that is no power of it
-    length: Callable[[Pair], NDArray] | None = None
+    length: Callable[[Pair], float | NDArray] | None = None
     #: [Pa] below which everything sticks, of a criterion without adhesion length
     modulus: float | None = None
     line: Line = Line()  #: in figure 9
@@ -51,7 +51,7 @@ class Criterion:
         """Whether there is an adhesion length above which the criterion says sticky."""
         return self.modulus is None
 
-    def adhesion_length_threshold(self, pair: Pair) -> NDArray:
+    def adhesion_length_threshold(self, pair: Pair) -> float | NDArray:
         """Adhesion length [m] above which the pair sticks."""
         if self.length is not None:
             return self.length(pair)

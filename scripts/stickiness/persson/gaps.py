@@ -106,7 +106,7 @@ def gap_curve(setting: Setting, p: float) -> GapCurve:
     tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
     count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
     edges = np.linspace(low, high, 1 + count)
-    panels, done = np.stack([edges[:-1], edges[1:]], axis=1), []
+    panels, done = np.stack([edges[:-1], edges[1:]], axis=1), list[tuple]()
     while len(panels):
         start, end = panels.T
         log_steps = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
@@ -192,9 +192,9 @@ def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
         half = 0.5 * np.diff(edges)[chosen, None]
         at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
         weights.append((half * w).ravel())
-    at, weights = np.concatenate(at), np.concatenate(weights)
-    order = np.argsort(at)
-    return at[order], weights[order]
+    nodes = np.concatenate(at)
+    order = np.argsort(nodes)
+    return nodes[order], np.concatenate(weights)[order]
 
 
 def _gaussians(curve: GapCurve, variant: str, log_step: NDArray) -> tuple[NDArray, ...]:

@@ -10,6 +10,7 @@ makes the elastic energy of a scale A S(A) times that of full contact. With K = 
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import ClassVar, Literal
@@ -28,16 +29,20 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
 @dataclass(frozen=True)
-class Correction:
-    """How lost contact slows the diffusion of pressure and takes elastic energy from each scale.
-
-    At the area A = erf(y) subclasses give `diffusion`, S = dV_eff/dV, the growth of the pressure
-    variance over that in full contact, from gamma at A = 0 to 1, and `energy`, K = d(A S)/dA.
-    """
+class Correction(ABC):
+    """How lost contact slows the diffusion of pressure and takes elastic energy from each scale."""
 
     gamma: float
     own_gamma: ClassVar[float] = 0.45  #: the source's
     lowest_gamma: ClassVar[float] = 0.0  #: not itself allowed
+
+    @abstractmethod
+    def diffusion(self, y: ArrayLike) -> NDArray:
+        """S = dV_eff/dV at the area A = erf(y): gamma at A = 0, 1 in full contact."""
+
+    @abstractmethod
+    def energy(self, y: ArrayLike) -> NDArray:
+        """K = d(A S)/dA at the area A = erf(y)."""
 
 
 class Yang2008(Correction):
@@ -86,25 +91,25 @@ class Xu2024(Correction):
     energies. It takes gamma = 0.45 for areas and pressures and 0.42 for energies.
     """
 
-    def _parts(self, y: NDArray) -> tuple[NDArray, NDArray, NDArray]:
+    def _parts(self, y: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
         """Return g, dg/dy and g + (y/2) dg/dy."""
         lacking = 1 - self.gamma
         g = self.gamma + lacking * erf(y)
         slope = lacking * 2 / np.sqrt(np.pi) * np.exp(-(y**2))
         return g, slope, g + 0.5 * y * slope
 
-    def diffusion(self, y: NDArray) -> NDArray:
+    def diffusion(self, y: ArrayLike) -> NDArray:
         g, _, below = self._parts(y)
         return g**2 / below
 
-    def energy(self, y: NDArray) -> NDArray:
+    def energy(self, y: ArrayLike) -> NDArray:
         g, slope, below = self._parts(y)
         # 2 below - g (3/2 - y^2), without the terms that cancel
         change = (0.5 + y**2) * g + y * slope
         return g**2 / below + erf(y) * (1 - self.gamma) * g * change / below**2
 
 
-_KINDS = {"yang2008": Yang2008, "wang2017": Wang2017, "xu2024": Xu2024}
+_KINDS: dict[str, type[Correction]] = {"yang2008": Yang2008, "wang2017": Wang2017, "xu2024": Xu2024}
 CORRECTIONS = tuple(_KINDS)
 
 

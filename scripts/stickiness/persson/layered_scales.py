@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from stickiness.persson.kernels import Kernels
 from stickiness.persson.scale_quadrature import scale_edges, split_panels
-from stickiness.solids import Layer
+from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
 
 _ORDER = 8  # of Gauss quadrature on panels
@@ -23,7 +23,7 @@ _ORDER = 8  # of Gauss quadrature on panels
 class LayeredScales:
     """Variance m of a spectrum on a layer, and the mean gap that its scales make."""
 
-    def __init__(self, spectrum: Spectrum, solid: Layer, nodes: float = 1.0):
+    def __init__(self, spectrum: Spectrum, solid: Solid, nodes: float = 1.0):
         self.spectrum, self.solid = spectrum, solid
         if spectrum.is_discrete:
             self._q = spectrum.q
@@ -63,7 +63,7 @@ class LayeredScales:
         q = np.exp(log_q)
         return np.pi * q**2 * self.spectrum.psd(q) * self._slope_weight(q)
 
-    def _gauss_nodes(self, nodes: float) -> tuple[NDArray, NDArray, NDArray]:
+    def _gauss_nodes(self, nodes: float) -> tuple[NDArray, ...]:
         """Wave numbers, m there, and what m grows by with the weight of each."""
         edges = np.log(self.spectrum.q0) + scale_edges(self.spectrum)
         m = np.array([self.variance_below(q) for q in np.exp(edges)])

@@ -11,14 +11,17 @@ loaded on a rectangle, and coarser grids supply a guess of the pressure. There, 
 `projected_gradients` takes over where active sets fail.
 """
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from stickiness.arguments import grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
 from stickiness.repulsive import active_set, half_space, projected_gradients, sharing
-from stickiness.solids import HALF_SPACE, check_solid
+from stickiness.solids import HALF_SPACE, Solid, check_solid
 
 _MIN_COARSE_POINTS = 128  # points along the shorter side of the coarsest grid
 # Relative change of load up to which the last solution is the better start.
@@ -82,22 +85,22 @@ class ConvergenceError(RuntimeError):
     `contact` is the best iterate, `residual` its residual in units of h_rms.
     """
 
-    def __init__(self, message, contact):
+    def __init__(self, message: str, contact: Any):
         super().__init__(message)
         self.contact = contact
         self.residual = contact.residual
 
 
 def solve(
-    heights,
-    length,
-    pressure,
-    tol=1e-8,
-    start=None,
-    max_iterations=1000,
-    solid=HALF_SPACE,
-    periodic=True,
-    threads=1,
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    pressure: float,
+    tol: float = 1e-8,
+    start: Contact | None = None,
+    max_iterations: int = 1000,
+    solid: Solid = HALF_SPACE,
+    periodic: bool = True,
+    threads: int = 1,
 ) -> Contact:
     """Solve the contact of an elastic solid with a rigid surface at a mean pressure.
 
@@ -226,7 +229,13 @@ def press(problem, tol, start=None, limit=1000, scale=None):
     return contact
 
 
-def load_path(heights, length, pressures, tol=1e-8, **options):
+def load_path(
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    pressures: Iterable[float],
+    tol: float = 1e-8,
+    **options: Any,
+) -> Iterator[Contact]:
     """Solve one surface at several mean pressures [E*]; yields one `Contact` for each, in order.
 
     A solution at nearly the same pressure is the start of the next; beyond a relative change of

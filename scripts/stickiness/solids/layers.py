@@ -15,6 +15,7 @@ yields, by `mean_compliance` times the mean pressure.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -28,8 +29,12 @@ _SERIES = 1.5  # 2k below which sinh and cosh are expanded
 _TERMS = 12
 
 
-class _Compliant:
+class _Compliant(ABC):
     """What follows from the compliance over that of a half-space."""
+
+    @abstractmethod
+    def factor(self, q: ArrayLike) -> float | NDArray:
+        """Compliance over that of a half-space."""
 
     def compliance(self, q: ArrayLike) -> float | NDArray:
         """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
@@ -136,7 +141,7 @@ class Layer(_Compliant):
         factor = np.ones(k.shape)
         factor[long] = self._slipping(k[long]) if self.backing == "slip" else self._bonded(k[long])
         if isinstance(self.backing, Film):
-            factor += self._bending(q)
+            factor += self._bending(self.backing, q)
         return plain(factor)
 
     def in_unit(self, length: float) -> Layer:
@@ -146,9 +151,8 @@ class Layer(_Compliant):
             backing = replace(backing, thickness=backing.thickness / length)
         return replace(self, thickness=self.thickness / length, backing=backing)
 
-    def _bending(self, q: ArrayLike) -> NDArray:
+    def _bending(self, film: Film, q: ArrayLike) -> NDArray:
         """What bending of the film adds to S: E*/(2 D q^3)."""
-        film = self.backing
         stiffness = film.modulus_ratio * (1 - self.poisson**2) / (1 - film.poisson**2)
         thin = np.asarray(q, dtype=float) * film.thickness
         return 6 / (stiffness * np.maximum(thin, np.finfo(float).tiny ** 0.25) ** 3)

@@ -77,7 +77,7 @@ class Prony:
         modulus over E(dwell).
         """
         dwell, omega = number("dwell", dwell), 2 * np.pi * number("frequency", frequency)
-        relaxed = self.relaxation(dwell)
+        relaxed = float(self.relaxation(dwell))
         moduli, times = np.array(self.terms).T
         most = float(self.equilibrium + moduli.sum()) / relaxed
         # With g = f/cosh(t) the integrand is smooth, even in t, and vanishes exponentially.

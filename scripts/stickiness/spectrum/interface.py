@@ -41,7 +41,9 @@ class Spectrum(ABC):
     q0: float
     q1: float
     prescribed: str = "C"  # what fixes the size of the spectrum
-    is_discrete: bool = False  # whether it sits on shells, with arrays `q` and `variance`
+    is_discrete: bool = False  # whether it sits on shells, which have these arrays:
+    q: NDArray
+    variance: NDArray
     ellipse: Ellipse = CIRCLE
 
     @abstractmethod

@@ -34,7 +34,8 @@ class PowerLawSegments(Spectrum):
         self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
     ):
         laws = (np.asarray(values, dtype=float) for values in (knots, level, exponent))
-        self._knots, self._level, self._exponent = self._laws = tuple(laws)
+        self._knots, self._level, self._exponent = laws
+        self._laws = self._knots, self._level, self._exponent
         self.ellipse, self.q0, self.q1 = ellipse, float(self._knots[0]), float(self._knots[-1])
 
     @property
@@ -63,13 +64,13 @@ class PowerLawSegments(Spectrum):
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         mean = self.averaged()
-        q = np.clip(*nonnegative(q=q), mean.q0, mean.q1)
+        q = np.clip(nonnegative(q=q)[0], mean.q0, mean.q1)
         i = mean._segment(q)
         return mean._below_knots(power)[i] + mean._integral(i, mean._knots[i], q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         mean = self.averaged()
-        q = np.clip(*nonnegative(q=q), mean.q0, mean.q1)
+        q = np.clip(nonnegative(q=q)[0], mean.q0, mean.q1)
         i = mean._segment(q)
         after = np.append(np.cumsum(mean._whole_segments(power)[::-1])[::-1], 0.0)
         return after[i + 1] + mean._integral(i, q, mean._knots[i + 1], power)
@@ -385,14 +386,14 @@ class Sum(Spectrum):
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Sum of what the parts contribute, each scaled to its prescribed h_rms."""
-        total = 0
+        total = np.zeros(len(i))
         for part in self.parts:
             inside = part.modes_in_band(i, j, dq)
             variance = np.zeros(len(i))
             variance[inside] = part.mode_variance(i[inside], j[inside], dq)
             if part.prescribed == "h_rms" and variance.any():
                 variance *= part.h_rms**2 / (2 * variance.sum())
-            total = total + variance
+            total += variance
         return total
 
 
@@ -420,8 +421,8 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
         q = np.concatenate([one.q for one in spectra])
         order = np.argsort(q, kind="stable")
         q, variance = q[order], np.concatenate([one.variance for one in spectra])[order]
-        first = _find_first(q)  # shells at one wave number hold the sum
-        return Shells(q[first], np.add.reduceat(variance, first))
+        start = _find_first(q)  # shells at one wave number hold the sum
+        return Shells(q[start], np.add.reduceat(variance, start))
     if any(shells):
         raise ValueError(
             "combine: shells and a density have no common form; take surface.lattice_spectrum of "
