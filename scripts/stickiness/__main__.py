@@ -71,11 +71,13 @@ def main() -> None:
     name = re.sub("[^A-Za-z0-9-]+", "_", given.file.stem).strip("_-") or "surface"
     write_configuration(given, name)
     page = f"results/draft/report/surfaces/{name}.html"
-    command = [sys.executable, "-m", "snakemake", "--snakefile", PROJECT / "Snakefile"]
+    command = [sys.executable, "-m", "snakemake", "--snakefile", f"{PROJECT}/Snakefile"]
     command += ["--cores=1", "--quiet=all", "--", page]  # three jobs, one after another
-    output = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "encoding": "utf-8"}
+    pipe, joined = subprocess.PIPE, subprocess.STDOUT
     try:
-        run = subprocess.run(command, cwd=given.output, check=False, **output)
+        run = subprocess.run(
+            command, cwd=given.output, stdout=pipe, stderr=joined, encoding="utf-8", check=False
+        )
     except KeyboardInterrupt:
         fail("stopped; the same command goes on")
     if run.returncode:
@@ -94,7 +96,7 @@ def read_options() -> argparse.Namespace:
     """Return what the command line gives, by the keys of the configuration."""
     style = argparse.RawDescriptionHelpFormatter
     parser = argparse.ArgumentParser(None, USAGE, __doc__, NOTES, formatter_class=style)
-    parser.error = fail  # type: ignore[method-assign]
+    parser.error = fail  # type: ignore[assignment, method-assign]
     parser.add_argument("file", type=Path, metavar="FILE", help="heights, of any instrument")
     parser.add_argument("--tape", type=Path, metavar="FILE", help="materials, as shown below")
     folder, text = Path("stickiness-results"), "for results (default: stickiness-results)"
@@ -134,14 +136,15 @@ def write_configuration(given: argparse.Namespace, name: str) -> None:
     own = config.is_file() and config.read_text(encoding="utf-8").startswith(MARK)
     if folder.is_file() or (not own and folder.is_dir() and any(folder.iterdir())):
         fail(f"--output {folder} holds something else; give a new folder")
-    material = {"label": "the material", "source": "command line"}
-    material |= {"poisson_ratio": 0.5, "range": "0.3 nm"} | choose(given, MATERIAL)
-    surface = {"kind": "measured", "file": str(given.file.absolute())}
-    surface |= {"label": given.file.stem, "source": given.file.name} | choose(given, SURFACE)
+    material = {"label": "the material", "source": "command line", "poisson_ratio": 0.5}
+    surface = {"label": given.file.stem, "source": given.file.name, "kind": "measured"}
+    surface |= {"file": str(given.file.absolute())} | choose(given, SURFACE)
     tape = str(given.tape.absolute()) if given.tape else "config/materials.yaml"
     files = {
         "config": {"fidelity": "draft", "materials": tape, "surfaces": "config/surfaces.yaml"},
-        "materials": {"materials": {"material": material}},
+        "materials": {
+            "materials": {"material": material | {"range": "0.3 nm"} | choose(given, MATERIAL)}
+        },
         "surfaces": {"surfaces": {name: surface}},
     }
     config.parent.mkdir(parents=True, exist_ok=True)
