@@ -95,6 +95,9 @@ rule write_surface:
     params:
         **JUDGED,
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        labels=lambda wildcards: {
+            name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
+        },
         code=source_hash("report/write_surface.py"),
     script:
         "../scripts/report/write_surface.py"

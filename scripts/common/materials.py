@@ -1,15 +1,17 @@
 """Materials of the configuration in SI units."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from common.formatting import amount, number
 from stickiness.plausibility import LIMITS
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL
 from stickiness.units import si
 
+LEAST_READABLE, MOST_READABLE = 1e-3, 1e4  # numbers in the unit that a modulus was given in
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
 
 
@@ -42,26 +44,21 @@ class Material:
             return 1.0, 1.0, 1.0
         return self.plane_strain.separation_factor(self.dwell, self.broken_at)
 
-    @property
-    def is_scalable(self):
-        """Whether all that deforms has the material's modulus: a film has another."""
-        return not isinstance(getattr(self.solid, "backing", None), Film)
-
 
 def read_material(entry):
     """`Material` from its entry in the configuration."""
-    return Material(
+    material = Material(
         plane_strain=read_modulus(entry),
         work_of_adhesion=si(entry["work_of_adhesion"], "J/m^2"),
         range=si(entry["range"], "m"),
         depends_on_rate=any(key in entry for key in RATE_KEYS),
-        solid=read_solid(entry),
         surface=entry.get("surface"),
         law=entry.get("law", EXPONENTIAL),
         pressed=si(entry.get("pressed", "0 Pa"), "Pa"),
         dwell=si(entry["dwell"], "s") if "dwell" in entry else np.nan,
         broken_at=si(entry.get("broken_at", "1 Hz"), "Hz"),
     )
+    return replace(material, solid=read_solid(entry, material.modulus))
 
 
 def find_doubts(entry):
@@ -72,14 +69,14 @@ def find_doubts(entry):
             yield f"{name} = {entry[key]} is improbable: {limits.reason}"
 
 
-def read_solid(entry):
-    """Half-space, or layer on a rigid base or a film."""
+def read_solid(entry, modulus):
+    """Half-space, or layer of this E* [Pa] on a rigid base or a film."""
     if "thickness" not in entry:
         return HALF_SPACE
     backing = entry.get("backing", "bonded")
     if not isinstance(backing, str):
-        layer = read_modulus(entry).storage(REFERENCE_FREQUENCY) * (1 - entry["poisson_ratio"] ** 2)
-        ratio = si(backing["youngs_modulus"], "Pa") / float(layer)
+        layer = modulus * (1 - entry["poisson_ratio"] ** 2)
+        ratio = si(backing["youngs_modulus"], "Pa") / layer
         backing = Film(ratio, backing["poisson_ratio"], si(backing["thickness"], "m"))
     return Layer(si(entry["thickness"], "m"), entry["poisson_ratio"], backing)
 
@@ -103,8 +100,24 @@ def read_modulus(entry):
     return Constant(factor * si(entry["youngs_modulus"], "Pa"))
 
 
-def describe_modulus(entry):
-    """Modulus as the configuration states it, with the layer and the roughness of the solid."""
+def show_modulus(modulus, entry, digits=2):
+    """E* [Pa] as the modulus and the unit that the configuration gives, e.g. "E = 0.2 MPa"."""
+    if "plane_strain_modulus" in entry:
+        name, given = "E*", entry["plane_strain_modulus"]
+    else:
+        name, modulus = "E", modulus * (1 - entry["poisson_ratio"] ** 2)
+        series = entry.get("youngs_modulus_prony", {"equilibrium": entry.get("youngs_modulus")})
+        table = entry.get("youngs_modulus_table", [("", series["equilibrium"])])
+        given = table[0][1]
+    unit = given.lstrip("0123456789.+-eE ")
+    value = modulus / si(f"1 {unit}", "Pa")
+    readable = LEAST_READABLE <= value < MOST_READABLE
+    text = f"{number(value, digits)} {unit}" if readable else amount(modulus, "Pa", digits)
+    return f"{name} = {text}"
+
+
+def describe_modulus(entry, labels):
+    """Modulus as configured, with the layer and, by the `labels` of surfaces, the roughness."""
     if "plane_strain_modulus" in entry:
         text = f"E* = {entry['plane_strain_modulus']}"
     elif "youngs_modulus_table" in entry:
@@ -126,4 +139,4 @@ def describe_modulus(entry):
             base = f" on a film of {backing['thickness']} and {backing['youngs_modulus']}"
         text += f", {entry['thickness']} thick{base}"
     text = text.replace(" um", " µm")
-    return f"{text}, rough as {entry['surface']}" if "surface" in entry else text
+    return f"{text}, rough as {labels[entry['surface']]}" if "surface" in entry else text

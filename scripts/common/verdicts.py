@@ -2,13 +2,12 @@
 
 import numpy as np
 
-from common.formatting import NOTHING, amount, duration, interval, number, percent
+from common.formatting import amount, duration, interval, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
 KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
 LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
-MOST_STRAIN = 0.3  # up to which a layer is taken for linear
 SHARES = (0.01, 0.1, 0.3)  # of the work of adhesion, that may be wanted
 
 
@@ -17,16 +16,28 @@ def find_limits(dataset, name="remaining"):
 
     Over both ends of the surface and the limits of the model; on a measured surface quantiles of
     the spectra drawn within its errors, with errors of the model. `name` may be another quantity.
+    Of margins and thresholds they are where the limits of the share are the wanted share.
     """
     low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
     if f"{name}_quantile" in dataset:
         drawn = dataset[f"{name}_quantile"]
         low = drawn.isel(quantile=0, drop=True).fillna(low)
         high = drawn.isel(quantile=-1, drop=True).fillna(high)
-    if "layer_strain" in dataset:
-        # Heights that a linear layer cannot take stiffen it: nothing may remain.
-        low = low.where(dataset.layer_strain.max("end") <= MOST_STRAIN, 0.0)
     return low, high
+
+
+def find_value(dataset, name="remaining"):
+    """One value of a quantity, between its limits: the median of draws, or the mean of both ends.
+
+    Of margins and moduli, which span decades, that is the geometric mean.
+    """
+    value = dataset[name].mean("end")
+    if name not in ("remaining", "pull_off"):
+        value = np.exp(np.log(dataset[name]).mean("end"))
+    if f"{name}_quantile" in dataset:
+        drawn = dataset[f"{name}_quantile"]
+        value = drawn.isel(quantile=drawn.sizes["quantile"] // 2, drop=True).fillna(value)
+    return value
 
 
 def count_pairs(dataset):
@@ -37,11 +48,10 @@ def count_pairs(dataset):
 
 def describe_share(pair):
     """Share of the work of adhesion that remains, or a multiple, with the limits that decide."""
-    low, high = (round_share(limit) for limit in find_limits(pair))
+    low, high, value = map(round_share, (*find_limits(pair), find_value(pair)))
     show = percent if high <= 1 else lambda share: number(share, 2)
-    value = show_shares(*sorted(map(round_share, pair.remaining.values)), show=show)
     limits = show_shares(low, high, " to ", show)
-    text = value if limits == value else f"{value} ({limits})"
+    text = show(value) if limits == show(value) else f"{show(value)} ({limits})"
     return text if high <= 1 else f"{text} times"
 
 
@@ -67,21 +77,24 @@ def show_shares(low, high, between=" … ", show=percent):
 
 
 def describe_pull_off(pair):
-    """Pull-off stress [kPa] with its limits; a dash where nothing holds.
+    """Pull-off stress [kPa] with its limits.
 
     Near full contact, which was not simulated, only a low limit is known.
     """
-    low, high = map(float, find_limits(pair, "pull_off"))
-    if high == 0:
-        return NOTHING
+    low = float(find_limits(pair, "pull_off")[0])
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
         return f"at least {show_stress(low, KPA)}" if low >= LEAST_STRESS else "not known"
     return describe_stress(pair, "pull_off", KPA)
 
 
 def show_probability(pair):
-    """Share of the draws that stick; of none or all of them a bound, for draws are few."""
-    share = float(pair.probability)
+    """Share of the draws that stick; of none or all of them a bound, for draws are few.
+
+    An interval where a layer may not withstand all heights, which the draws do not know.
+    """
+    low, share = float(pair.probability_low), float(pair.probability)
+    if low < share:
+        return show_shares(low, share, " to ")
     if share not in (0, 1):
         return percent(share)
     error = float(pair.probability_total_error)
@@ -94,14 +107,11 @@ def describe_threshold(pair):
 
 
 def describe_stress(pair, name, unit):
-    """Values in a unit [Pa] at both ends of the surface, with the limits of all that is unknown."""
+    """Value in a unit [Pa], with the limits of all that is unknown."""
     low, high = map(float, find_limits(pair, name))
-    if np.isnan(low):
-        return NOTHING
-    if high < LEAST_STRESS:
-        return show_stress(high, unit)
-    values = sorted(map(float, pair[name].values))
-    return f"{show_stresses(*values, unit)} ({show_stresses(low, high, unit, ' to ')})"
+    limits = show_stresses(low, high, unit, " to ")
+    value = show_stress(float(find_value(pair, name)), unit)
+    return value if high < LEAST_STRESS or limits == value else f"{value} ({limits})"
 
 
 def show_stresses(low, high, unit, between=" … "):

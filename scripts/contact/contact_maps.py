@@ -11,12 +11,11 @@ from stickiness.repulsive import solver
 def main(job):
     surface = read_first(job.input.surfaces)
     pressures = np.sort(job.params.pressures)
+    tolerance = job.params.tolerance
     heights, length = surface.height.values, float(surface.window_length)
-    contacts = solver.load_path(heights, length, pressures, tol=job.params.tolerance)
+    contacts = solver.load_path(heights, length, pressures, tol=tolerance)
     text = "contact pressure over E* q0 h_rms"
-    dataset = gather_fields(
-        list(contacts), pressures, surface, job.params.tolerance, contact_pressure=text
-    )
+    dataset = gather_fields(list(contacts), pressures, surface, tolerance, contact_pressure=text)
     title = "gap and pressure fields of one realisation"
     parameters = {**datasets.parameters(surface), "case": job.wildcards.case}
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)

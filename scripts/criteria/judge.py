@@ -10,8 +10,7 @@ from common.job import start
 from common.materials import find_doubts
 from common.provided import choose_mine
 from common.templates import write_page
-from common.verdicts import KPA, MPA, SHARES, find_limits
-from criteria.pair_roughness import ENDS
+from common.verdicts import KPA, MPA, SHARES, find_limits, find_value
 from criteria.verdicts import judge_materials, read_surfaces
 from report.table_rows import arrange_pairs
 from stickiness import datasets
@@ -26,7 +25,7 @@ TABULATED = {
     "pull_off": ("pull-off", "kPa", KPA),
     "modulus_threshold": ("E* threshold", "MPa", MPA),
 }
-PARTS = (*(f"{end} end" for end in ENDS), "low limit", "high limit")
+WIDTH = 26  # of a column, in characters
 
 
 def main(job):
@@ -43,32 +42,30 @@ def main(job):
     frame = tabulate_pairs(dataset, shown["pairs"])
     with datasets.whole_file(output.csv) as path:
         frame.to_csv(path, index=False, float_format="%.6g")
-    write_workbook(frame, output.workbook)
+    with datasets.whole_file(output.workbook) as path, pd.ExcelWriter(path) as writer:
+        frame.to_excel(
+            writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
+        )
+        writer.sheets["pairs"].sheet_format.defaultColWidth = WIDTH
 
 
 def describe_page(dataset, materials, labels):
     """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
+    rows = arrange_pairs(dataset, materials, labels)
+    rows.sort(key=lambda row: row["sort"]["energy_ratio"], reverse=True)
+    mine = choose_mine(rows)
+    rows.sort(key=lambda row: row not in mine)
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
         "doubts": [doubt for entry in materials.values() for doubt in find_doubts(entry)],
         "shares": SHARES,
-        "pairs": [
-            row | compare(select(dataset, row))
-            for row in sort_pairs(arrange_pairs(dataset, materials, labels))
-        ],
+        "pairs": [row | {"mine": row in mine} | compare(select(dataset, row)) for row in rows],
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),
     }
-
-
-def sort_pairs(rows):
-    """Rows from large to small w/U_full, and before others those that are `mine`, the user's."""
-    rows = sorted(rows, key=lambda row: -row["sort"]["energy_ratio"])
-    mine = choose_mine(rows)
-    return [row | {"mine": row in mine} for row in sorted(rows, key=lambda row: row not in mine)]
 
 
 def select(dataset, row):
@@ -80,7 +77,7 @@ def compare(pair):
     """What a pair keeps, and what other criteria say of it, as texts."""
     differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
     dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    by = {"value": (pair.remaining.min(), pair.remaining.max()), "limits": find_limits(pair)}
+    by = {"value": (find_value(pair), find_value(pair)), "limits": find_limits(pair)}
     return {
         "keeps": {
             f"keeps {percent(share)} by {kind}": says_keeps(*range_, share)
@@ -105,32 +102,15 @@ def tabulate_pairs(dataset, rows):
         cells |= {"surface": row["surface"], "surface key": row["name"]}
         cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
         cells |= {"judged": row["moment"], "E* [MPa]": float(pair.modulus_quoted) / MPA}
-        cells |= {f"w/U_full, {end} end": float(pair.energy_ratio.sel(end=end)) for end in ENDS}
+        cells["w/U_full"] = float(find_value(pair, "energy_ratio"))
         for name, (head, unit, size) in TABULATED.items():
-            numbers = zip(PARTS, list_numbers(pair, name), strict=True)
-            cells |= {f"{head}, {part} [{unit}]": x / size for part, x in numbers}
+            numbers = np.array([find_value(pair, name), *find_limits(pair, name)]) / size
+            if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
+                numbers[[0, 2]] = np.nan
+            parts = zip(("", ", low limit", ", high limit"), numbers, strict=True)
+            cells |= {f"{head}{part} [{unit}]": number for part, number in parts}
         found.append(cells | row["keeps"])
     return pd.DataFrame(found)
-
-
-def list_numbers(pair, name):
-    """Values at both ends of the surface, low and high limit of a quantity; NaN where not known."""
-    values = [float(pair[name].sel(end=end)) for end in ENDS]
-    low, high = map(float, find_limits(pair, name))
-    if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
-        return np.nan, np.nan, low, np.nan
-    return (*values, low, high) if np.isfinite(values).all() else [np.nan] * len(PARTS)
-
-
-def write_workbook(frame, output):
-    """Write a table as a workbook, its head in view and ready to filter."""
-    with datasets.whole_file(output) as path, pd.ExcelWriter(path) as writer:
-        frame.to_excel(
-            writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
-        )
-        for cells in writer.sheets["pairs"].columns:
-            width = max(len(str(cell.value or "")) for cell in cells)
-            writer.sheets["pairs"].column_dimensions[cells[0].column_letter].width = width + 2
 
 
 def compare_thresholds(dataset, others, labels):

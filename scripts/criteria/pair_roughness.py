@@ -11,7 +11,11 @@ import numpy as np
 import xarray as xr
 
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
-from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
+from stickiness.remaining.prediction import (
+    Roughness,
+    find_anisotropy_error_factor,
+    find_film_response,
+)
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum import combine as add_roughness
 from stickiness.spectrum.kinds import Tabulated
@@ -132,6 +136,9 @@ def put_on_layer(pair, solid, spectra):
     bound = np.nan if isinstance(solid.backing, Film) else 1.0
     compliance = float(solid.factor(float(pair.q0)))
     found = pair.assign(stiffening=("end", ratio), relative_compliance=compliance)
+    if isinstance(solid.backing, Film):
+        films = [find_film_response(spectrum, solid, float(pair.q0)) for spectrum in spectra]
+        found["film_response"] = ("end", "response", "factor"), films
     # The spectra of the draws are not kept: the layer acts on them as on both ends.
     for name, factor in zip(BOUNDS, (ratio, np.sqrt(np.prod(ratio))), strict=True):
         if name in pair:
@@ -146,5 +153,8 @@ def read_draws(pair, law):
         return None
     # Slopes of the draws are not kept; those of both ends hardly differ.
     pair = pair.assign(law=law, rms_slope=pair.rms_slope.mean("end"))
-    names = [field.name for field in fields(Roughness)]
-    return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})
+    names = [field.name for field in fields(Roughness) if field.name in pair]
+    known = {name: pair.get(f"{name}_draws", pair[name]).values for name in names}
+    if "film_response" in known:
+        known["film_response"] = known["film_response"].mean(axis=0)
+    return Roughness(**known)

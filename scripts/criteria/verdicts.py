@@ -17,38 +17,38 @@ from stickiness import datasets
 from stickiness.criteria import pair as pairs
 from stickiness.criteria.pair import LIMITED, NOT_JUDGED, QUANTITIES, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids.moduli import choose_factor
 from stickiness.statistics import COVERS
 
 DIMS = ("material", "surface", "end")
-QUANTILES = (0.05, 0.5, 0.95)  # of the draws of a measured surface
+# Of the draws of a measured surface: values of draws, so that the limits of a share, its margin and
+# its threshold and the number of draws that stick say the same.
+QUANTILES, METHOD = (0.05, 0.5, 0.95), "inverted_cdf"
 SEED = 2
 # Factors on E*, on heights at an unchanged shape of the spectrum, and on the dwell, 1 among them.
 MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
 ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
 DWELL_FACTORS = 10.0 ** (np.arange(-16, 17) / 4)
 AXES = {  # dimension, description, and why a value may be missing, of every curve
-    "modulus": ("modulus_factor", "for E* times a factor", "elastic backing"),
+    "modulus": ("modulus_factor", "for E* times a factor", "not judged"),
     "roughness": ("roughness_factor", "for the pair's heights times a factor", "not judged"),
-    "rate": ("frequency", "at a frequency", "beyond the material's table, elastic backing, dwell"),
+    "rate": ("frequency", "at a frequency", "beyond the material's table, or dwell"),
     "dwell": ("dwell_factor", "for the dwell times a factor", "no dwell, or beyond the table"),
 }
 OF_SURFACES = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
-FILM, UNMEASURED = "elastic backing", "not measured"
-REMAINS = LIMITED["remaining"][1]
-THRESHOLDS = [name for name in QUANTITIES if name.startswith("modulus_threshold")]
+UNMEASURED, REMAINS = "not measured", LIMITED["remaining"][1]
 ERRORS = {  # of measured surfaces
-    "probability": ("1", "share of draws that stick", "surface not measured"),
+    "probability": ("1", "share of draws that stick", UNMEASURED),
+    "probability_low": ("1", "share of draws that stick within linear elasticity", UNMEASURED),
     "error_of_spectrum": ("1", "standard deviation of ln margin by the spectrum", UNMEASURED),
     "error_of_model": ("1", "standard deviation of ln margin by the model", UNMEASURED),
     "share_error_of_spectrum": ("1", f"standard deviation by the spectrum: {REMAINS}", UNMEASURED),
 }
-DRAWN = ("margin", "remaining", "pull_off")  # whose quantiles over draws are computed
+# Whose quantiles over draws are computed.
+DRAWN = ("margin", "modulus_threshold", "remaining", "pull_off")
 # Units, descriptions and, where a value may be missing, what that means.
 VARIABLES = {
     **QUANTITIES,
-    **{name: (*QUANTITIES[name], FILM) for name in THRESHOLDS},
     **{
         f"{name}_quantile": (LIMITED[name][0], f"quantiles of the {LIMITED[name][1]}", UNMEASURED)
         for name in DRAWN
@@ -74,13 +74,11 @@ VARIABLES = {
     "frequency": ("Hz", "frequency of loading"),
     "margin": ("1", "threshold over actual value in the criterion's usual form; sticky above 1"),
     "margin_quantile": ("1", "quantiles of the margin", UNMEASURED),
-    "modulus_threshold_quantile": ("Pa", "quantiles of the threshold", f"{UNMEASURED}, or {FILM}"),
     "threshold_by_criterion": ("Pa", "plane-strain modulus below which a criterion says sticky"),
     "pair_a_v_low": ("1", "low limit of the pair's a_V"),
     "pair_a_v_high": ("1", "high limit of the pair's a_V"),
     "work_of_adhesion": ("J/m^2", "work of adhesion"),
     "stiffening": ("1", "energy of full contact over that of a half-space"),
-    "layer_strain": ("1", "strain that conforming demands of a layer, order of magnitude"),
     "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
     "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
     "dwell": ("s", "time for which contact is made", "judged at one frequency"),
@@ -142,23 +140,21 @@ def judge_pairs(solids, roughness, frequencies):
         name: ("material", [getattr(solid, name) for solid in solids])
         for name in ("modulus", "work_of_adhesion", "range", "law", "pressed")
     }
-    ends = [[one.drop_dims("draw", errors="ignore") for one in row] for row in roughness]
+    left_out = ["draw", "response"]
+    ends = [[one.drop_dims(left_out, errors="ignore") for one in row] for row in roughness]
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)
     rough = rough.broadcast_like(rough.h_rms).transpose(*DIMS)
+    at = zip(solids, rough.h_rms.values, rough.q0.values, strict=True)
+    strain = np.array([solid.solid.strain(h_rms, q0) for solid, h_rms, q0 in at])
     names = [field.name for field in fields(pairs.Pair) if field.name in rough]
     factors = np.array([solid.separation_factor for solid in solids])
-    of_pair = {name: rough[name].values for name in names}
-    pair = pairs.Pair(**of_pair, separation_factor=tuple(factors.T[..., None, None]))
+    pair = pairs.Pair(
+        **{name: rough[name].values for name in names},
+        separation_factor=tuple(factors.T[..., None, None]),
+        layer_strain=strain,
+        film_response=stack_films(roughness),
+    )
     dataset = xr.Dataset({name: (DIMS, values) for name, values in pairs.judge(pair).items()})
-    # There is no threshold of E* with a film: the modulus of the layer alone cannot change without
-    # changing what the layer does.
-    scalable = xr.DataArray([solid.is_scalable for solid in solids], dims="material")
-    dataset = dataset.assign({name: dataset[name].where(scalable) for name in THRESHOLDS})
-    # Where the longest waves are longer than the layer is thick, material has to flow along it, and
-    # shears by 1/(q0 thickness) more than the rms height over the thickness.
-    thickness = [getattr(solid.solid, "thickness", np.inf) for solid in solids]
-    thickness = xr.DataArray(thickness, dims="material")
-    strain = rough.h_rms / (thickness * np.minimum(1.0, rough.q0 * thickness))
     margins = [criterion.margin(pair) for criterion in CRITERIA.values()]
     thresholds = [criterion.modulus_threshold(pair) for criterion in CRITERIA.values()]
     moduli = np.array([np.atleast_1d(solid.plane_strain.storage(frequencies)) for solid in solids])
@@ -166,13 +162,12 @@ def judge_pairs(solids, roughness, frequencies):
     draws = [[read_draws(one, solid.law) for one in row] for solid, row in rows]
     return dataset.assign(
         **judge_measured(solids, draws),
-        **follow_remaining(pair, solids, draws, strain, moduli),
+        **follow_remaining(pair, solids, draws, moduli),
         margin=((*DIMS, "criterion"), np.stack(margins, axis=-1)),
         threshold_by_criterion=((*DIMS, "criterion"), np.stack(thresholds, axis=-1)),
         pair_a_v_low=rough.a_v_low,
         pair_a_v_high=rough.a_v_high,
         stiffening=rough.stiffening,
-        layer_strain=strain,
         work_of_adhesion=known["work_of_adhesion"],
         modulus=(("material", "frequency"), moduli),
         modulus_quoted=known["modulus"],
@@ -184,20 +179,37 @@ def judge_pairs(solids, roughness, frequencies):
     )
 
 
+def stack_films(roughness):
+    """Responses of layers on films (material, surface, end, ...), 0 of others; None without."""
+    found = [[one.get("film_response") for one in row] for row in roughness]
+    films = [film for row in found for film in row if film is not None]
+    if not films:
+        return None
+    rigid = np.zeros(films[0].shape)
+    return np.array([[rigid if film is None else film.values for film in row] for row in found])
+
+
 def judge_measured(solids, draws):
     """Distributions over the draws of measured surfaces; NaN on others."""
-    unknown = dict.fromkeys((*ERRORS, *DRAWN), np.nan)
+    nothing = np.full(1, np.nan)
+    unknown = dict.fromkeys((*DRAWN, "withstands"), nothing) | dict.fromkeys(ERRORS, np.nan)
     found = [
         [unknown if one is None else judge_draws(solid, one) for one in row]
         for solid, row in zip(solids, draws, strict=True)
     ]
     dataset = xr.Dataset({n: (DIMS[:2], [[x[n] for x in row] for row in found]) for n in ERRORS})
     for name in DRAWN:
-        values = [[np.quantile(one[name], QUANTILES) for one in row] for row in found]
+        values = [[find_quantiles(one[name], one["withstands"]) for one in row] for row in found]
         dataset[f"{name}_quantile"] = (*DIMS[:2], "quantile"), values
-    moduli = [solid.modulus if solid.is_scalable else np.nan for solid in solids]
-    thresholds = dataset.margin_quantile * xr.DataArray(moduli, dims="material")
-    return dataset.assign(modulus_threshold_quantile=thresholds)
+    return dataset
+
+
+def find_quantiles(values, withstands):
+    """`QUANTILES` over draws; for the low limit nothing remains where a layer cannot withstand."""
+    low, *others = QUANTILES
+    least = np.quantile(values * withstands, [low], axis=-1, method=METHOD)
+    found = np.concatenate([least, np.quantile(values, others, axis=-1, method=METHOD)])
+    return np.moveaxis(found, 0, -1)
 
 
 def judge_draws(solid, draws):
@@ -205,34 +217,37 @@ def judge_draws(solid, draws):
     length, errors = solid.work_of_adhesion / solid.modulus, draw_errors(draws)
     value, factor = (choose_factor(solid.separation_factor, sign) for sign in (0, errors))
     pressed = solid.pressed / solid.modulus
-    at_value = length / draws.threshold(solid.range, separation_factor=value)
-    margins = length / draws.threshold(solid.range, DEFAULT_SHARE, errors, factor)
+    known = {"range": solid.range, "adhesion_length": length}
+    at_value = length / draws.threshold(**known, separation_factor=value)
+    margins = length / draws.threshold(**known, sign=errors, separation_factor=factor)
+    withstands = solid.solid.strain(draws.h_rms, draws.q0) <= pairs.MOST_STRAIN
     return {
+        "withstands": withstands,
         "margin": margins,
+        "modulus_threshold": margins * solid.modulus,
         "remaining": draws.share(length, solid.range, errors, factor),
         "pull_off": solid.modulus * draws.tension(length, solid.range, errors, pressed, factor),
         "probability": np.mean(margins > 1),
+        "probability_low": np.mean((margins > 1) & withstands),
         "error_of_spectrum": np.std(np.log(at_value)),
         "error_of_model": np.std(np.log(margins / at_value)),
         "share_error_of_spectrum": np.std(draws.share(length, solid.range)) * value,
     }
 
 
-def follow_remaining(pair, solids, draws, strain, rates):
+def follow_remaining(pair, solids, draws, rates):
     """Share that remains along factors on E*, on the heights and on the dwell, and along the rate.
 
     `draws` has a row of `read_draws` for every material, `rates` are moduli (material, frequency).
     """
-    # With a film the modulus of the layer alone changes the response: only heights are followed.
-    scalable = np.array([solid.is_scalable for solid in solids])
     dwelt = np.isfinite([solid.dwell for solid in solids])
     quoted = np.array([solid.modulus for solid in solids])
     times = DWELL_FACTORS if dwelt.any() else np.ones(1)
     dwells = [[replace(one, dwell=x * one.dwell) for one in solids] for x in times]
     along = {
-        "modulus": np.where(scalable, MODULUS_FACTORS[:, None] * quoted, np.nan),
+        "modulus": MODULUS_FACTORS[:, None] * quoted,
         "roughness": np.broadcast_to(quoted, (len(ROUGHNESS_FACTORS), len(solids))),
-        "rate": np.where(scalable & ~dwelt, rates.T, np.nan),
+        "rate": np.where(dwelt, np.nan, rates.T),
         "dwell": np.where(dwelt, [[one.modulus for one in row] for row in dwells], np.nan),
     }
     found = {"modulus_factor": MODULUS_FACTORS, "roughness_factor": ROUGHNESS_FACTORS}
@@ -241,12 +256,12 @@ def follow_remaining(pair, solids, draws, strain, rates):
         heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
         at = dwells if axis == "dwell" else [solids] * len(moduli)
         factors = np.array([[one.separation_factor for one in row] for row in at])
-        curves = follow(pair, solids, draws, strain, AXES[axis][0], moduli, factors, heights)
+        curves = follow(pair, solids, draws, AXES[axis][0], moduli, factors, heights)
         found |= {f"remaining_by_{axis}{end}": x for end, x in zip(SIGNS, curves, strict=True)}
     return found
 
 
-def follow(pair, solids, draws, strain, dim, moduli, factors, heights):
+def follow(pair, solids, draws, dim, moduli, factors, heights):
     """Share with the limits that decide, for moduli (dim, material) and factors on heights (dim,).
 
     `factors` on the work of separation, with limits, are (dim, material, 3). A modulus that is not
@@ -257,7 +272,7 @@ def follow(pair, solids, draws, strain, dim, moduli, factors, heights):
     at = scale_heights(pair, heights[:, None, None, None])
     factors = np.where(known.values[..., None], factors, 1.0)
     by_limit = tuple(np.moveaxis(factors, -1, 0)[..., None, None])
-    at = replace(at, modulus=moduli[..., None, None], separation_factor=by_limit)
+    at = replace(at.with_modulus(moduli[..., None, None]), separation_factor=by_limit)
     found = xr.Dataset(
         {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
     )
@@ -266,7 +281,6 @@ def follow(pair, solids, draws, strain, dim, moduli, factors, heights):
         for i, solid in enumerate(solids)
     ]
     found["remaining_quantile"] = (*DIMS[:2], dim, "quantile"), np.array(quantiles)
-    found["layer_strain"] = strain * xr.DataArray(heights, dims=dim)
     curves = (found.remaining, *find_limits(found))
     return tuple(x.where(known).transpose(*DIMS, dim, missing_dims="ignore") for x in curves)
 
@@ -274,6 +288,7 @@ def follow(pair, solids, draws, strain, dim, moduli, factors, heights):
 def scale_heights(rough, factor):
     """A `Pair` or a `Roughness` with its heights times a factor: no spectrum is integrated."""
     powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
+    powers |= {"layer_strain": 1} if isinstance(rough, pairs.Pair) else {}
     return replace(rough, **{n: getattr(rough, n) * factor**power for n, power in powers.items()})
 
 
@@ -283,10 +298,12 @@ def follow_draws(solid, draws, moduli, factors, heights):
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     along, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
     moduli, heights, *factors = along[..., None]
-    rough, errors = scale_heights(draws, heights), draw_errors(draws)
+    rough = scale_heights(draws, heights).at_modulus(moduli / solid.modulus)
+    errors = draw_errors(draws)
     factors = choose_factor(factors, errors)
     shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors, factors)
-    return np.quantile(shares, QUANTILES, axis=-1).T[place]
+    withstands = solid.solid.strain(rough.h_rms, rough.q0) <= pairs.MOST_STRAIN
+    return find_quantiles(shares, withstands)[place]
 
 
 def draw_errors(draws):

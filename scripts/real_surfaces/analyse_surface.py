@@ -8,15 +8,15 @@ import logging
 
 import numpy as np
 import xarray as xr
+from scipy import stats
 
 from common import conventions
 from common.config.entries import measurements
-from common.formatting import amount, percent
 from common.job import start
 from real_surfaces.measured_surface import find_spectrum, read_levelled
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
-from stickiness.measured import plausibility, stitching
+from stickiness.measured import plausibility, stitching, texture
 from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import COVERS
@@ -28,8 +28,7 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-LARGE_MISFIT = 0.3  # relative; above, a power law describes the spectrum badly
-LARGE_ANISOTROPY = 0.5  # C along and across the lay then differ by a factor of three
+SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
 VARIABLE_TEXTS = {
@@ -40,12 +39,16 @@ VARIABLE_TEXTS = {
     "psd_fit": ("m^4", "fitted self-affine spectrum"),
     "fitted": ("1", "1 where the wave number is within the range of the fit"),
     "h_rms": ("m", "rms height"),
-    "h_rms_measured": ("m", "rms height of the levelled heights, without a window"),
+    "h_rms_measured": ("m", "rms height of the levelled heights, Sq (profile: Pq)"),
     "h_rms_as_read": ("m", "rms height of the levelled heights, with points dropped or masked"),
     "masked_spikes": ("1", "points far off all their neighbours, not used"),
     "rms_slope": ("1", "rms gradient, of waves up to q1"),
     "rms_curvature": ("1/m", "rms Laplacian, of waves up to q1"),
     "elastic_energy": ("m", "elastic energy of full contact per area over E*"),
+    "unresolved_energy": ("1", "energy of the law from q_cutoff to 0.3 nm over that measured"),
+    "mean_deviation": ("m", "mean absolute height of the levelled heights, Sa (profile: Pa)"),
+    "height_range": ("m", "highest less lowest of the levelled heights, Sz (profile: Pt)"),
+    "skewness": ("1", "skewness of the levelled heights, Ssk (profile: Psk)"),
     "draw": ("1", "spectra drawn that agree with the measured one"),
     "q0_draws": ("1/m", "lowest wave number of the self-affine range of every draw"),
     "hurst": ("1", "Hurst exponent"),
@@ -80,9 +83,10 @@ def main(job):
 
 
 def self_affine(entry):
-    """Both ends of the range of a parametric surface."""
-    spectra = [configured_spectrum(entry, end) for end in (0, -1)]
-    smooth = spectra[0]
+    """Both ends of the range of a parametric surface, or of what a drawing says of it."""
+    is_texture = entry["kind"] == "surface_texture"
+    find = texture_spectrum if is_texture else configured_spectrum
+    smooth, rough = spectra = [find(entry, end) for end in (0, -1)]
     points = int(np.ceil(POINTS_PER_DECADE * np.log10(smooth.magnification))) + 2
     q = np.geomspace(smooth.q0, smooth.q1, points)
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
@@ -90,10 +94,10 @@ def self_affine(entry):
     data |= {
         "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
         "psd": (("end", "wave_number"), [s.psd(q) for s in spectra]),
-        "C0": ("end", [s.C0 for s in spectra]),
+        "C0": ("end", line if is_texture else [s.C0 for s in spectra]),
         "C0_reference_upper": ("end", line),
-        "hurst": entry["hurst"],
-        "q0": smooth.q_rolloff or smooth.q0,
+        "hurst": texture.MIDDLE_HURST if is_texture else entry["hurst"],
+        "q0": np.sqrt(smooth.q_longest * rough.q_longest),
         "q1": smooth.q1,
     }
     if "anisotropy" in entry:
@@ -123,6 +127,29 @@ def configured_spectrum(asked, end):
     )
 
 
+def texture_spectrum(asked, end):
+    """Spectrum of one end of what a drawing says, see `texture`; low values are the smooth end."""
+
+    def bound(key, end):
+        value = asked[key]
+        return si(value[end] if isinstance(value, list) else value, "m")
+
+    name, factor = ("Rq", 1.0) if "Rq" in asked else ("Ra", texture.RQ_OVER_RA)
+    if "lambda_c" in asked:
+        cutoff = bound("lambda_c", 0)
+    else:
+        widest = bound("RSm", -1) if "RSm" in asked else 0.0
+        cutoff = texture.standard_cutoff(factor * bound(name, -1) / texture.RQ_OVER_RA, widest)
+    spacing = bound("RSm", -1 - end) if "RSm" in asked else texture.RSM_OVER_CUTOFF[end] * cutoff
+    return SelfAffine(
+        hurst=texture.HURST[end],
+        q0=2 * np.pi / cutoff,
+        q_rolloff=2 * np.pi * texture.RSM_OVER_ROLLOFF[end] / spacing,
+        q1=2 * np.pi / si(asked.get("shortest_wavelength", "1 nm"), "m"),
+        h_rms=texture.HEIGHT_OVER_RQ[end] * factor * bound(name, end),
+    )
+
+
 def wave_number(asked, key, wavelength):
     """Wave number [1/m] that is given as such or as a wavelength; None if it is not given."""
     if key in asked:
@@ -134,25 +161,24 @@ def analyse(entry):
     """Dataset of a measured surface, as configured."""
     entries = [one for _, one in measurements(entry)]
     heights = [read_levelled(one) for one in entries]
-    spectra = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
-    spectrum = stitching.stitch(spectra)
+    found = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
+    spectrum = stitching.stitch([one for one, _ in found])
     fit, cutoff = spectrum.fit, spectrum.cutoff
+    doubts = [doubt for _, failures in found for doubt in failures]
+    doubts += [] if doubts else plausibility.doubt_fit(fit)
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
-    drawn = stitching.draw(spectrum, DRAWS, SEED, extend_to=extend_to)
-    trends = [one.get("detrend", "plane") for one in entries]
-    as_read = [h.h_rms_as_read(trend) for h, trend in zip(heights, trends, strict=True)]
-    remarks, doubts = [*remark_on_spectrum(spectrum, extend_to)], []
-    for one, before in zip(heights, as_read, strict=True):
-        remarks += remark_on_file(one, before)
-        doubts += one.doubts
-    doubts += plausibility.doubt_fit(fit)
+    if extend_to is not None and not fit.is_self_affine:
+        doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
+        extend_to = None
+    drawn = stitching.draw(
+        spectrum, DRAWS, SEED, extend_to=extend_to, continue_to=2 * np.pi / SHORTEST_WAVE
+    )
+    remarks, doubts = [], doubts + [doubt for one in heights for doubt in one.doubts]
     if entry.get("plausibility", "check") == "ignore":
-        remarks += [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
+        remarks = [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
         doubts = []
     for doubt in doubts:
         logging.warning("no verdict: %s", doubt)
-    for remark in remarks:
-        logging.info(remark)
 
     line, line_se, upper = fit.c0_at_hurst(REFERENCE_HURST)
     errors = {"hurst": fit.hurst_se, "C0_reference": line_se}
@@ -168,11 +194,15 @@ def analyse(entry):
         q_cutoff=cutoff.q,
         cutoff_detected=int(cutoff.detected),
         h_rms_measured=heights[0].h_rms,
-        h_rms_as_read=as_read[0],
+        mean_deviation=np.mean(np.abs(heights[0].heights)),  # of levelled heights, whose mean is 0
+        height_range=np.ptp(heights[0].heights),
+        skewness=stats.skew(heights[0].heights, axis=None),
+        h_rms_as_read=heights[0].h_rms_as_read(entries[0].get("detrend", "plane")),
         missing_fraction=max(h.missing_fraction for h in heights),
         dropped_points=sum(h.dropped for h in heights),
         masked_spikes=sum(h.spikes for h in heights),
         cropped_fraction=max(h.cropped for h in heights),
+        unresolved_energy=("end", np.quantile(drawn.unresolved, END_QUANTILES)),
         q0_draws=("draw", drawn.q0),
         draw=np.arange(DRAWS),
     )
@@ -195,6 +225,11 @@ def analyse(entry):
         remarks="; ".join(remarks),
         cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
+        choices="\n".join(
+            f"{h.source} | {', '.join(h.others)}"
+            for h, one in zip(heights, entries, strict=True)
+            if h.others and not {"channel", "variable"} & set(one)
+        ),
         not_judged="\n".join(doubts),
     )
 
@@ -232,69 +267,6 @@ def picture_of(heights):
     return picture[::thin, ::thin].astype("f4").rename("heights")
 
 
-def remark_on_file(heights, with_spikes):
-    """Remarks on points that were not used; `with_spikes` is the rms height with all points."""
-    source = heights.source
-    if heights.spikes:
-        yield (
-            f"{heights.spikes} points of {source} are spikes, far off all their neighbours; the "
-            f"rms height is {amount(with_spikes, 'm')} with all points, "
-            f"{amount(heights.h_rms, 'm')} without those not used: if they are part of the "
-            "surface, give spikes: keep"
-        )
-    if heights.cropped:
-        yield f"{percent(heights.cropped)} of {source} cut off to leave no missing points"
-    if heights.dropped:
-        yield (
-            f"{heights.dropped} points of {source} beside missing ones were measured and are "
-            "not used (missing_rim)"
-        )
-    if heights.missing > heights.spikes:
-        yield (
-            f"{percent(heights.missing_fraction)} of the points of {source} were missing and "
-            "are interpolated, smoother than the surface"
-        )
-    if heights.heights.ndim == 1:
-        yield f"{source} is a line profile: isotropy is assumed, not seen"
-
-
-def remark_on_spectrum(spectrum, extend_to):
-    """Remarks on what is not isotropic or self-affine, and on both ends of the spectrum."""
-    fit = spectrum.fit
-    if not fit.is_self_affine:
-        yield (
-            f"H = {fit.hurst:.2f} is outside 0 < H <= 1: the range of q may hold noise (H too low) "
-            "or the instrument's blur (H too high)"
-        )
-    if fit.misfit > LARGE_MISFIT:
-        yield f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms)"
-    if spectrum.anisotropy > LARGE_ANISOTROPY:
-        yield (
-            f"C depends on direction (amplitude {spectrum.anisotropy:.2f} of cos 2 phi): theory "
-            "for isotropic surfaces applies to its average at best"
-        )
-    longest, shortest = (amount(2 * np.pi / q, "m") for q in (fit.q_min, spectrum.cutoff.q))
-    if fit.q_rolloff is None:
-        yield (
-            f"no roll-off was found below wavelengths of {longest}, and longer "
-            "ones cannot show one: q0 is the lowest wave number of the scan, not of the surface"
-        )
-    left_out = "are not part of slope, curvature and a_V"
-    if extend_to is not None:
-        end = amount(2 * np.pi / extend_to, "m")
-        left_out = f"follow the fitted law down to {end}: extrapolated, not measured"
-    yield f"waves shorter than {shortest} ({spectrum.cutoff.reason}) {left_out}"
-    if not isinstance(spectrum, stitching.Stitched):
-        return
-    if np.isnan(spectrum.scatter):
-        yield "no two measurements overlap: whether they agree in height cannot be told"
-    else:
-        yield (
-            f"{len(spectrum.levels)} measurements stitched, which differ by a factor of "
-            f"{np.exp(spectrum.scatter):.2f} in C (standard deviation)"
-        )
-
-
 def annotate(dataset, **errors):
     """Add units and texts, and budgets from the standard errors of what was fitted."""
     reference = f"m^{2 - 2 * REFERENCE_HURST:g}"
@@ -309,7 +281,7 @@ def annotate(dataset, **errors):
     dataset = conventions.annotate(dataset, **texts)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
     if not errors:
-        given = dict.fromkeys(SOURCES, not_applicable("given in the configuration"))
+        given = dict.fromkeys(SOURCES, not_applicable("given or assumed in the configuration"))
         return with_budget(dataset, "hurst", **given)
     parts = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
     parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")

@@ -24,14 +24,8 @@ from stickiness.traction_laws import Exponential
 from stickiness.units import si
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
-SOLVED_VARIABLES = [
-    "area_fraction",
-    "mean_gap",
-    "edge_gap",
-    "residual",
-    "iterations",
-    "attractive_area",
-]
+SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "attractive_area"]
+SOLVED_VARIABLES += ["residual", "iterations"]
 # With adhesion. Areas of contact change by less than 1e-3 of themselves from here to 1e-5 where
 # the grid hardly resolves the attraction, which is where solutions are slow.
 PRECISION = {"tol": 1e-3, "max_iterations": 10000}
@@ -74,9 +68,6 @@ def main(job):
     title = f"contact of the measured heights of {job.wildcards.real_surface}"
     parameters = {"surface": job.wildcards.real_surface, "source": heights.source, **entry}
     found = conventions.annotate(found, **VARIABLE_TEXTS)
-    found = conventions.add_convergence(found, params.tolerance)
-    if "adhesive_residual" in found:
-        found = conventions.add_convergence(found, PRECISION["tol"], "adhesive_")
     datasets.write(found, job.output[0], title=title, parameters=parameters)
 
 
@@ -125,7 +116,8 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     if any(isinstance(pressure, str) for pressure in bem["pressures"]):
         over_modulus = [si(pressure, "Pa") / material.modulus for pressure in bem["pressures"]]
         pressures = np.sort(over_modulus) / (q0 * h_rms)
-    block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)[SOLVED_VARIABLES]
+    block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)
+    block = conventions.add_convergence(block[SOLVED_VARIABLES], tolerance)
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=gamma)
     areas = [theory.gap_cumulative(ranges, p) for p in pressures]
     scale = 1.5 * block.pressure * block["range"] ** (2 / 3)
@@ -194,7 +186,8 @@ def press_with_adhesion(heights, lengths, pressures, law):
     curve = xr.concat(rows, xr.DataArray(list(pressures), dims="pressure", name="pressure"))
     pixel = max(side / n for side, n in zip(lengths, heights.shape, strict=True))
     resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
-    return curve.assign(edge_resolution=resolution)
+    curve = curve.assign(edge_resolution=resolution)
+    return conventions.add_convergence(curve, PRECISION["tol"], "adhesive_")
 
 
 if __name__ == "__main__":

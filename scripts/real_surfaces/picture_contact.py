@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 from scipy.special import erfinv
 
-from common import adhesion_sets, conventions
+from common import conventions
+from common.adhesion_sets import STATE
 from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.contact_picture import draw_still
@@ -44,7 +45,6 @@ PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
 PULL_OFF_TOLERANCE, PULL_OFF_STEPS = 1e-3, 20
-SOLVED = ("residual", "iterations")
 OPEN, ATTRACTED, TOUCHING = range(3)
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
@@ -239,7 +239,8 @@ def separate(rough, band, material, squeeze):
         {
             "mean_gap": ("state", found.gap),
             "mean_traction": ("state", -material.modulus * found.pressure),
-            **{n: ("state", [getattr(point.state, n) for point in found.points]) for n in SOLVED},
+            "residual": ("state", [point.state.residual for point in found.points]),
+            "iterations": ("state", [point.state.iterations for point in found.points]),
             "separating": ("state", found.separating.astype("i1")),
             "zone": (("state", "x", "y"), zones),
             "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
@@ -260,17 +261,16 @@ def separate(rough, band, material, squeeze):
         attrs={"left_out": ""},
     )
     dataset.zone.encoding = {"zlib": True}
-    texts = {**TEXTS, "residual": adhesion_sets.STATE["residual"]}
-    dataset = conventions.annotate(dataset, **texts)
+    dataset = conventions.annotate(dataset, **TEXTS, residual=STATE["residual"])
     dataset = conventions.add_convergence(dataset, PULL_OFF_TOLERANCE)
     for name, text in QUOTED.items():
         scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
         for prefix, by, of in (("", "", found), ("predicted_", ", by the model", predicted)):
             values = (getattr(of, name), *getattr(of, f"{name}_limits"))
             for end, value in zip(("", "_low", "_high"), values, strict=True):
-                described = {f"{prefix}{name}{end}": (unit, text + by + end.replace("_", ", "))}
-                dataset = dataset.assign(dict.fromkeys(described, scale * value))
-                datasets.annotate(dataset, **described)
+                dataset[f"{prefix}{name}{end}"] = scale * value
+                texts = {f"{prefix}{name}{end}": (unit, text + by + end.replace("_", ", "))}
+                datasets.annotate(dataset, **texts)
     return dataset
 
 

@@ -13,7 +13,7 @@ from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sid
 from common.formatting import unit_for
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from common.verdicts import find_limits
-from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, SHOWN, find_scale
+from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, find_scale
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 
 LOOKS = (  # of the verdicts, in the order of their codes
@@ -134,11 +134,11 @@ def draw_axis(axis, curves):
     told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@rough{0.0} … @smooth{0.0}")]
     told.append(("limits [%]", "@low{0.0} to @high{0.0}"))
     items = []
-    for rank, (label, place, points, own) in enumerate(curves):
+    for label, place, points, own, shown_at_first in curves:
         if scale == "log":  # which has no zero
             points = points.assign(**points.drop(columns="x").clip(lower=LEAST_PERCENT / 10))
         source = models.ColumnDataSource(points.to_dict("list"))
-        look = {"color": COLOURS[place % len(COLOURS)], "visible": rank < SHOWN}
+        look = {"color": COLOURS[place % len(COLOURS)], "visible": shown_at_first}
         band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
         style = look | {"line_dash": DASHES[place % len(DASHES)], "line_width": 2, "name": label}
         lines = [plot.line("x", end, source=source, **style) for end in ("rough", "smooth")]

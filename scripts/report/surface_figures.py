@@ -15,7 +15,7 @@ from stickiness.statistics import COVERS
 
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
-SHOWN = 3  # materials at first, and in print: more is a bundle
+SHOWN = 3  # materials in print, and of the project at first: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
 LEAST_PERCENT = 0.1  # that a logarithmic axis shows
@@ -68,7 +68,7 @@ def draw_spectrum(ax, surface):
         ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
     ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / 1e3)  # room for the legend
-    ax.legend(loc="lower left")
+    ax.legend(loc="best")  # noise grows with q
 
 
 def draw_measured(ax, surface, q):
@@ -102,10 +102,14 @@ class Curve(NamedTuple):
     place: int  # among all materials of the page, for its look
     points: pd.DataFrame  # x, and shares [%]: at both ends of the surface and their limits
     own: pd.Series  # the point of the pair as it is
+    shown: bool  # at first
 
 
-def find_curves(pairs, labels):
-    """Curves of the judged materials by axis, in the order of the `labels` by name."""
+def find_curves(pairs, labels, at_first):
+    """Curves of the judged materials by axis, in the order of the `labels` by name.
+
+    Those of the materials `at_first` are shown at first.
+    """
     judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
     found = {}
     for axis in LABELS:
@@ -113,7 +117,7 @@ def find_curves(pairs, labels):
             pair = pairs.sel(material=name)
             known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())
             if known and (axis != "rate" or int(pair.depends_on_rate)):
-                curve = Curve(labels[name], place, *follow(axis, pair))
+                curve = Curve(labels[name], place, *follow(axis, pair), name in at_first)
                 found.setdefault(axis, []).append(curve)
     return found
 
@@ -152,7 +156,7 @@ def draw_still(found, output):
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
             return
         for ax, (axis, curves) in zip(panels.values(), found.items(), strict=True):
-            for label, place, points, own in curves[:SHOWN]:
+            for label, place, points, own, _ in [one for one in curves if one.shown][:SHOWN]:
                 colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
                 plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
                 look = {"color": colour, "linestyle": DASHES[place % SHOWN]}

@@ -5,25 +5,24 @@ import numpy as np
 from common import formatting, provided
 from common import verdicts as texts
 from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
-from stickiness.criteria.pair import BROAD_A_V, NOT_JUDGED, SIGNS, WORDS
+from common.materials import read_material, show_modulus
+from stickiness.criteria.pair import BROAD_A_V, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids.moduli import crossings
 from stickiness.statistics import COVERS
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  # of the verdicts, in the order of codes
-REGIME_TEXTS = ("weak", "between weak and tough", "tough, near JKR", "strong, but not near JKR")
+NEAR = 0.1  # relative, within which more digits tell a modulus from its threshold
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 COLUMNS = ("remaining", "pull_off", "threshold", "energy_ratio", "margin", "onset", "probability")
 COLUMNS += ("errors", "modulus")
 
 
 def arrange_pairs(verdicts, materials, labels):
-    """Rows of all pairs, material by material, those of the user first.
-
-    `materials` are entries by name, and `labels` those of the surfaces.
-    """
+    """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
     return [
-        describe_pair(verdicts.sel(material=material, surface=surface))
+        describe_pair(verdicts.sel(material=material, surface=surface), materials[material])
         | {"key": material, "material": materials[material]["label"]}
         | {"name": surface, "surface": labels[surface]}
         for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
@@ -31,47 +30,116 @@ def arrange_pairs(verdicts, materials, labels):
     ]
 
 
-def describe_pair(pair):
+def describe_pair(pair, entry):
     """Verdict on a pair: `text` by column for readers, `sort` by column for sorting.
 
-    Intervals go from the rough to the smooth end of the surface. A pair that is not judged has no
-    numbers and comes last in every order.
+    `entry` is that of its material in the configuration. Texts in `ends` go from the rough to the
+    smooth end of the surface. A pair that is not judged has no numbers and comes last in every
+    order.
     """
     code = int(pair.verdict)
     row = {"code": code, "word": WORDS[code], "tone": TONES[code], "stiffening": "", "strain": ""}
-    row |= {"moment": texts.describe_moment(pair), "factor": ""}
+    row |= {"moment": texts.describe_moment(pair), "factor": "", "rates": [], "ends": {}}
+    row |= {"modulus": show_modulus(float(pair.modulus_quoted), entry, 3), "threshold": NOTHING}
     if code == NOT_JUDGED:
         nothing = {"text": dict.fromkeys(COLUMNS, NOTHING), "sort": dict.fromkeys(COLUMNS, -1.0)}
         return row | nothing | {"code": -1, "not_judged": str(pair.not_judged.item())}
     if abs(pair.stiffening - 1).max() >= LEAST_EFFECT:
         row["stiffening"] = interval(*pair.stiffening.values, 2)
-    if pair.layer_strain.max() > texts.MOST_STRAIN:
+    if pair.layer_strain.max() > MOST_STRAIN:
         row["strain"] = number(pair.layer_strain.max(), 2)
     if np.isfinite(pair.dwell):
         factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
         row["factor"] = "{} ({} to {})".format(*factors)
-    margin, onset = (pair.margin.sel(criterion=name) for name in (REMAINING, EDGES))
+    onset = pair.margin.sel(criterion=EDGES)
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
     total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
     errors = f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
     cells = {
-        "remaining": (texts.describe_share(pair), pair.remaining.mean()),
-        "pull_off": (texts.describe_pull_off(pair), pair.pull_off.mean()),
-        "threshold": (texts.describe_threshold(pair), pair.modulus_threshold.sel(end="rough")),
+        "remaining": (texts.describe_share(pair), texts.find_value(pair)),
+        "pull_off": (texts.describe_pull_off(pair), texts.find_value(pair, "pull_off")),
+        "threshold": (
+            texts.describe_threshold(pair),
+            texts.find_value(pair, "modulus_threshold"),
+        ),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
-        "margin": (f"({number(low, 2)} to {number(high, 2)})", np.sqrt(margin.prod("end"))),
+        "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (interval(*onset.values, 2), onset.mean()),
         "probability": (texts.show_probability(pair) if drawn else NOTHING, pair.probability),
         "errors": (errors if drawn else NOTHING, total),
         "modulus": (texts.show_stress(float(pair.modulus_quoted), texts.MPA), pair.modulus_quoted),
     }
+    stresses = (("pull_off", texts.KPA), ("modulus_threshold", texts.MPA))
+    ends = {name: texts.show_stresses(*sort_ends(pair, name), unit) for name, unit in stresses}
+    ends["remaining"] = texts.show_shares(*map(texts.round_share, sort_ends(pair, "remaining")))
     return row | {
         "not_judged": "",
         "nothing": texts.round_share(texts.find_limits(pair)[1]) == 0,
+        "unknown": find_largest_unknown(pair) if WORDS[code] == "depends" else "",
+        **describe_bounds(pair, entry),
+        "rates": list_rates(read_material(entry), pair),
+        "ends": ends,
         "text": {name: text for name, (text, _) in cells.items()},
         "sort": {name: float(value) for name, (_, value) in cells.items()},
     }
+
+
+def sort_ends(pair, name):
+    """Values of a quantity at both ends of the surface, the lower one first."""
+    return sorted(map(float, pair[name].values))
+
+
+def describe_bounds(pair, entry):
+    """Threshold of the modulus as that was given, and its limits, empty where nobody can use them.
+
+    The verdict changes at the limits, so that they are told from the modulus of the material.
+    """
+    value = float(texts.find_value(pair, "modulus_threshold"))
+    limits, given = texts.find_limits(pair, "modulus_threshold"), float(pair.modulus_quoted)
+    shown = []
+    for bound in (value, *map(float, limits)):
+        useful = texts.LEAST_STRESS <= bound <= texts.MOST_STRESS
+        digits = 4 if abs(bound / given - 1) < NEAR else 2
+        shown.append(show_modulus(bound, entry, digits) if useful else "")
+    text, low, high = shown
+    least, most = (bound.partition(" = ")[2] for bound in (low, high))
+    if text:
+        least = least.removesuffix(most[most.rfind(" ") :])  # the unit, if they have one
+        text += f" ({least or 0} to {most or 'any'})"
+    else:
+        text = "none" if value < texts.LEAST_STRESS else "any"
+    return {"threshold": text, "sticks_below": low, "fails_above": high}
+
+
+def list_rates(material, pair):
+    """Frequencies at which a pair sticks within all limits, and at which it may, as texts.
+
+    Empty of a material whose modulus does not depend on the rate, or that is judged by its dwell.
+    """
+    if not material.depends_on_rate or np.isfinite(material.dwell):
+        return []
+    found = []
+    for threshold in map(float, texts.find_limits(pair, "modulus_threshold")):
+        least = max(threshold, texts.LEAST_STRESS)
+        passed = crossings(material.plane_strain, least, pair.frequency.values)
+        words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in passed]
+        if not words:
+            always = np.nanmax(pair.modulus.values) < threshold
+            words = ["at every frequency" if always else "at no frequency"]
+        found.append(" and ".join(words))
+    return list(dict.fromkeys(found))
+
+
+def find_largest_unknown(pair):
+    """What widens the limits of a pair most: the strain of its layer, the surface or the model."""
+    if float(texts.find_limits(pair, "margin")[0]) == 0:
+        return "layer"
+    spectrum, model = float(pair.error_of_spectrum), float(pair.error_of_model)
+    if np.isnan(spectrum):  # not measured, but known between two ends
+        ends, low, high = (np.log(pair[f"modulus_threshold{x}"]) for x in ("", "_low", "_high"))
+        spectrum, model = float(np.ptp(ends.values)), float((high - low).mean())
+    return "surface" if spectrum > model else "model"
 
 
 def explain(pair, work_of_adhesion):
@@ -100,7 +168,7 @@ def gather_facts(pair, work_of_adhesion):
     return {name: interval(*pair[name].values, 2) for name in intervals} | {
         "remaining": share if share.endswith("times") else f"{share} of",
         "wanted": percent(DEFAULT_SHARE),
-        "regime": " to ".join(dict.fromkeys(REGIME_TEXTS[int(code)] for code in pair.regime)),
+        "regime": " to ".join(dict.fromkeys(REGIMES[int(code)] for code in pair.regime)),
         "h_rms": quantity(*pair.pair_h_rms.values, "m"),
         "q0": number(rough.pair_q0),
         "a_v": number(pair.pair_a_v.mean(), 2),

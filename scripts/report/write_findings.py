@@ -25,7 +25,10 @@ def main(job):
     read, inputs = datasets.read, job.input
     weakest = at_load(read(inputs.dmt_error)).isel(adhesion_length_over_range=0)
     judged = read(inputs.verdicts)
+    made = datasets.parameters(judged)
+    materials = {name: entry["label"] for name, entry in made["materials"].items()}
     verdicts = judged.verdict.transpose("material", "surface").to_pandas()
+    verdicts = verdicts.rename(index=materials, columns=made["labels"])
     experiments, trade = read(inputs.experiments), summary.read(inputs.tradeoff)
     of_contact = trade.problem == "contact"
     edges = select_certain(map(read, inputs.edges))

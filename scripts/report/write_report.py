@@ -68,7 +68,7 @@ def main(job):
         local_word=WORDS[TOUCHES],
         pairs=pairs,
         materials=[
-            materials[key] | {"modulus": describe_modulus(materials[key])}
+            materials[key] | {"modulus": describe_modulus(materials[key], labels)}
             for key in dict.fromkeys(pair["key"] for pair in pairs)
         ],
         mine=choose_mine(pairs),

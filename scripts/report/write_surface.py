@@ -19,7 +19,6 @@ from stickiness.adhesive import edge_zone
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
-from stickiness.solids.moduli import crossings
 from stickiness.statistics import COVERS
 
 QUOTED_RANGE = 0.03  # over h_rms, at which a_V of the measured heights is quoted
@@ -31,9 +30,11 @@ def main(job):
     entries, pairs = job.params.materials, judge(job).sel(surface=job.wildcards.real_surface)
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
     mine = [name for name in names if name not in provided.MATERIALS]
+    at_first = mine or names[: surface_figures.SHOWN]
 
     surface_figures.draw_surface(surface, job.output.figure)
-    found = surface_figures.find_curves(pairs, {name: entries[name]["label"] for name in names})
+    labels = {name: entries[name]["label"] for name in names}
+    found = surface_figures.find_curves(pairs, labels, at_first)
     surface_figures.draw_still(found, job.output.curves)
     curves = found and {
         "interactive": interactive.embed(interactive.draw_curves(found)),
@@ -56,10 +57,11 @@ def main(job):
         wanted=DEFAULT_SHARE,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         verdicts=[
-            describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
+            describe_verdict(pairs.sel(material=name), entries[name], job.params.labels)
+            | {"mine": name in mine}
             for name in names
         ],
-        shown_at_first=surface_figures.SHOWN,
+        shown_at_first=len(at_first),
         curves=curves,
         contact=contact,
         bem=bem,
@@ -73,34 +75,19 @@ def judge(job):
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
     title = f"verdicts of the stickiness criteria: {job.params.surface['label']}"
-    parameters = {"materials": job.params.materials, "label": job.params.surface["label"]}
+    parameters = {"materials": job.params.materials, "labels": job.params.labels}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     return datasets.read(job.output.verdicts)
 
 
-def describe_verdict(pair, entry):
-    """Verdict on one material, the rates at which it sticks, and every criterion's reason."""
-    solid, judged = read_material(entry), int(pair.verdict) != NOT_JUDGED
-    rated = solid.depends_on_rate and np.isnan(solid.dwell)
-    return describe_pair(pair) | {
+def describe_verdict(pair, entry, labels):
+    """Verdict on one material, with its properties as given and every criterion's reason."""
+    judged = int(pair.verdict) != NOT_JUDGED
+    return describe_pair(pair, entry) | {
         "material": entry["label"],
-        "modulus": describe_modulus(entry),
-        "rates": list_rates(solid, pair) if rated and judged else [],
-        "criteria": explain(pair, solid.work_of_adhesion) if judged else [],
+        "given": describe_modulus(entry, labels),
+        "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
     }
-
-
-def list_rates(solid, pair):
-    """Frequencies at which the pair sticks, as texts, for the thresholds at both ends."""
-    texts = []
-    for threshold in pair.modulus_threshold.sel(end=["rough", "smooth"]).values:
-        found = crossings(solid.plane_strain, threshold, pair.frequency.values)
-        words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in found]
-        if not words:
-            always = np.nanmax(pair.modulus.values) < threshold
-            words = ["at every frequency" if always else "at no frequency"]
-        texts.append(" and ".join(words))
-    return list(dict.fromkeys(texts))
 
 
 def describe_contact(files, entries, mine):

@@ -53,7 +53,7 @@ SURFACE = {
 }
 OPTIONS = {key: option for key, (option, _) in (MATERIAL | SURFACE).items()}
 # A key where an error speaks of it, and what separates it from its value.
-BEFORE = r"^|: |\b(?:give|give its|leave|raise|or|and|as|by) "
+BEFORE = r"^|: |\b(?:give|give its|leave|raise|or|and|as|by) |(?<!\w)(?=\w+: [a-z])"
 KEY = re.compile(rf"({BEFORE})({'|'.join(OPTIONS)})\b( =|:)?")
 
 
@@ -171,7 +171,7 @@ def translate(line: str, given: argparse.Namespace) -> str:
 def read_answer(page: Path) -> list[str]:
     """Return the lines with which a page begins."""
     parts = re.findall('<div class="answer">(.*?)</div>', page.read_text(encoding="utf-8"), re.S)
-    lines = re.split("</(?:li|p)>", "".join(parts))
+    lines = re.split("</(?:li|p)>", "".join(parts).replace("<sup>", "^"))
     texts = (" ".join(html.unescape(re.sub("<[^>]*>", "", line)).split()) for line in lines)
     return [text for text in texts if text]
 

@@ -51,10 +51,7 @@ def provenance() -> dict[str, str]:
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
-    """Set `units`, `long_name` and, if a variable may hold NaN, what that means (in this order).
-
-    What the sign of a pressure or a gap means follows from the name of the variable.
-    """
+    """Set `units`, `long_name`, what NaN means if it may occur, and the sign convention."""
     for name, texts in described.items():
         signs = (("sign_convention", s) for p, s in _SIGNS.items() if re.fullmatch(p, name))
         dataset[name].attrs = dict([*signs, *zip(_TEXTS, texts, strict=False)])

@@ -24,7 +24,6 @@ ENERGY = np.array([rough(h).elastic_energy() for h in HEIGHTS])
 TAPE = {"youngs_modulus": "0.4 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "70 mJ/m^2", "range": "3 nm"}
 SERIES = {"equilibrium": "0.1 MPa", "terms": [["0.5 MPa", "0.1 s"], ["1 GPa", "1 us"]]}
-FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 SLOW = {key: value for key, value in TAPE.items() if key != "youngs_modulus"}
 SLOW |= {"youngs_modulus_prony": SERIES}
 RESTED = SLOW | {"dwell": "0.2 s", "broken_at": "3 Hz"}
@@ -61,8 +60,7 @@ def judge(entries, drawn, frequencies):
 def followed(drawn, thickness=THICK):
     """Curves beside what is stored of the pairs."""
     layer = TAPE | {"thickness": thickness}
-    entries = {"tape": TAPE, "slow": SLOW, "layer": layer, "film": layer | {"backing": FILM}}
-    entries["rested"] = RESTED
+    entries = {"tape": TAPE, "slow": SLOW, "layer": layer, "rested": RESTED}
     return judge(entries, drawn, FREQUENCIES)
 
 
@@ -90,8 +88,8 @@ def test_at_the_pair_itself_curves_are_what_is_stored(drawn, thickness, axis):
     along = (along | {"dwell": DWELL_FACTORS})[axis]
     at = {"frequency" if axis == "rate" else f"{axis}_factor": np.argmin(abs(np.log(along)))}
     there, expected = found.isel(at), (found.remaining, *find_limits(found))
-    unknown = {"roughness": [], "modulus": ["film"], "rate": ["film", "rested"]}
-    known = ~there.material.isin(unknown[axis]) if axis != "dwell" else there.material == "rested"
+    rested = there.material == "rested"
+    known = {"rate": ~rested, "dwell": rested}.get(axis, slice(None))
     for name, values in zip(("", "_low", "_high"), expected, strict=True):
         curve = there[f"remaining_by_{axis}{name}"]
         np.testing.assert_allclose(curve[known], values[known], rtol=1e-9)
@@ -207,11 +205,3 @@ def test_limits_of_a_dwell_are_those_of_the_factor():
             assert most < high <= most + more * 1.01
         else:
             assert (low, high) == pytest.approx((least, most + more))
-
-
-def test_an_elastic_backing_has_no_curve_along_the_modulus(curves):
-    film = curves.sel(material="film")
-    assert np.isnan(film.remaining_by_modulus).all()
-    assert np.isnan(film.remaining_by_rate_low).all()
-    assert np.isnan(film.remaining_by_dwell_low).all()
-    assert np.isfinite(film.remaining_by_roughness).all()

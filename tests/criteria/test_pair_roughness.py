@@ -1,6 +1,7 @@
 """What a material and a surface bring to their contact: layers, two rough solids, direction."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,11 +9,15 @@ import pytest
 import xarray as xr
 
 from common.materials import describe_modulus, read_material
+from common.verdicts import find_limits
 from criteria import verdicts
-from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine
+from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine, find_spectra
 from report.table_rows import describe_pair
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import WORDS
+from stickiness.remaining import predict
+from stickiness.remaining.prediction import DEFAULT_SHARE, MODULUS_FACTORS, find_film_response
+from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine, Tabulated
 
 A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
@@ -100,16 +105,76 @@ def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
     assert np.isfinite(base.half_space_energy).all()
 
 
+THIN = {key: value for key, value in TAPE.items() if key != "youngs_modulus"}
+THIN |= {"thickness": "40 um", "backing": FILM | {"thickness": "4 um", "youngs_modulus": "0.1 GPa"}}
+
+
+def at_moduli(moduli, draws):
+    """Verdicts on the thin tape with these E* [Pa], each with its film as a solid of its own."""
+    entries = {str(i): THIN | {"youngs_modulus": f"{0.75 * x!r} Pa"} for i, x in enumerate(moduli)}
+    return judged(entries, {"wall": wall(h_rms=4e-6, draws=draws)}).sel(surface="wall")
+
+
 @pytest.mark.slow
-def test_no_threshold_with_a_film():
-    thin = TAPE | {"thickness": "40 um"}
-    pair = {"base": thin, "film": thin | {"backing": FILM}}
-    found = judged(pair, {"wall": wall(draws=5)})
-    assert np.isfinite(found.modulus_threshold.sel(material="base")).all()
-    assert np.isnan(found.modulus_threshold.sel(material="film")).all()
-    assert np.isfinite(found.probability).all()
-    shares = found.remaining.sel(surface="wall", end="rough")
-    assert float(shares.sel(material="film")) >= float(shares.sel(material="base"))
+@pytest.mark.parametrize("draws", [0, 60])
+def test_thresholds_and_curves_of_a_tape_keep_its_film(draws):
+    """They interpolate the response of the layer. Verdicts at other moduli do not."""
+    tape = at_moduli([0.1e6], draws).isel(material=0)
+    thresholds = tape.modulus_threshold.values.tolist()
+    limits = [float(x) for x in find_limits(tape, "modulus_threshold")]
+    found = at_moduli([*thresholds, *limits], draws)
+    low, high = find_limits(found)
+    # Errors of the energy are up to 3e-4; the share falls with its third power there.
+    shares = np.diag(found.remaining.isel(material=[0, 1])), [low[2], high[3]]
+    np.testing.assert_allclose(shares, DEFAULT_SHARE, rtol=3e-3)
+    for place in (40, 55, 65):
+        factor = float(tape.modulus_factor[place])
+        other = at_moduli([0.1e6 * factor], draws).isel(material=0)
+        at = tape.isel(modulus_factor=place)
+        np.testing.assert_allclose(at.remaining_by_modulus, other.remaining, rtol=2e-3, atol=1e-5)
+        for name, limit in zip(("low", "high"), find_limits(other), strict=True):
+            at_limit = float(at[f"remaining_by_modulus_{name}"])
+            assert at_limit == pytest.approx(float(limit), rel=2e-3, abs=1e-5)
+
+
+@pytest.mark.slow
+def test_a_rate_dependent_tape_has_its_film_at_every_rate_and_dwell():
+    table = [["1 mHz", "10 kPa"], ["1 Hz", "0.1 MPa"], ["1 kHz", "3 MPa"]]
+    slow = THIN | {"youngs_modulus_table": table}
+    rested = slow | {"dwell": "10 s", "broken_at": "1 Hz"}
+    found = judged({"slow": slow, "rested": rested}, {"wall": wall()}, np.geomspace(1e-2, 1e2, 5))
+    spectra = find_spectra(wall())
+    film = read_material(THIN | {"youngs_modulus": "1 Pa"}).solid.backing
+    solids = [read_material(entry) for entry in (slow, rested)]
+    moduli = {"slow": found.modulus.sel(material="slow").values, "rested": [solids[1].modulus]}
+    factor = solids[1].separation_factor[0]
+    for name, scale in (("slow", 1.0), ("rested", factor)):
+        one = found.sel(material=name, surface="wall")
+        shares = one.remaining_by_rate.values.T if name == "slow" else [one.remaining.values]
+        for modulus, share in zip(moduli[name], shares, strict=True):
+            ratio = film.modulus_ratio / (0.75 * modulus)
+            solid = Layer(40e-6, 0.5, replace(film, modulus_ratio=ratio))
+            expected = [predict(s, 0.07 / modulus, 3e-10, solid=solid).separation for s in spectra]
+            np.testing.assert_allclose(share, scale * np.array(expected), rtol=2e-3, atol=1e-6)
+
+
+def test_the_response_on_a_film_ends_at_the_rigid_base_and_at_the_bent_plate():
+    q0 = 2 * np.pi / LONGEST
+    spectrum = SelfAffine(hurst=0.8, q0=q0, q1=2 * q0, h_rms=1e-6)
+    solid = Layer(40e-6, 0.5, Film(1e3, 0.4, 25e-6))
+    energy, compliance = np.exp(find_film_response(spectrum, solid, q0))
+    base = Layer(40e-6, 0.5)
+    soft = spectrum.elastic_energy(base), base.factor(q0)
+    at = energy * spectrum.elastic_energy(solid), compliance * solid.factor(q0)
+    assert (at[0][0], at[1][0]) == pytest.approx(soft, rel=1e-5)
+    # A hard layer bends the plate: it takes D q^4/2 times the variance of every wave.
+    plate = 1e3 * 0.75 / (1 - 0.16) * (25e-6) ** 3 / 12
+    bent = plate * spectrum.integrate(lambda q: q**4, *spectrum.band) / 2
+    hard = 1e-6 * bent, 1e6 / (2 * plate * q0**3)
+    assert (at[0][-1], at[1][-1]) == pytest.approx(hard, rel=1e-3)
+    at_one = MODULUS_FACTORS.size // 2
+    assert (energy[at_one], compliance[at_one]) == pytest.approx((1, 1), rel=1e-12)
+    assert find_film_response(spectrum, base, q0) is None
 
 
 def test_the_layer_acts_on_draws_as_on_both_ends():
@@ -157,9 +222,9 @@ def test_a_direction_widens_limits():
         assert joined(read_material(TAPE), wall(**keys)).anisotropy_error_factor == factor
 
 
-def judged(materials, surfaces):
+def judged(materials, surfaces, frequencies=(1.0,)):
     solids = {name: read_material(entry) for name, entry in materials.items()}
-    return verdicts.find_verdicts(solids, surfaces, surfaces, np.array([1.0]))
+    return verdicts.find_verdicts(solids, surfaces, surfaces, np.array(frequencies))
 
 
 @pytest.mark.slow
@@ -171,20 +236,23 @@ def test_thinner_tapes_keep_less_and_the_row_says_why():
     assert found.layer_strain.values[:, 0, 0] == pytest.approx([0, *strains], rel=1e-3)
     assert remaining[0] > remaining[1] > remaining[2]
     thick = found.sel(material="20", surface="wall").assign(layer_strain=("end", [0.15, 0.301]))
-    deep, thin = (describe_pair(found.sel(material=d, surface="wall")) for d in ("deep", "50"))
+    deep, thin = (
+        describe_pair(found.sel(material=d, surface="wall"), TAPE) for d in ("deep", "50")
+    )
     assert (deep["stiffening"], deep["strain"], thin["strain"]) == ("", "", "")
     assert thin["stiffening"].startswith("1")
-    assert describe_pair(thick)["strain"] == "0.3"
+    assert describe_pair(thick, TAPE)["strain"] == "0.3"
 
 
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
-        ({"surface": "wall"}, ", rough as wall"),
+        ({"surface": "wall"}, ", rough as the brick wall"),
         ({"thickness": "50 um"}, ", 50 µm thick on a rigid base"),
         ({"thickness": "50 um", "backing": "slip"}, ", 50 µm thick, free to slip on a rigid base"),
         ({"thickness": "50 um", "backing": FILM}, ", 50 µm thick on a film of 25 µm and 3 GPa"),
     ],
 )
 def test_layers_are_described(keys, text):
-    assert describe_modulus(TAPE | keys) == "E = 0.1 MPa, ν = 0.5" + text
+    labels = {"wall": "the brick wall"}
+    assert describe_modulus(TAPE | keys, labels) == "E = 0.1 MPa, ν = 0.5" + text

@@ -27,7 +27,7 @@ def test_materials_in_every_form():
     table = materials.read_material(ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0})
     assert table.modulus == pytest.approx(np.sqrt(50e3 * 0.5e6))
     assert "10 mHz" in materials.describe_modulus(
-        ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0}
+        ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0}, {}
     )
 
 

@@ -104,6 +104,17 @@ def pressed(periodic_file, tmp_path_factory):
     return datasets.read(folder / "out.nc")
 
 
+def test_states_say_how_well_they_are_solved_and_of_which_modulus(pressed):
+    for prefix in ("", "adhesive_"):
+        assert (pressed[f"{prefix}converged"] == 1).all()
+        assert (pressed[f"{prefix}iterations"] > 0).all()
+    states = xr.Dataset({"residual": ("state", [1e-6, 1e-4, 2e-4, np.nan])})
+    assert conventions.add_convergence(states, 1e-4).converged.values.tolist() == [1, 1, 0, 0]
+    load = pressed.pressure * 2 * np.pi / SIDE * H_RMS * pressed.modulus
+    np.testing.assert_allclose(load.squeeze(), pressed.applied_pressure.squeeze())
+    assert pressed.applied_pressure.sign_convention.startswith("positive in compression")
+
+
 def test_periodic_heights_are_pressed_as_they_stand(pressed, periodic_file):
     heights = np.load(periodic_file).T
     # No plane is taken from them: it would break the period.

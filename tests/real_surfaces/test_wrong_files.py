@@ -1,13 +1,21 @@
 """Files and entries of measured surfaces that are wrong: an error, or no verdict, in words."""
 
-from dataclasses import replace
+import bz2
+import gzip
+import io
+import lzma
+import zipfile
 
+import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
+from common.templates import make_environment
+from criteria.pair_roughness import find_a_v
+from criteria.verdicts import OF_SURFACES
 from real_surfaces import analyse_surface
-from stickiness import measured, surface
+from stickiness import surface
 from stickiness.spectrum import SelfAffine
 
 N = 128
@@ -62,8 +70,27 @@ def netcdf(z="um", x="mm", y="mm"):
     return xr.Dataset({"z": (("x", "y"), ROUGH, {"units": z})}, coordinates)
 
 
+def archive(name):
+    """A zip archive with one file."""
+    raw = io.BytesIO()
+    with zipfile.ZipFile(raw, "w") as zipped:
+        zipped.writestr(name, "1 2 3")
+    return raw.getvalue()
+
+
+def hdf5(**arrays):
+    """An HDF5 file, which SurfaceTopography reads as an instrument's."""
+    raw = io.BytesIO()
+    with h5py.File(raw, "w") as file:
+        for name, values in arrays.items():
+            file[name] = values
+    return raw.getvalue()
+
+
 # What is refused: content of the file, keys of the entry, words of the error.
 HEADER = "# x-pixels = 128\n# x-length = 5\n# z-unit = nm\n"
+HDF5 = hdf5(height=ROUGH)
+HALF = np.where(ROUGH > 0, np.nan, ROUGH)
 REFUSED = {
     "other rows": ("# rows: 256\n" + table(), ENTRY, ["128 rows", "'# rows: 256'", "complete"]),
     "x y z of other columns": ("# nx: 64 ny: 128\n" + points(), ENTRY, ["128 columns"]),
@@ -80,25 +107,46 @@ REFUSED = {
     "ragged rows": (table() + "\n1.0\t2.0", ENTRY, ["line 129: 2 numbers", "128"]),
     "words among numbers": ("1 2\n3 x\n", ENTRY, ["line 2:", "'x'", "missing points by NaN"]),
     "no numbers": ("nothing\n", ENTRY, ["no line of numbers found"]),
-    "no unit": (table(), {"length": "2 mm"}, ["unit of height; give height_unit"]),
-    "no size": (table(), {"height_unit": "um"}, ["size; give length or pixel_size"]),
+    "no unit": (table(), {"length": "2 mm"}, ["tell the unit of height; give height_unit"]),
+    "no size": (table(), {"height_unit": "um"}, ["size; give length (or pixel_size)"]),
+    "neither": (table(), {}, ["size or the unit of height; give length", ") and height_unit"]),
+    "a profile without units": (
+        "\n".join(f"{i} {z}" for i, z in enumerate(ROUGH[0])),
+        {},
+        ["unit of position or the unit of height; give position_unit and height_unit"],
+    ),
     "another unit": (GWYDDION + table(), {"height_unit": "nm"}, ["'nm'", "the file says 'um'"]),
     "no length": (GWYDDION.replace("units: um", "units: V") + table(), {}, ["'1 V' is in V"]),
     "a voltage in NetCDF": (netcdf(z="V"), {}, ["a length is wanted, e.g. '10 um'"]),
-    "degrees in NetCDF": (netcdf(x="degrees"), {}, ["size; give length or pixel_size"]),
-    "ten by ten": (ROUGH[:10, :10], {}, ["10 x 10 points", "64 points along its shorter side"]),
-    "a short profile": (ROUGH[0, :30], {}, ["of 30 points", "a profile 256"]),
+    "degrees in NetCDF": (netcdf(x="degrees"), {}, ["size; give length (or pixel_size)"]),
+    "three by three": (ROUGH[:3, :3], {}, ["3 x 3 points", "64 points along its shorter side"]),
     "flat": (np.ones((N, N)), {}, ["all heights are 1e-06 m; nothing to analyse"]),
     "all missing": (np.full((N, N), np.nan), {}, ["16384 points, which are all, are missing"]),
-    "half missing": (np.where(ROUGH > 0, np.nan, ROUGH), {}, ["more than the 10.0 %", "crop"]),
+    "missing": (HALF, {"missing": "refuse"}, ["more than the 0.0 % that are filled"]),
     "three dimensions": (np.ones((3, 4, 5)), {}, ["two-dimensional array or a profile"]),
     "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, ["not a readable numpy file"]),
-    "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, ["SurfaceTopography cannot read it"]),
+    "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, ["incomplete or damaged", "copy it"]),
+    "half a file": (
+        HDF5[: len(HDF5) // 2],
+        {"name": "a.dat"},
+        ["incomplete or damaged", "copy it"],
+    ),
+    "gzip": (gzip.compress(b"1 2"), ENTRY, ["compressed (gzip): unpack it"]),
+    "bzip2": (bz2.compress(b"1 2"), {"name": "a.npy"}, ["compressed (bzip2): unpack it"]),
+    "xz": (lzma.compress(b"1 2"), ENTRY, ["compressed (xz): unpack it"]),
+    "7z": (b"7z\xbc\xaf\x27\x1c\0", ENTRY, ["compressed (7z): unpack it"]),
+    "compress": (b"\x1f\x9d\x90", ENTRY, ["compressed (compress): unpack it"]),
+    "a zip": (archive("a.txt"), ENTRY, ["is a zip archive: unpack it"]),
+    "half a zip": (archive("a.txt")[:40], ENTRY, ["its end is missing: copy it again"]),
+    "an Excel sheet as text": (archive("xl/workbook.xml"), {"name": "a.csv"}, ["as text (CSV)"]),
+    "old Excel": (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", ENTRY, ["Excel workbook: save"]),
+    "an empty file": ("", ENTRY, ["the file is empty: copy it again"]),
     "a torn text": (HEADER + "1 2 3 4\n5 6\n", {"format": "asc"}, ["truncated"]),
 }
 # What is read but not judged: heights, keys of the entry, words of the reasons.
 BLURRED = surface.synthesise(SelfAffine(hurst=0.8, q0=3, q1=40, h_rms=1), N, 2.1, 1)
 NOISE = np.random.default_rng(0).standard_normal((N, N))
+WAVE = np.sin(np.arange(N) * np.pi / 8)[:, None] * np.ones(N)
 SPIKES = changed((slice(None, None, 5), slice(None, None, 7)), value=40.0)
 WITHHELD = {
     "zeros": (zeros(0.05), {}, ["0.051 of the points", "give missing_value: 0"]),
@@ -110,6 +158,13 @@ WITHHELD = {
     "160 m in NetCDF": (netcdf(x="km", y="km"), {}, ["the side of", "longer than 0.5 m"]),
     "heights in mm": (ROUGH, {"height_unit": "mm"}, ["range over", "correct height_unit"]),
     "too flat to be": (ROUGH * 1e-6, {}, ["the rms slope between points is", "outside 1e-07"]),
+    "ten by ten": (ROUGH[:10, :10], {}, ["10 x 10 points", "64 points along its shorter side"]),
+    "a short profile": (ROUGH[0, :30], {}, ["of 30 points", "a profile 256"]),
+    "half missing": (HALF, {}, ["more than 10 %", "crop"]),
+    "a profile of noise": (NOISE.ravel(), {}, ["goes as q^", "too slowly for a surface"]),
+    "a profile that grows": (np.diff(NOISE.ravel()), {}, ["no fit to the spectrum"]),
+    "one wave": (WAVE, {"window": "none"}, ["the spectrum vanishes"]),
+    "noise extended": (NOISE, {"extend_to": "1 nm"}, ["cannot extrapolate", "leave out extend_to"]),
     "noise": (NOISE, {}, ["outside 0 < H <= 1", "resolution or fit_to"]),
     "blurred": (BLURRED, {}, ["it falls as blur does", "departs from a power law"]),
 }
@@ -128,8 +183,11 @@ def test_a_wrong_file_is_refused_with_its_name_and_what_helps(tmp_path, name):
 @pytest.mark.parametrize("name", WITHHELD)
 def test_an_implausible_measurement_is_not_judged(tmp_path, name):
     content, entry, words = WITHHELD[name]
-    reasons = analyse(tmp_path, content, **entry).not_judged
-    assert [word for word in words if word not in reasons] == []
+    found = analyse(tmp_path, content, **entry)
+    assert [word for word in words if word not in found.not_judged] == []
+    # What the stages behind need to make its page.
+    assert all(np.isfinite(found[name]).all() for name in OF_SURFACES)
+    assert find_a_v(found)
     told = analyse(tmp_path, content, **entry, plausibility="ignore")
     assert told.not_judged == ""
     assert "(plausibility: ignore)" in told.remarks
@@ -175,25 +233,38 @@ def test_a_masked_spike_changes_nothing_and_is_told(tmp_path):
         np.testing.assert_allclose(found[name], clean[name], rtol=2e-3)
     # One point of 1 m in 128 x 128.
     assert float(found.h_rms_as_read) == pytest.approx(1 / 128, rel=0.01)
-    assert "the rms height is 7.81 mm with all points, " in found.remarks
-    assert "give spikes: keep" in found.remarks
+    assert "The rms height is 7.81 mm with all points, " in remarks(found)
+    assert "give <code>spikes: keep" in remarks(found)
+
+
+@pytest.mark.parametrize(
+    ("content", "name", "key"),
+    [
+        (hdf5(height=ROUGH, other=NOISE, phase=NOISE), "a.dat", "channel"),
+        (xr.Dataset({"height": (("x", "y"), ROUGH), "other": ("x", ROUGH[0])}), "a.nc", "variable"),
+    ],
+)
+def test_a_choice_among_data_sets_is_told_unless_it_is_made(tmp_path, content, name, key):
+    found = analyse(tmp_path, content, name, **ENTRY)
+    assert found.choices == f"{tmp_path / name}: height | other"
+    assert analyse(tmp_path, content, name, **ENTRY, **{key: "height"}).choices == ""
 
 
 def test_many_spikes_are_told_with_their_number(tmp_path):
     islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
     many = analyse(tmp_path, changed(*islands, value=9.0))
     assert int(many.masked_spikes) == 25
-    assert "25 points of" in many.remarks
+    assert "all their neighbours: 25." in remarks(many)
 
 
-def test_remarks_name_what_is_wrong():
-    step = 2e-3 / N
-    found = [
-        measured.analyse(measured.Topography(h, step, step, "here")) for h in (NOISE, ROUGH * 1e-6)
-    ]
-    assert not found[0].fit.is_self_affine
-    lay = replace(found[0], anisotropy=0.8)
-    first, second, *_ = analyse_surface.remark_on_spectrum(lay, None)
-    assert "outside 0 < H <= 1" in first
-    assert "direction" in second
-    assert len(list(analyse_surface.remark_on_spectrum(found[1], None))) == 2  # on its ends
+def remarks(dataset):
+    """What the page remarks on a measured surface."""
+    macros = make_environment("report").get_template("macros.html.j2").module
+    return str(macros.remarks(dataset)).replace("\u00a0", " ")
+
+
+def test_remarks_name_what_is_wrong(tmp_path):
+    noise = remarks(analyse(tmp_path, NOISE).assign(anisotropy=0.8))
+    for words in ("is outside 0 &lt; H ≤ 1", "depends on direction", "No roll-off was found"):
+        assert words in noise
+    assert remarks(analyse(tmp_path, ROUGH)).count("<li>") == 2  # on its ends

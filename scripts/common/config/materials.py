@@ -91,8 +91,6 @@ class Material(ElasticPair, f.Labelled):
             )
         elif self.poisson_ratio < 0:
             yield f"poisson_ratio = {self.poisson_ratio:g} of a layer must be between 0 and 0.5"
-        if isinstance(self.backing, Film) and self.youngs_modulus is None:
-            yield "backing: give youngs_modulus beside a film, which has one modulus"
 
 
 class Materials(Section):

@@ -11,7 +11,7 @@ from common.config.entries import measurements
 from common.config.fields import Section, needed, optional
 from common.config.materials import ElasticPair
 from stickiness import plausibility
-from stickiness.measured import readers
+from stickiness.measured import readers, texture
 from stickiness.spectrum import kinds
 
 _BUILTIN = "builtin:jacksboro"
@@ -29,7 +29,7 @@ class SelfAffine(f.Labelled, Direction):
 
     one_of = (("longest_wavelength", "q0"), ("shortest_wavelength", "q1"), ("h_rms", "C0"))
 
-    kind: Literal["self_affine", "measured"] = needed("parameters of a spectrum, or a measurement")
+    kind: Literal["self_affine", "measured", "surface_texture"] = needed("parameters of a spectrum")
     hurst: f.Hurst
     longest_wavelength: f.Length = optional('longest wavelength, e.g. "6 mm"; or give q0')
     shortest_wavelength: f.Length = optional('shortest wavelength, e.g. "1 um"; or give q1')
@@ -67,6 +67,40 @@ class SelfAffine(f.Labelled, Direction):
                         f"{plausibility.LARGEST_SLOPE:g}, which no surface has; correct it, its "
                         "unit or the wavelengths"
                     )
+
+
+class SurfaceTexture(f.Labelled):
+    """A surface of `kind: surface_texture`, by the parameters of profiles on drawings.
+
+    The heights are assumed to be Gaussian and isotropic, with Hurst exponents from 0.6 to 1.
+    """
+
+    one_of = (("Ra", "Rq"),)
+
+    kind: Literal["surface_texture"] = needed("parameters of profiles (ISO 21920, ISO 4287)")
+    Ra: f.one_or_two(f.Length) = optional('mean deviation or its range, e.g. "0.8 um"')
+    Rq: f.one_or_two(f.Length) = optional("rms deviation or its range, instead of Ra")
+    Rz: f.Length = optional("maximum height, to check that heights can be Gaussian")
+    RSm: f.one_or_two(f.Length) = optional(
+        "mean spacing of profile elements; default 0.04 to 0.5 times lambda_c"
+    )
+    lambda_c: f.Length = optional("cut-off of the profile filter; default by ISO 4288")
+    shortest_wavelength: f.Length = optional("shortest wavelength; default 1 nm")
+
+    def _problems(self, context):
+        for key in ("Ra", "Rq", "RSm"):
+            given = _listed(getattr(self, key))
+            if given != sorted(given):
+                yield f"{key} = {given!r} must be [low, high]"
+        if any(wide >= (self.lambda_c or 8e-3) for wide in _listed(self.RSm)):
+            yield f"RSm = {self.RSm!r} must be below lambda_c, at most 8 mm"
+        rq = _listed(self.Rq) or [texture.RQ_OVER_RA * ra for ra in _listed(self.Ra)]
+        low, high = texture.RZ_OVER_RQ
+        if self.Rz is not None and not low * rq[0] <= self.Rz <= high * rq[-1]:
+            yield (
+                f"Rz = {self.Rz!r} is outside {low * rq[0]:.2g} m to {high * rq[-1]:.2g} m of "
+                "Gaussian heights, which are assumed: measure the surface, or leave Rz out"
+            )
 
 
 # Unit of a length, here as a length.
@@ -168,8 +202,14 @@ class Measured(f.Labelled, Reading):
             yield f"missing = 'crop' {breaks} missing: fill or refuse"
 
 
+def _is_kind(kind):
+    return lambda given: isinstance(given, dict) and given.get("kind") == kind
+
+
 Surface = f.choose(
-    lambda given: isinstance(given, dict) and given.get("kind") == "measured", Measured, SelfAffine
+    _is_kind("measured"),
+    Measured,
+    f.choose(_is_kind("surface_texture"), SurfaceTexture, SelfAffine),
 )
 
 
@@ -189,6 +229,9 @@ def _file_problems(measurement, made):
     if not Path(file).is_file():
         if not made:
             yield f"file = {file!r}: no such file; give a path from the working directory"
+        return
+    if advice := readers.find_packing(file):
+        yield f"file = {file!r}: {advice}"
         return
     sides = _listed(measurement.get("length"))
     for side in [] if measurement.get("plausibility") == "ignore" else sides:

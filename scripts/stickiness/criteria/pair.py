@@ -6,24 +6,26 @@ quantity, give it a line there and one in `judge`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from stickiness.arguments import plain
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import choose_factor
 
 WORDS = (
-    *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
+    *("does not stick", "sticks only locally", "depends", "sticks", "sticks fully"),
     "not judged",
 )
 NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY, NOT_JUDGED = range(6)
 FULL_SHARE = 0.8  #: of the work of adhesion, from which a pair sticks fully
-REGIMES = ("weak", "between", "tough", "strong")  #: of the edges, by code
+REGIMES = ("DMT-like", "between DMT and JKR", "JKR-like", "strong but not JKR-like")  #: by code
+MOST_STRAIN = 0.3  #: up to which a layer is taken for linear
 BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
 SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
 LIMITED = {  #: units and descriptions of the quantities that have limits by the model
@@ -48,7 +50,8 @@ QUANTITIES = {
     "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
     "attractive_over_contact": ("1", "area within the range over area of contact"),
     "over_dmt": ("1", "attraction over its DMT sum, at equal area of contact"),
-    "regime": ("1", "edges: 0 weak, 1 between, 2 tough (JKR), 3 strong, not JKR"),
+    "regime": ("1", "edges of contact: " + ", ".join(f"{i} {x}" for i, x in enumerate(REGIMES))),
+    "layer_strain": ("1", "strain that conforming demands of a layer, order of magnitude"),
     "simulated": ("1", "1 where full simulation agrees with the model"),
     "jtb_margin": ("1", "rms height over the smallest at which the DMT limit holds (JTB)"),
 }
@@ -72,11 +75,17 @@ class Pair(Roughness):
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
     #: On the work of separation (value, low, high), see `Prony.separation_factor`
     separation_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = (1.0, 1.0, 1.0)
+    #: Strain that conforming demands of a layer: beyond `MOST_STRAIN` low limits are 0
+    layer_strain: ArrayLike = 0.0
 
     @property
     def adhesion_length(self) -> float | NDArray:
         """Work of adhesion over E* [m]."""
         return self.work_of_adhesion / self.modulus
+
+    def with_modulus(self, modulus: ArrayLike) -> Pair:
+        """Return the pair with another E* [Pa]: that of a layer changes, a film stays as it is."""
+        return replace(self.at_modulus(modulus / self.modulus), modulus=modulus)
 
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
@@ -84,18 +93,29 @@ class Pair(Roughness):
         It includes the separation factor, and exceeds 1 if that is large.
         """
         factor = choose_factor(self.separation_factor, sign)
-        return self.share(self.adhesion_length, self.range, sign, factor)
+        share = self.share(self.adhesion_length, self.range, sign, factor)
+        return self._withstand(share, sign)
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
         factor = choose_factor(self.separation_factor, sign)
         at = self.adhesion_length, self.range, sign, self.pressed / self.modulus, factor
-        return self.tension(*at) * self.modulus
+        return self._withstand(self.tension(*at) * self.modulus, sign)
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
-        """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`."""
+        """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`.
+
+        It is E* that changes the length. Where nothing may remain at any, it is infinite.
+        """
         factor = choose_factor(self.separation_factor, sign)
-        return self.threshold(self.range, self.wanted_share, sign, factor)
+        at = self.range, self.wanted_share, sign, factor, self.adhesion_length
+        return self._withstand(self.threshold(*at), sign, np.inf)
+
+    def _withstand(self, value, sign, lost=0.0):
+        """Value, or what replaces it if heights that a linear layer cannot take stiffen it."""
+        if sign >= 0 or np.all(np.asarray(self.layer_strain) <= MOST_STRAIN):
+            return value
+        return plain(np.where(np.asarray(self.layer_strain) > MOST_STRAIN, lost, value))
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:
@@ -149,6 +169,7 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         "simulated": np.asarray(edges.simulated).astype("i1"),
         "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
     }
+    found["layer_strain"] = np.broadcast_to(pair.layer_strain, np.shape(length))
     for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
         found[f"pair_{name}"] = getattr(pair, name)
     return {name: np.asarray(value) for name, value in found.items()}

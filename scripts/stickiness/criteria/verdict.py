@@ -27,7 +27,7 @@ class StickinessVerdict:
     """Answer for one material on one surface; every pair of limits is (low, high)."""
 
     #: One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
-    #: "adheres locally, does not hold" if contact grows by itself at the finest wave but less than
+    #: "sticks only locally" if contact grows by itself at the finest wave but less than
     #: the wanted share remains, "sticks fully" if at least `pair.FULL_SHARE` does.
     word: str
     remaining: float  #: share of the work of adhesion that remains on the rough surface
@@ -234,6 +234,8 @@ def describe_surface(
         "rms_curvature": spectrum.rms_curvature,
         "elastic_energy": spectrum.elastic_energy(solid),
         "relative_compliance": float(solid.factor(q0)),
+        "film_response": prediction.find_film_response(spectrum, solid, q0),
+        "layer_strain": solid.strain(spectrum.h_rms, q0),
         "half_space_energy": prediction.find_half_space_energy(spectrum, solid),
         "anisotropy_error_factor": prediction.find_anisotropy_error_factor(ratio),
     }

@@ -83,7 +83,10 @@ class Limits:
 
 
 def analyse(
-    heights: Topography | Profile, taper: Taper = "hann", limits: Limits | None = None
+    heights: Topography | Profile,
+    taper: Taper = "hann",
+    limits: Limits | None = None,
+    demand: bool = True,
 ) -> MeasuredSpectrum:
     """Isotropic spectrum of one levelled measurement, with its limits and its self-affine fit.
 
@@ -95,6 +98,8 @@ def analyse(
         "hann" fades along both axes, "hann_radial" from the centre; "none" if they are periodic.
     limits : Limits, optional
         Default: the cutoff is detected, and at most half the Nyquist wave number.
+    demand : bool
+        False: fit all waves of the grid, few or noise as they may be, to show what was measured.
 
     Returns
     -------
@@ -104,7 +109,7 @@ def analyse(
     Raises
     ------
     ValueError
-        If the heights are flat, or the limits leave too little for a fit.
+        If the heights are flat, the limits leave too little for a fit, or a profile is noise.
     """
     limits = Limits() if limits is None else limits
     values = numbers("heights", heights.heights)
@@ -122,17 +127,23 @@ def analyse(
     q_min = (LOWEST_MODES if modes.blur else 1) * max(modes.steps)
     if limits.fit_from is not None:
         q_min = 2 * np.pi / limits.fit_from
-    cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
+    if demand:
+        cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
+    else:
+        q_min, cutoff = lowest, Cutoff(nyquist, "two steps of the grid")
     if is_map:
-        fit = fit_rings(narrow, q_min, cutoff.q)
+        fit = fit_rings(narrow, q_min, cutoff.q, demand=demand)
         rings = radial_average(modes, RINGS)
         area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
         anisotropy = modes.anisotropy(fit.q_min, fit.q_max)[0]
     else:
-        narrow, fit = isotropic(fine, q_min, cutoff.q)
+        narrow, fit = isotropic(fine, q_min, cutoff.q, demand=demand)
         rings = RadialPSD(*merge_rings(narrow, narrow.psd, RINGS))
         area, anisotropy = ring_areas(rings.q, lowest), np.nan
     cutoff = replace(cutoff, q=fit.q_max)
+    # Exact waves have rings without power between them.
+    used = rings.psd > 0
+    rings, area = RadialPSD(rings.q[used], rings.psd[used], rings.dof[used]), area[used]
     return MeasuredSpectrum(rings, area, narrow, fit, cutoff, lowest, anisotropy)
 
 
@@ -144,21 +155,26 @@ def ring_areas(q: NDArray, lowest: float) -> NDArray:
 
 
 def isotropic(
-    line: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
+    line: RadialPSD,
+    q_min: float,
+    q_max: float,
+    rolloff: bool | None = None,
+    demand: bool = True,
 ) -> tuple[RadialPSD, SelfAffineFit]:
     """Rings of C behind narrow ones of a profile's C1, and the self-affine fit between two q."""
     rings = replace(line, psd=line.psd * (1 / line.q))
-    fit = fit_rings(rings, q_min, q_max, rolloff)
+    fit = fit_rings(rings, q_min, q_max, rolloff, demand)
     for _ in range(_ROUNDS):
         before = fit
-        if not fit.hurst > LOWEST_HURST:
+        if demand and not fit.hurst > LOWEST_HURST:
             raise ValueError(
-                f"the profile's spectrum falls as q^{-2 * fit.hurst - 1:.2f}: too slowly for a "
-                "surface, rather noise; lower the highest wave number of the fit"
+                f"the profile's spectrum goes as q^{-2 * fit.hurst - 1:.2f}: it falls too slowly "
+                "for a surface, rather noise; lower the highest wave number of the fit"
             )
-        rings = replace(line, psd=line.psd * abel_ratio(line.q, fit.hurst, fit.q_rolloff))
+        hurst = max(fit.hurst, LOWEST_HURST)
+        rings = replace(line, psd=line.psd * abel_ratio(line.q, hurst, fit.q_rolloff))
         # The model stays once it is chosen: else a plateau might come and go for ever.
-        fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None)
+        fit = fit_rings(rings, q_min, q_max, fit.q_rolloff is not None, demand)
         if abs(fit.hurst - before.hurst) < 1e-3 * fit.hurst_se:
             break
     return rings, fit

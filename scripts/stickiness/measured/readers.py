@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 import warnings
+import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,6 +32,17 @@ _SUFFIXES = {
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
+_PACKED = {  # first bytes of what no reader unpacks
+    b"\x1f\x8b": "gzip",
+    b"\x1f\x9d": "compress",
+    b"BZh": "bzip2",
+    b"\xfd7zXZ\0": "xz",
+    b"7z\xbc\xaf\x27\x1c": "7z",
+}
+_OLD_EXCEL = b"\xd0\xcf\x11\xe0"
+_EXCEL = (
+    "the file is an Excel workbook: save its sheet of heights as text (CSV), without other columns"
+)
 _LONGEST = 200  # characters of SurfaceTopography's words
 _FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
 _SLACK = 0.01  # of a step, by which positions may be off the grid
@@ -77,6 +89,7 @@ class Raw:
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
     unit: str | None = None  #: of the heights
+    others: tuple[str, ...] = ()  #: other channels or variables that could be taken
     places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
 
@@ -103,6 +116,22 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
     return tuple(metres(v, name) for v in value)
 
 
+def find_packing(path: str | Path) -> str:
+    """What to do with a file before it can be read, if it is packed or empty; else nothing."""
+    with Path(path).open("rb") as file:
+        head = file.read(8)
+    if not head:
+        return "the file is empty: copy it again"
+    if head.startswith(b"PK\3\4") and not zipfile.is_zipfile(path):
+        return "the file is incomplete, its end is missing: copy it again"
+    if head.startswith(_OLD_EXCEL):
+        return _EXCEL
+    for start, name in _PACKED.items():
+        if head.startswith(start):
+            return f"the file is compressed ({name}): unpack it, and give the file inside"
+    return ""
+
+
 def format_of(path: str | Path, fmt: str | None = None) -> str:
     """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument"."""
     if fmt is not None:
@@ -120,6 +149,8 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
 
 def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
     """Read a file with the reader that `format_of` names."""
+    if advice := find_packing(path):
+        raise ValueError(f"{path}: {advice}")
     kind = format_of(path, fmt)
     if channel is not None and kind != INSTRUMENT:
         raise ValueError(f"{path}: a {kind} file has no channels; leave channel out")
@@ -139,7 +170,7 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         dataset = xr.load_dataset(path)
     except (OSError, ValueError) as error:
         raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
-    name = _choose(dataset.variables, dataset.data_vars, variable, path, "variable")
+    name, others = _choose(dataset.variables, dataset.data_vars, variable, path, "variable")
     data = dataset[name].astype(float)
     if data.ndim == 2:
         first, second = (str(dim).lower() for dim in data.dims)
@@ -152,25 +183,28 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         else:
             steps = [_find_step(coordinate, path) for coordinate in along]
             places, unit = (None, None) if None in steps else (np.array(steps), "m")
-    return Raw(np.array(data.values), f"{path}: {name}", data.attrs.get("units"), places, unit)
+    source, values = f"{path}: {name}", np.array(data.values)
+    return Raw(values, source, data.attrs.get("units"), others, places, unit)
 
 
-def _choose(arrays: Mapping, candidates: Mapping, wanted: str | None, path: Path, what: str) -> str:
-    """Name of the array to read: the one wanted, else the only map, else the only profile."""
+def _choose(
+    arrays: Mapping, candidates: Mapping, wanted: str | None, path: Path, what: str
+) -> tuple[str, tuple[str, ...]]:
+    """Array to read: the one wanted, else the only map, else the only profile; and the others."""
+    usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
     if wanted is not None:
         if wanted not in arrays:
             raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(arrays)}")
         if arrays[wanted].ndim not in (1, 2):
             raise ValueError(f"{path}: {what} {wanted!r} is neither a map (2D) nor a profile (1D)")
-        return wanted
-    maps = [name for name in candidates if arrays[name].ndim == 2]
-    found = maps or [name for name in candidates if arrays[name].ndim == 1]
+        return wanted, tuple(name for name in usable if name != wanted)
+    found = [name for name in usable if arrays[name].ndim == 2] or usable
     if len(found) != 1:
         raise ValueError(
             f"{path}: needs one two-dimensional {what}, or one profile, found {sorted(found)}; "
             "name one as variable"
         )
-    return found[0]
+    return found[0], tuple(name for name in usable if name != found[0])
 
 
 def _find_step(coordinate, path: Path) -> float | None:
@@ -199,8 +233,8 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
         return Raw(np.array(loaded.T, dtype=float), str(path))
     with loaded:
         arrays = dict(loaded)
-    name = _choose(arrays, arrays, variable, path, "key")
-    return Raw(np.array(arrays[name].T, dtype=float), f"{path}: {name}")
+    name, others = _choose(arrays, arrays, variable, path, "key")
+    return Raw(np.array(arrays[name].T, dtype=float), f"{path}: {name}", others=others)
 
 
 def _read_text(path: Path) -> Raw:
@@ -245,7 +279,7 @@ def _read_text(path: Path) -> Raw:
                     f"{path}: {shapes[0][axis]} {name}, but its header says {line!r}; is the file "
                     "complete, and do decimal commas or separators split its numbers?"
                 )
-    return Raw(heights, str(path), fields.get("value unit"), places, place_unit)
+    return Raw(heights, str(path), fields.get("value unit"), (), places, place_unit)
 
 
 def _split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
@@ -349,7 +383,10 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
         raise ValueError(f"{path}: SurfaceTopography has no format {fmt!r}; it knows {known}")
     reader = _call(path, lambda: IO.open_topography(str(path), format=fmt))
     channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
-    heights_in = ", ".join(repr(c.channel_id) for c in channels if holds_heights(c))
+    usable = [c for c in channels if holds_heights(c)]
+    heights_in = ", ".join(repr(c.channel_id) for c in usable)
+    if channel is None and usable and not holds_heights(info):
+        info = usable[0]
     if channel is not None:
         named = [c for i, c in enumerate(channels) if channel in (i, c.channel_id, c.name)]
         if not named:
@@ -371,7 +408,8 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     elif known and unit:
         scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
         places = np.array(data.physical_sizes, dtype=float) * scale / heights.shape
-    return Raw(heights, source, unit, places, place_unit)
+    others = tuple(str(c.channel_id) for c in usable if c.index != info.index)
+    return Raw(heights, source, unit, others, places, place_unit)
 
 
 def holds_heights(channel) -> bool:
@@ -389,11 +427,35 @@ def _call(path: Path, call: Callable):
         try:
             return call()
         except Exception as error:  # readers of broken files raise nearly anything
-            words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
-            reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
-            if type(error).__name__ == "CannotDetectFileFormat":
-                reason = "no reader takes it; give format to see what its reader says"
-            raise ValueError(
-                f"{path}: SurfaceTopography cannot read it ({reason}); is the file complete? Else "
-                "export it as a text matrix, .nc or .npy"
-            ) from error
+            raise ValueError(f"{path}: {_find_damage(path, error)}") from error
+
+
+def _find_damage(path: Path, error: Exception) -> str:
+    """What is wrong with a file that SurfaceTopography cannot read, and what helps."""
+    from SurfaceTopography import IO
+
+    if zipfile.is_zipfile(path):
+        with zipfile.ZipFile(path) as archive:
+            if "xl/workbook.xml" in archive.namelist():
+                return _EXCEL
+        if isinstance(error, IO.CannotDetectFileFormat):
+            return "the file is a zip archive: unpack it, and give the file of heights"
+    # Readers that know the first bytes may find that others are missing. Any file may be an hgt.
+    for reader in IO.readers if isinstance(error, IO.CannotDetectFileFormat) else ():
+        try:
+            reader(str(path)) if reader.format() != "hgt" else None
+        except IO.CorruptFile as damage:
+            error = damage
+            break
+        except Exception:  # of other formats
+            continue
+    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
+    reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
+    if isinstance(error, IO.CorruptFile):
+        return f"the file is incomplete or damaged ({words[:_LONGEST]}): copy it again"
+    if isinstance(error, IO.CannotDetectFileFormat):
+        reason = "no reader takes it; give format to see what its reader says"
+    return (
+        f"SurfaceTopography cannot read it ({reason}); is the file complete? Else export it as a "
+        "text matrix, .nc or .npy"
+    )

@@ -74,15 +74,24 @@ class SelfAffineFit:
 
 
 def fit_rings(
-    rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None
+    rings: RadialPSD,
+    q_min: float,
+    q_max: float,
+    rolloff: bool | None = None,
+    demand: bool = True,
 ) -> SelfAffineFit:
-    """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` is None."""
+    """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` is None.
+
+    Without `demand` two rings are enough, and such as vanish are left out.
+    """
     if not 0 < q_min < q_max:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {q_min:.6g}, q_max = {q_max:.6g}")
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     rings = rings.between(q_min * (1 - 1e-9), q_max * (1 + 1e-9))
+    if not demand:
+        rings = RadialPSD(*(x[rings.psd > 0] for x in (rings.q, rings.psd, rings.dof)))
     wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
-    if wide < 5 or rings.dof.sum() < 20:
+    if len(rings) < 2 or (demand and (wide < 5 or rings.dof.sum() < 20)):
         raise ValueError(
             f"too few modes between q_min = {q_min:.6g} and q_max = {q_max:.6g} for a fit: "
             f"{rings.dof.sum():.0f} independent ones in {wide} rings, need 20 in 5"
@@ -174,7 +183,7 @@ def rms_misfit(rings: RadialPSD, model: NDArray, parameters: int) -> float:
     def excess(variance: float) -> float:
         return float(np.sum(square / (1 / dof + variance))) - (len(ratio) - parameters)
 
-    if excess(0.0) <= 0:
+    if excess(0.0) <= 0 or len(ratio) <= parameters:
         return 0.0
     highest = float(square.sum())  # there every term is below 1, and their sum below 1
     return float(np.sqrt(optimize.brentq(excess, 0.0, highest)))

@@ -5,6 +5,10 @@ tau is the scatter between measurements: place, calibration, instrument (Jacobs,
 2017, doi:10.1088/2051-672X/aa51f8, recommend geometric averages of spectra). Errors of moments come
 from drawing spectra that agree with the measured one: rings vary by their sampling error,
 measurements by their scatter, extrapolation and plateau by the covariance of the fit.
+
+Waves that the instrument does not resolve store elastic energy, most of it for H < 1/2, where the
+integral of q^2 C grows without end. Where the fitted law ends is not known: spectra are drawn whose
+ends are spread evenly over the orders of magnitude between the cutoff and a wave number given.
 """
 
 from __future__ import annotations
@@ -20,7 +24,7 @@ from scipy import special
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
 from stickiness.measured.psd import RadialPSD
 from stickiness.measured.self_affine_fit import fit_rings
-from stickiness.spectrum.kinds import PowerLawSegments
+from stickiness.spectrum.direction import expm1_over
 
 RINGS = 20  #: per decade
 REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
@@ -138,6 +142,8 @@ class Draws:
     #: [length], the last of full contact per area over E*
     moments: dict[str, NDArray]
     q0: NDArray  #: (n,), end of the plateau [1/length]; if there is none, lowest of the scan
+    #: (n,), energy of all waves from the cutoff to `continue_to` over the measured energy
+    unresolved: NDArray
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -145,7 +151,12 @@ class Draws:
 
 
 def draw(
-    spectrum: MeasuredSpectrum, count: int, seed: int, *, extend_to: float | None = None
+    spectrum: MeasuredSpectrum,
+    count: int,
+    seed: int,
+    *,
+    extend_to: float | None = None,
+    continue_to: float | None = None,
 ) -> Draws:
     """Draw moments of spectra that agree with a measured one.
 
@@ -158,6 +169,10 @@ def draw(
     extend_to : float, optional
         Wave number up to which the fit extrapolates the spectrum [1/length]. Default: slope,
         curvature and energy end at the cutoff.
+    continue_to : float, optional
+        Without `extend_to`: highest wave number at which the fitted law may end [1/length]. The
+        energies drawn contain the waves up to an end between the cutoff and there, whose logarithm
+        is spread evenly. Default: they end at the cutoff.
 
     Returns
     -------
@@ -198,15 +213,25 @@ def draw(
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
     law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
     law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
-    moments, extrapolated = {}, []
-    if extend_to is not None:
-        ends, laws = [spectrum.cutoff.q, extend_to], zip(np.exp(law[:, 0]), law[:, 1], strict=True)
-        extrapolated = [PowerLawSegments(ends, [c], [-2 * (hurst + 1)]) for c, hurst in laws]
+    cutoff = spectrum.cutoff.q
+    level, hurst = np.exp(law[:, 0]), law[:, 1]
+
+    def integrate_law(end, order):
+        log_ratio = np.log(end / cutoff)
+        return 2 * np.pi * level * cutoff ** (2 + order) * expm1_over(order - 2 * hurst, log_ratio)
+
+    moments = {}
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
         inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
         moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
-        if extrapolated:
-            moment = moment + [beyond.variance_below(extend_to, order) for beyond in extrapolated]
+        if extend_to is not None:
+            moment = moment + integrate_law(extend_to, order)
         moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
-    return Draws(moments, np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest))
+    furthest = cutoff if extend_to is not None else max(continue_to or 0.0, cutoff)
+    unresolved = integrate_law(furthest, 1) / 4 / moments["elastic_energy"]
+    # A twelfth of the draws is at either end, so that limits of 90 % contain both.
+    ends = cutoff * (furthest / cutoff) ** np.clip(rng.uniform(-0.1, 1.1, count), 0.0, 1.0)
+    moments["elastic_energy"] = moments["elastic_energy"] + integrate_law(ends, 1) / 4
+    q0 = np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest)
+    return Draws(moments, q0, unresolved)

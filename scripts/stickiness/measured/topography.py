@@ -35,10 +35,11 @@ class _Heights:
     spikes: int = 0  #: number of points far off their neighbours, not used
     as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
+    others: tuple[str, ...] = ()  #: channels or variables of the file that could be taken as well
 
     @property
     def h_rms(self) -> float:
-        """Root mean square height about the mean [m]."""
+        """Root mean square height about the mean [m]: Sq of ISO 25178-2, Pq of a profile."""
         return float(np.std(self.heights))
 
     @property
@@ -176,6 +177,7 @@ def read(
         raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
     raw = readers.read(path, format, variable, channel)
     source, heights = raw.source, raw.heights
+    _ask_for_units(raw, length or pixel_size, height_unit, position_unit)
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
     x, steps = None, _places(raw, length, pixel_size, position_unit)
@@ -216,6 +218,7 @@ def read(
         "spikes": masked,
         "as_read": heights * scale if dropped or masked else None,
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
+        "others": raw.others,
     }
     if x is not None:
         return Profile(filled, *steps, source, float(gaps.max()), **known)
@@ -230,20 +233,29 @@ def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
         name, given = ("pixel_size", pixel_size) if length is None else ("length", length)
         size = sides(given, counts, f"{raw.source}: {name}")
         return np.arange(shape[0]) * size[0] / counts[0] if is_profile else np.divide(size, counts)
-    if raw.places is None:
-        what = "the profile's length" if is_profile else "its size"
-        raise ValueError(f"{raw.source}: the file does not tell {what}; give length or pixel_size")
     if not np.all(np.isfinite(raw.places)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
     return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
 
 
+def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
+    """Name all keys at once that the file leaves open."""
+    wanted = []
+    if size is None and raw.places is None:
+        wanted.append(("its size", "length (or pixel_size)"))
+    elif size is None and raw.place_unit is None and position_unit is None:
+        wanted.append(("the unit of position", "position_unit"))
+    if height_unit is None and raw.unit is None:
+        wanted.append(("the unit of height", "height_unit"))
+    if wanted:
+        unknown, keys = zip(*wanted, strict=True)
+        said = f"the file does not tell {' or '.join(unknown)}; give {' and '.join(keys)}"
+        raise ValueError(f"{raw.source}: {said}")
+
+
 def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:
     """Metres per unit, from the caller or the file, which must agree."""
     units = [unit for unit in (given, in_file) if unit is not None]
-    if not units:
-        what = key.replace("_unit", "")
-        raise ValueError(f"{source}: the file does not tell the unit of {what}; give {key}")
     scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
         said = f"{source}: {key} = {given!r}, but the file says {in_file!r}"

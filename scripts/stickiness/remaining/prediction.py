@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -44,6 +44,9 @@ _NOTHING = 1e-12  # of tensions that act at all, over elastic_energy/h_rms
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
+# Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
+# of full contact is off by less than 3e-4 of itself.
+MODULUS_FACTORS = 10.0 ** (np.arange(-120, 121) / 20)
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
 # `find_anisotropy_error_factor`.
 UNLIKE, UNLIKE_RATIO = 2.0, 4.0
@@ -86,6 +89,25 @@ class Roughness:
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
     rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
     law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
+    #: How both depend on the modulus of a layer on a film, see `find_film_response`
+    film_response: ArrayLike | None = None
+
+    def at_modulus(self, factor: ArrayLike) -> Roughness:
+        """Return the same with E* times a factor: the film under a layer keeps its stiffness."""
+        if self.film_response is None:
+            return self
+        logs = np.log(MODULUS_FACTORS)
+        place = np.asarray(np.log(factor) - logs[0]) / (logs[1] - logs[0])
+        place, logs = np.broadcast_arrays(place[..., None, None], self.film_response)
+        place = place[..., :1]
+        below = np.clip(np.floor(place).astype(int), 0, logs.shape[-1] - 2)
+        low, high = (np.take_along_axis(logs, below + step, axis=-1) for step in (0, 1))
+        found = np.exp(low + (place - below) * (high - low))[..., 0]
+        return replace(
+            self,
+            elastic_energy=self.elastic_energy * found[..., 0],
+            relative_compliance=self.relative_compliance * found[..., 1],
+        )
 
     def share(
         self,
@@ -220,28 +242,76 @@ class Roughness:
         share: ArrayLike = DEFAULT_SHARE,
         sign: ArrayLike = 0,
         separation_factor: ArrayLike = 1.0,
+        adhesion_length: ArrayLike | None = None,
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
         With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
+        On a film it is the modulus of the layer that changes the length, from `adhesion_length`.
         """
         names = ("h_rms", "q0", "elastic_energy", "relative_compliance")
         values = positive(**{name: getattr(self, name) for name in names}, range=range)
         half_space = np.nan if self.half_space_energy is None else self.half_space_energy
         sign = np.multiply(sign, self.anisotropy_error_factor)
         at = (*values, half_space, sign, self.rms_slope, self.law, share, separation_factor)
-        at = np.broadcast_arrays(*at)
-        energy = at[2]
+        start = np.nan if adhesion_length is None else np.log(adhesion_length)
+        *at, start = np.broadcast_arrays(*at, start)
+        energy, films, most = at[2], None, 0.0
+        if adhesion_length is not None and self.film_response is not None:
+            films = self.film_response
+            most = np.max(films[..., 0, :], axis=-1)
+            films = np.broadcast_to(films, (*start.shape, *films.shape[-2:]))
+            films = films.reshape(-1, *films.shape[-2:])
+        at += [start, np.arange(start.size).reshape(start.shape)]
 
-        def excess(log_length, h, q0, energy, layer, range, bound, sign, slope, law, share, factor):
-            rough = Roughness(h, q0, energy, layer, bound, rms_slope=slope, law=law)
+        def excess(
+            log_length,
+            h,
+            q0,
+            energy,
+            layer,
+            range,
+            bound,
+            sign,
+            slope,
+            law,
+            share,
+            factor,
+            start,
+            i,
+        ):
+            film = None if films is None else films[i]
+            rough = Roughness(h, q0, energy, layer, bound, 1.0, slope, law, film)
+            rough = rough.at_modulus(np.exp(start - log_length))
             return np.asarray(rough.share(np.exp(log_length), range, sign, factor)) - share
 
-        bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share))
-        found = elementwise.find_root(excess, bracket, args=at)
+        bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share)) + most
+        # Limits say at the length given what the share there says, even if they do not rise.
+        given = np.clip(np.where(np.isnan(start), bracket[0], start), *bracket)
+        remains = excess(given, *at) >= 0
+        bracket = np.where(remains, bracket[0], given), np.where(remains, given, bracket[1])
+        found = elementwise.find_root(excess, bracket, args=tuple(at))
         # Attraction whose range is far above h_rms holds at any strength.
         always = excess(bracket[0], *at) >= 0
         return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
+
+
+def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray | None:
+    """Logarithms of elastic energy over E* and of S at `q0`, over both as they are.
+
+    For factors on the modulus of a layer whose film stays as it is, ``(2, MODULUS_FACTORS)``; None
+    without a film.
+    """
+    if not isinstance(solid, Layer) or not isinstance(solid.backing, Film):
+        return None
+    firm, spectrum = replace(solid, backing="bonded"), spectrum.averaged()
+
+    def respond(q):
+        bends = np.subtract(solid.factor(q), firm.factor(q))
+        return firm.factor(q) + np.multiply.outer(MODULUS_FACTORS, bends)
+
+    energy = spectrum.integrate(lambda q: q / respond(q), *spectrum.band) / 4
+    return np.log([energy / spectrum.elastic_energy(solid), respond(q0) / solid.factor(q0)])
 
 
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:

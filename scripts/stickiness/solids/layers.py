@@ -57,6 +57,10 @@ class HalfSpace(_Compliant):
         """Compliance over that of a half-space: one."""
         return 1.0
 
+    def strain(self, h_rms: ArrayLike, q0: ArrayLike) -> float | NDArray:
+        """Strain that conforming demands of the whole depth: none."""
+        return plain(np.zeros(np.broadcast_shapes(np.shape(h_rms), np.shape(q0))))
+
     def in_unit(self, length: float) -> HalfSpace:
         """Return the solid with `length` as the unit of length."""
         return self
@@ -143,6 +147,14 @@ class Layer(_Compliant):
         if isinstance(self.backing, Film):
             factor += self._bending(self.backing, q)
         return plain(factor)
+
+    def strain(self, h_rms: ArrayLike, q0: ArrayLike) -> float | NDArray:
+        """Strain that conforming demands of the layer, order of magnitude.
+
+        The rms height over the thickness d. Where the longest waves, of wave number `q0`, are
+        longer than d, material has to flow along the layer, and shears by 1/(q0 d) more.
+        """
+        return plain(np.divide(h_rms, self.thickness * np.minimum(1.0, q0 * self.thickness)))
 
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""

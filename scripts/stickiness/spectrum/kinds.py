@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.arguments import nonnegative, number
+from stickiness.arguments import nonnegative, number, plain
 from stickiness.spectrum.direction import CIRCLE, Ellipse, expm1_over
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum
 
@@ -296,9 +296,11 @@ class Shells(Spectrum):
         keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
-    def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
+    def integrate(
+        self, function: Callable[[NDArray], NDArray], low: float, high: float
+    ) -> float | NDArray:
         inside = (self.q >= low) & (self.q <= high)
-        return float(np.sum(self.variance[inside] * function(self.q[inside])))
+        return plain(np.sum(self.variance[inside] * function(self.q[inside]), axis=-1))
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance of each mode of the band: its shell's variance in equal parts."""

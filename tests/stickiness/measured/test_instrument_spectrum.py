@@ -208,3 +208,42 @@ def test_law_carried_on_adds_its_waves_and_their_uncertainty():
     smooth = replace(found, fit=replace(found.fit, hurst=1.4))
     with pytest.raises(ValueError, match=r"H = 1\.40 is no self-affine"):
         stitching.draw(smooth, 5, seed=1, extend_to=end)
+
+
+@pytest.mark.parametrize("hurst", [0.2, 0.4, 0.6, 0.8])
+def test_limits_contain_the_energy_of_waves_that_the_instrument_does_not_resolve(hurst):
+    length, n, atoms = 1e-5, 128, 2 * np.pi / 0.3e-9
+    inside = {"with": [], "without": []}
+    for seed in range(6):
+        # Law that ends at 10 nm or 1 nm; a map of steps of 78 nm shows waves above 310 nm.
+        end = 2 * np.pi / (1e-8, 1e-9)[seed % 2]
+        roughness = {"q0": 2 * np.pi / length, "h_rms": 1e-8, "q_rolloff": 8 * np.pi / length}
+        s = SelfAffine(hurst=hurst, q1=end, **roughness)
+        h = surface.synthesise(s.truncated(np.pi * n / length), n=n, length=length, seed=seed)
+        found = instrument_spectrum.analyse(Topography(h, length / n, length / n, "a").detrended())
+        for name, to in (("with", atoms), ("without", None)):
+            drawn = stitching.draw(found, 400, seed=1, continue_to=to)
+            low, high = drawn.quantiles("elastic_energy", (0.05, 0.95))
+            inside[name].append(low < s.elastic_energy() < high)
+    assert sum(inside["with"]) >= 5
+    assert sum(inside["without"]) <= (0 if hurst < 0.5 else 4)
+
+
+def test_unresolved_energy_is_that_of_the_law_and_ends_with_what_is_configured():
+    _, h, dx = patch()
+    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
+    end = 30 * found.cutoff.q
+    plain = stitching.draw(found, 400, seed=1)
+    drawn = stitching.draw(found, 400, seed=1, continue_to=end)
+    law = SelfAffine(hurst=found.fit.hurst, q0=found.cutoff.q, q1=end, C0=found.fit.c0)
+    share = law.elastic_energy() / np.median(plain.moments["elastic_energy"])
+    assert np.median(drawn.unresolved) == pytest.approx(share, rel=0.1)
+    more = drawn.moments["elastic_energy"] / plain.moments["elastic_energy"] - 1
+    assert np.all((more >= 0) & (more <= drawn.unresolved * (1 + 1e-9)))
+    assert np.mean(more == 0) == pytest.approx(1 / 12, abs=0.04)
+    for name in ("h_rms", "rms_slope", "rms_curvature"):
+        np.testing.assert_array_equal(drawn.moments[name], plain.moments[name])
+    told = stitching.draw(found, 9, seed=1, extend_to=end, continue_to=100 * end)
+    only = stitching.draw(found, 9, seed=1, extend_to=end)
+    np.testing.assert_array_equal(told.moments["elastic_energy"], only.moments["elastic_energy"])
+    assert not told.unresolved.any()

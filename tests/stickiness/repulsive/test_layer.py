@@ -118,6 +118,8 @@ def test_a_paraboloid_on_a_layer(poisson, backing, thickness):
     contact = repulsive.solve(heights, side, load / side**2, tol=1e-6, solid=solid)
     found = np.sqrt(contact.area_fraction * side**2 / np.pi)
     assert found == pytest.approx(radius, rel=5e-3)
+    # Displacements are counted from their mean: the mean gap is the rigid displacement of files.
+    assert contact.mean_gap == pytest.approx(contact.shift - heights.mean(), rel=1e-5)
     # and by that of the backing: a layer that cannot slip hands nothing to its neighbours
     if backing == "bonded":
         moved = solid.mean_compliance * contact.mean_pressure - contact.shift
