@@ -45,6 +45,7 @@ SURFACE = {
     "format": ("--format", "text, numpy, netcdf, instrument, or the name of a format"),
     "missing_value": ("--missing-value", "number that marks missing points"),
     "missing": ("--missing", "missing points: fill (default), crop or refuse"),
+    "max_missing": ("--max-missing", "largest share of missing points that is filled"),
     "detrend": ("--detrend", "what to subtract: plane (default), mean or quadratic"),
     "resolution": ("--resolution", "shortest wavelength that the instrument resolves"),
     "fit_to": ("--fit-to", "shortest wavelength of the fit to the spectrum"),
