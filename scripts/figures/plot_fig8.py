@@ -145,7 +145,7 @@ def draw_gamma(ax, gamma):
         for height, end, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
             ax.text(end + 0.015, height, f"{100 * misfit:.0f} %", **SMALL)
         ax.plot(float(at.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
-    ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="in the source")
+    ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="published")
     ax.set_yticks(np.arange(count), [SYMBOLS[str(name)] for name in gamma.quantity.values])
     ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.15), xlabel=r"best $\gamma$, 95 %, and misfit")
     ax.legend(loc="lower right")

@@ -68,7 +68,7 @@ def draw_spectrum(ax, surface):
         ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
     ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / 1e3)  # room for the legend
-    ax.legend(loc="best")  # noise grows with q
+    ax.legend(loc="lower left" if surface.hurst > -1 else "center left")  # clear of the points
 
 
 def draw_measured(ax, surface, q):

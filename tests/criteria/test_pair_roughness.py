@@ -1,12 +1,11 @@
 """What a material and a surface bring to their contact: layers, two rough solids, direction."""
 
-import json
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-import xarray as xr
+from helpers.analysed import LONGEST, wall
 
 from common.materials import describe_modulus, read_material
 from common.verdicts import find_limits
@@ -18,13 +17,12 @@ from stickiness.criteria.pair import WORDS
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE, MODULUS_FACTORS, find_film_response
 from stickiness.solids import Film, Layer
-from stickiness.spectrum import SelfAffine, Tabulated
+from stickiness.spectrum import SelfAffine
 
 A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 TAPE = {"label": "tape", "youngs_modulus": "0.1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "made up"}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
-LONGEST = 2e-4  # of the made-up wall [m]
 
 
 @pytest.fixture(autouse=True)
@@ -36,30 +34,6 @@ def fixed_a_v(monkeypatch):
 def joined(material, surface, second=None):
     found = combine(material, surface, (A_V, A_V), second)
     return SimpleNamespace(**{name: values.values for name, values in found.items()})
-
-
-def wall(h_rms=1e-6, draws=0, **more):
-    """Analysed surface whose rough end has twice the rms height of the smooth one."""
-    spectra = [
-        SelfAffine(hurst=0.8, q0=2 * np.pi / LONGEST, q1=1e8, h_rms=factor * h_rms)
-        for factor in (1, 2)
-    ]
-    q = np.geomspace(spectra[0].q0, spectra[0].q1, 200)
-    spectra = [Tabulated(q, spectrum.psd(q)) for spectrum in spectra]
-    data = {
-        name: ("end", [getattr(spectrum, name) for spectrum in spectra])
-        for name in ("h_rms", "rms_slope", "rms_curvature")
-    }
-    data["elastic_energy"] = "end", [spectrum.elastic_energy() for spectrum in spectra]
-    data["psd"] = ("end", "wave_number"), [spectrum.psd(q) for spectrum in spectra]
-    if draws:
-        for name in ("h_rms", "elastic_energy"):
-            data[f"{name}_draws"] = "draw", np.full(draws, data[name][1][0])
-        data["q0_draws"] = "draw", np.full(draws, q[0])
-    data |= {"q0": q[0], "q1": q[-1], "hurst": 0.8, **more}
-    made = {"label": "wall", "kind": "self_affine"}
-    dataset = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
-    return dataset.assign_attrs(parameters=json.dumps(made))
 
 
 def layer_factor(k, backing):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-import xarray as xr
+from helpers.analysed import wall
 from helpers.pages import Page, make_job
 
 from common.verdicts import SHARES, find_limits, find_value
@@ -14,7 +14,6 @@ from criteria import judge, verdicts
 from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import REMAINING
-from stickiness.spectrum import SelfAffine
 
 A_V = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0.1)
 COMMON = {"work_of_adhesion": "50 mJ/m^2", "range": "0.3 nm"}
@@ -30,34 +29,21 @@ SURFACES = {"asphalt": 1e-5, "pane < 1 m": 1e-7, "spiky": 1e-7}  # rms heights i
 @pytest.fixture
 def written(monkeypatch, tmp_path):
     """Files that the rule writes, by name."""
-    surfaces, q = {}, np.geomspace(1e5, 1e9, 60)
-    for name, h_rms in SURFACES.items():
-        ends = [SelfAffine(hurst=0.8, q0=1e5, q1=1e9, h_rms=h) for h in (h_rms, 2 * h_rms)]
-        data = {n: ("end", [getattr(s, n) for s in ends]) for n in verdicts.MOMENTS}
-        data["elastic_energy"] = "end", [s.elastic_energy() for s in ends]
-        data["psd"] = ("end", "wave_number"), [s.psd(q) for s in ends]
-        data = xr.Dataset(data | {"q0": 1e5, "q1": 1e9}, {"end": ["smooth", "rough"]})
-        attrs = {
-            "parameters": json.dumps({"label": name}),
-            "not_judged": name[:5] * (name[0] == "s"),
-        }
-        surfaces[name] = data.assign_coords(wave_number=q).assign_attrs(attrs)
+    surfaces = {
+        name: wall(h_rms).assign_attrs(
+            parameters=json.dumps({"label": name}), not_judged="spikes" if name == "spiky" else ""
+        )
+        for name, h_rms in SURFACES.items()
+    }
     monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
     monkeypatch.setattr(judge, "read_surfaces", lambda *_: surfaces)
     names = {"dataset": "nc", "table": "md", "page": "html", "csv": "csv", "workbook": "xlsx"}
     outputs = {name: str(tmp_path / f"v.{ending}") for name, ending in names.items()}
-    inputs = {
-        "surfaces": [],
-        "template": "report/verdicts.md.j2",
-        "page": "report/verdicts.html.j2",
-    }
+    pages = {"template": "report/verdicts.md.j2", "page": "report/verdicts.html.j2"}
     grid = {"minimum": 1.0, "maximum": 10.0, "per_decade": 1}
-    asked = {
-        "frequencies": grid,
-        "material_surfaces": [],
-        "labels": {name: name for name in SURFACES},
-    }
-    judge.main(make_job(inputs, outputs, materials=MATERIALS, **asked))
+    asked = {"frequencies": grid, "material_surfaces": []}
+    asked |= {"materials": MATERIALS, "labels": {name: name for name in SURFACES}}
+    judge.main(make_job({"surfaces": []} | pages, outputs, **asked))
     return outputs
 
 

@@ -156,6 +156,7 @@ def loop(pull_off=-0.02, area=0.03, wider=1.5):
         "net_repulsive_area_fraction": np.concatenate([2 * there, 0.75 * back_area]),
         "separating": np.repeat([0.0, 1.0], 61),
         "jumped": np.zeros(122),
+        "residual": np.zeros(122),
         "work": np.full(122, 1.0),
         "dissipated": np.full(122, 0.25),
     }

@@ -167,6 +167,9 @@ def test_surfaces_meet_are_squeezed_and_part(pulled):
     for name, code in (("contact_area", TOUCHING), ("attracted_area", ATTRACTED)):
         np.testing.assert_allclose((pulled.zone == code).mean(["x", "y"]), pulled[name])
     assert float(pulled.contact_area.max()) > 0.1
+    assert (pulled.converged == 1).all()
+    assert pulled.residual.max() <= picture_contact.PULL_OFF_TOLERANCE
+    assert float(pulled.modulus) == GEL.modulus
 
 
 def test_quoted_numbers_are_those_of_the_curve(pulled):

@@ -1,7 +1,7 @@
 """Surfaces by the parameters of profiles that drawings specify: Ra or Rq, and RSm.
 
 They fix neither the exponent nor the ends of a spectrum. But the elastic energy of full contact
-over E* Rq^2/RSm was between 2.1 and 9.7 for 45 isotropic Gaussian surfaces, whose profiles were
+over E* Rq^2/RSm was between 2.1 and 11 for 45 isotropic Gaussian surfaces, whose profiles were
 evaluated by ISO 21920-2 (H = 0.6 to 1, roll-offs at 0.03 to 1 times the cut-off, shortest waves of
 1 nm to 1 um). The spectra of a smooth and of a rough end have about these energies.
 """

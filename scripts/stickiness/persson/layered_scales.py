@@ -34,7 +34,7 @@ class LayeredScales:
 
     def variance_below(self, q: float) -> float:
         """Return m of the waves up to `q`."""
-        return 0.5 * self.spectrum.integrate(self._slope_weight, self.spectrum.q0, q)
+        return 0.5 * float(self.spectrum.integrate(self._slope_weight, self.spectrum.q0, q))
 
     def mean_gap(self, p: NDArray, universal: Kernels) -> NDArray:
         """Mean gap [length] at mean pressures `p` > 0 [E*]."""

@@ -173,7 +173,7 @@ class Spectrum(ABC):
         if check_solid(solid) == HALF_SPACE:
             return self.total_variance(1) / 4
         averaged = self.averaged()
-        return averaged.integrate(lambda q: q / solid.factor(q), *averaged.band) / 4
+        return float(averaged.integrate(lambda q: q / solid.factor(q), *averaged.band)) / 4
 
     def integrate(
         self, function: Callable[[NDArray], NDArray], low: float, high: float
