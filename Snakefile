@@ -15,9 +15,15 @@ from snakemake.utils import min_version
 min_version("9.0")
 
 
+include: "rules/project.smk"
+
+
 # What the user sets; rules/common.smk adds the other keys. Snakemake leaves this out in a module that
 # is given its configuration.
 if Path("config/config.yaml").exists():
+    if not MODULE:
+        with one_line():
+            load.load("config/config.yaml")
 
     configfile: "config/config.yaml"
 
@@ -86,4 +92,5 @@ for target, files in TARGETS.items():
             files,
 
 
+check_targets()
 save_cache()

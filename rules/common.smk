@@ -1,69 +1,18 @@
-# Finds the project, checks the configuration and turns it into the tables that the rules use. No rule
-# stands here.
+# Checks the configuration and turns it into the tables that the rules use. No rule stands here.
 
-import contextlib
-import os
+import difflib
 import re
-import subprocess
-import sys
-import tempfile
 import time
 from collections import Counter
 from pathlib import Path
 
+from snakemake.cli import get_argument_parser
 from snakemake.utils import update_config
 
-
-def find_project():
-    """Folder of the project: the one above these rules, or a copy if Snakemake reads them from git."""
-    rules_folder = workflow.current_basedir
-    if os.path.isdir(str(rules_folder)):
-        return Path(str(rules_folder)).parent
-    # Snakemake fetches single files of github(…) and gitlab(…), but scripts import modules, which
-    # must lie in a folder. Its documentation offers no way to the clone that it keeps in its cache.
-    clone = getattr(getattr(rules_folder, "hosted_repo", None), "repo_clone", None)
-    if clone is None:
-        sys.exit(f"{rules_folder}: give the Snakefile as a path, or use a newer Snakemake")
-    git = ["git", "-C", str(clone)]
-    ref = f"{rules_folder.ref}^{{commit}}"
-    commit = subprocess.check_output([*git, "rev-parse", ref], text=True).strip()
-    copy = Path(f"{clone}-{commit}")
-    if not copy.exists():
-        with tempfile.TemporaryDirectory(dir=copy.parent) as folder:
-            content = subprocess.check_output([*git, "archive", "--prefix=copy/", commit])
-            subprocess.run(["tar", "-x", "-C", folder], input=content, check=True)
-            with contextlib.suppress(OSError):  # another run may have been faster
-                os.rename(f"{folder}/copy", copy)
-    return copy
-
-
-PROJECT = find_project()
-# Another workflow may use this one as a module.
-MODULE = None if os.path.samefile(workflow.basedir, PROJECT) else "stickiness"
-
-
-def project_file(path):
-    """A file of the project, seen from the folder of the run; a module's prefix does not move it."""
-    return local(path if os.path.samefile(PROJECT, ".") else f"{PROJECT}/{path}")
-
-
-# Of this process and, by its environment, of every job.
-SCRIPTS = f"{PROJECT}/scripts"
-sys.path.insert(0, SCRIPTS)
-others = [path for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
-os.environ.update(PYTHONPATH=os.pathsep.join([SCRIPTS, *others]))
-# One thread a job: `-j` runs seeds and cases side by side, which scales better than threaded
-# linear algebra on arrays of this size, and sums do not depend on the number of cores.
-for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(name, "1")
-
-# Made by the first run, which reads units before any job does.
-os.environ.setdefault("STICKINESS_UNITS", os.path.abspath(".snakemake/units"))
 
 from common.source_hash import save_cache, source_hash
 from stickiness.accuracy import model_choice, plan
 from stickiness.accuracy.error_models import read_models
-from common.config import load
 from common.config.entries import MOST_POINTS, measurements
 
 # Tables that this project measured, which are committed.
@@ -72,7 +21,7 @@ ERROR_MODELS, TRADE_SUMMARY, REMAINING_TABLE, DMT_ERROR_TABLE = (
     for name in ("accuracy", "tradeoff", "remaining", "dmt_error")
 )
 
-try:
+with one_line():
     # What a user leaves out is as in the project.
     given, config = config, load.defaults(PROJECT, project_file)
     update_config(config, given)
@@ -87,25 +36,19 @@ try:
     )
     PLANS = plan.plans_of(config, read_models(ERROR_MODELS))
     DMT_ERRORS = model_choice.read_table(DMT_ERROR_TABLE)
-except ValueError as error:
-    sys.exit(str(error))  # one line, where an exception's would have Snakemake's around it
 
 STARTED = time.time()
-for target in [] if MODULE else sys.argv[1:]:
-    asked = re.match(rf"{re.escape(config['results'])}/([^/]+)/", target)
-    if asked and asked[1] in config["fidelities"] and asked[1] != config["fidelity"]:
-        sys.exit(
-            f"{target} is of fidelity {asked[1]}, this run of {config['fidelity']}: "
-            f"add --config fidelity={asked[1]}"
-        )
-
 FIDELITY = config["fidelities"][config["fidelity"]]
 RESULTS = f"{config['results']}/{config['fidelity']}"
+for folder in (Path(RESULTS), *Path(RESULTS).parents):
+    if folder.exists() and not folder.is_dir():
+        sys.exit(f"{folder} must be a folder: move this file, or set `results` in {load.USER}")
 TRADEOFF = f"{config['results']}/tradeoff"
 REMAINING = f"{config['results']}/remaining"
 MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
 SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
 GAMMA, GAPS = config["theory"]["gamma"], config["gaps"]
+LABELS = {name: entry["label"] for name, entry in REAL_SURFACES.items()}
 MEASURED_SURFACES = [name for name, entry in REAL_SURFACES.items() if entry["kind"] == "measured"]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
@@ -145,6 +88,11 @@ def pressures_of(name):
     return PLANS[name].pressures if name in CASES else config["comparisons"]["pressures"]
 
 
+def without_texts(entry):
+    """An entry without what only readers need, which must not start a simulation."""
+    return {key: value for key, value in entry.items() if key not in ("label", "source", "note")}
+
+
 def several(path, **names):
     """Files of results for every one of some names."""
     return expand(f"{RESULTS}/{path}", **names)
@@ -177,6 +125,30 @@ def surfaces_on(surface, pixels, part="1-1"):
 
 def a_v_of_simulation(case):
     return f"{RESULTS}/fits/a_v/ensembles/{case}.nc"
+
+
+def check_targets():
+    """Stop if the command names a target that no rule makes, and say what may be meant."""
+    by_command = workflow.is_main_process and Path(sys.argv[0]).stem in ("snakemake", "__main__")
+    if MODULE or not by_command:
+        return
+    files = [
+        file
+        for found in TARGETS.values()
+        for file in ([found] if isinstance(found, str) else found)
+    ]
+    for target in get_argument_parser().parse_known_args()[0].targets:
+        asked = re.match(rf"{re.escape(config['results'])}/([^/]+)/", target)
+        if asked and asked[1] in config["fidelities"] and asked[1] != config["fidelity"]:
+            sys.exit(
+                f"{target} is of fidelity {asked[1]}, this run of {config['fidelity']}: "
+                f"add --config fidelity={asked[1]}"
+            )
+        made = any(target == rule.name or rule.is_producer(target) for rule in workflow.rules)
+        if not made and not Path(target).exists():
+            close = difflib.get_close_matches(target, [*TARGETS, *files], n=1)
+            hint = f"did you mean {close[0]!r}?" if close else f"choose from {', '.join(TARGETS)}"
+            sys.exit(f"{target!r} is no target; {hint}")
 
 
 def summarise():
@@ -212,10 +184,23 @@ onsuccess:
     summarise()
 
 
+def explain(job):
+    """Say which files a job failed to make, why, and where its log is."""
+    path = Path(str(job.log[0]))
+    said = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
+    errors = re.findall(r" ERROR (.*)", said)
+    reason = errors[-1] if errors else "ended without a word; was it killed, or out of memory?"
+    return f"{', '.join(job.output)}: {reason} (log: {path})"
+
+
 onerror:
     summarise()
     print(
-        "  failed    Some jobs failed, as reported above; whatever does not depend on them was made.\n"
-        "            Fix the cause and run the same command again to make the rest.",
+        "  failed    Fix what follows and run the same command again; all that does not depend on it\n"
+        "            was made.",
         file=sys.stderr,
     )
+    # Snakemake's log, which it offers here, lacks the errors of a quiet run.
+    failed = (job if job.is_group() else [job] for job in workflow.scheduler.failed)
+    for line in sorted(explain(job) for group in failed for job in group):
+        print(f"  failed    {line}", file=sys.stderr)

@@ -79,7 +79,7 @@ rule judge:
         "../envs/environment.yaml"
     params:
         **JUDGED,
-        surfaces=list(REAL_SURFACES),
+        labels=LABELS,
         code=source_hash("criteria/judge.py"),
     script:
         "../scripts/criteria/judge.py"

@@ -74,6 +74,7 @@ for figure, files in FIGURE_INPUTS.items():
             "../envs/environment.yaml"
         params:
             pressure=config["criteria"]["a_v"]["pressure"],
+            labels=LABELS if figure == "fig6" else {},
             figure=figure,  # the path of the script is formatted when the job runs
             code=source_hash(f"figures/plot_{figure}.py"),
         script:

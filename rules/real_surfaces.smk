@@ -33,7 +33,7 @@ rule analyse_surface:
     conda:
         "../envs/environment.yaml"
     params:
-        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        surface=lambda wildcards: without_texts(REAL_SURFACES[wildcards.real_surface]),
         code=source_hash("real_surfaces/analyse_surface.py"),
     script:
         "../scripts/real_surfaces/analyse_surface.py"
@@ -55,7 +55,7 @@ rule contact_measured:
         mem_mb=memory(36, largest_contact),
         runtime=lambda wildcards: 60 + math.ceil(15 * largest_contact(wildcards)),
     params:
-        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        surface=lambda wildcards: without_texts(REAL_SURFACES[wildcards.real_surface]),
         tolerance=FIDELITY["tolerance"],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
         gamma=GAMMA,
@@ -80,9 +80,9 @@ rule picture_contact:
     conda:
         "../envs/environment.yaml"
     params:
-        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        surface=lambda wildcards: without_texts(REAL_SURFACES[wildcards.real_surface]),
         material=PICTURED_MATERIAL,
-        entry=MATERIALS[PICTURED_MATERIAL],
+        entry=without_texts(MATERIALS[PICTURED_MATERIAL]),
         squeeze=REMAINING_CAMPAIGN["squeeze"],
         code=source_hash("real_surfaces/picture_contact.py"),
     script:

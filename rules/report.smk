@@ -62,6 +62,7 @@ rule write_report:
         "../envs/environment.yaml"
     params:
         presets=PRESETS,
+        surfaces=REAL_SURFACES,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
         code=source_hash("report/write_report.py"),
@@ -94,6 +95,10 @@ rule write_surface:
         "../envs/environment.yaml"
     params:
         **JUDGED,
+        surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
+        labels=lambda wildcards: {
+            name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
+        },
         code=source_hash("report/write_surface.py"),
     script:
         "../scripts/report/write_surface.py"

@@ -87,7 +87,7 @@ def list_a_v(map):
 
 
 @claim(14)
-def real_surfaces(asphalt, map, measured_surfaces):
+def real_surfaces(asphalt, map, measured_surfaces, verdicts):
     # Rms height of the example, by the power law down to no cutoff.
     rough = asphalt.sel(end="rough")
     q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
@@ -98,7 +98,8 @@ def real_surfaces(asphalt, map, measured_surfaces):
     )
     # Only measured spectra can test the line, not parameters that somebody assumed.
     heights = [float(data.C0_reference_upper.max()) / UPPER_LINE for data in measured_surfaces]
-    labels = [datasets.parameters(data)["label"] for data in measured_surfaces]
+    names = [datasets.parameters(data)["surface"] for data in measured_surfaces]
+    labels = [datasets.parameters(verdicts)["labels"][name] for name in names]
     close = abs(printed / PRINTED_MODULUS - 1) < 0.1
     return Finding(
         printed,

@@ -22,8 +22,10 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
     logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
     sys.excepthook = report_error
-    # Machines that share the folder may have different processors.
-    compiled = Path(".snakemake", "loops", platform.node()).absolute()
+    # Beside the code if possible, for runs in all folders; machines that share it may differ.
+    project = Path(__file__).parents[2]
+    place = project if os.access(project, os.W_OK) else Path()
+    compiled = Path(place, ".snakemake", "loops", platform.node()).absolute()
     os.environ.setdefault("NUMBA_CACHE_DIR", str(compiled))
     return job
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from common.formatting import amount, number
+from stickiness.plausibility import LIMITS
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL
@@ -58,6 +59,14 @@ def read_material(entry):
         broken_at=si(entry.get("broken_at", "1 Hz"), "Hz"),
     )
     return replace(material, solid=read_solid(entry, material.modulus))
+
+
+def find_doubts(entry):
+    """Sentences about values that hardly any real pair has, as the configuration states them."""
+    for key, limits in LIMITS.items():
+        if key in entry and si(entry[key], limits.unit) > limits.usual:
+            name = f"{entry['label']}: {key.replace('_', ' ')}"
+            yield f"{name} = {entry[key]} is improbable: {limits.reason}"
 
 
 def read_solid(entry, modulus):

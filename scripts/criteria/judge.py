@@ -7,6 +7,7 @@ import pandas as pd
 
 from common.formatting import NOTHING, interval, percent
 from common.job import start
+from common.materials import find_doubts
 from common.provided import choose_mine
 from common.templates import write_page
 from common.verdicts import KPA, MPA, SHARES, find_limits, find_value
@@ -28,9 +29,8 @@ WIDTH = 26  # of a column, in characters
 
 
 def main(job):
-    materials, output = job.params.materials, job.output
-    surfaces = read_surfaces(job.params.surfaces, job.input.surfaces)
-    labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
+    materials, labels, output = job.params.materials, job.params.labels, job.output
+    surfaces = read_surfaces(labels, job.input.surfaces)
     material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
     dataset = judge_materials(surfaces, material_surfaces, job.params)
     title = "verdicts of the stickiness criteria"
@@ -60,6 +60,7 @@ def describe_page(dataset, materials, labels):
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
+        "doubts": [doubt for entry in materials.values() for doubt in find_doubts(entry)],
         "shares": SHARES,
         "pairs": [row | {"mine": row in mine} | compare(select(dataset, row)) for row in rows],
         "others": [criterion.label for criterion in others],

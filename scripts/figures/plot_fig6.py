@@ -13,9 +13,8 @@ WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 
 
 def main(job):
-    surfaces = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
-    # The lines of constant C0 are surfaces, too, but drawn without ends.
-    surfaces = [s for s in surfaces if not datasets.parameters(s)["label"].startswith("C0 =")]
+    read = [datasets.read(path, ["psd", "wave_number"]) for path in job.input.surfaces]
+    surfaces = list(zip(job.params.labels.values(), read, strict=True))
     ratios = [1.25, 1]
     with plotting.open_figure(job.output, "A;B", 7.2, sharex=True, height_ratios=ratios) as panels:
         draw_spectra(panels["A"], surfaces, 0)
@@ -29,8 +28,7 @@ def main(job):
 
 def draw_spectra(ax, surfaces, power):
     """All spectra times q to a power, so that the lines are steep (0) or level (2 H + 2)."""
-    for index, surface in enumerate(surfaces):
-        label = datasets.parameters(surface)["label"]
+    for index, (label, surface) in enumerate(surfaces):
         plotting.draw_spectrum(ax, surface, COLOURS[index % len(COLOURS)], label, power)
         if "psd_fit" in surface:
             fit = surface.psd_fit.where(surface.fitted == 1) * surface.wave_number**power

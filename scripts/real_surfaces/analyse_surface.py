@@ -77,7 +77,7 @@ VARIABLE_TEXTS = {
 def main(job):
     entry = job.params.surface
     dataset = analyse(entry) if entry["kind"] == "measured" else self_affine(entry)
-    title = f"spectrum of a real surface: {entry['label']}"
+    title = f"spectrum of the real surface {job.wildcards.real_surface}"
     parameters = {"surface": job.wildcards.real_surface, **entry}
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 

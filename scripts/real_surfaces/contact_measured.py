@@ -65,7 +65,7 @@ def main(job):
         tolerance=params.tolerance,
         gamma=params.gamma,
     )
-    title = f"contact of measured heights: {entry['label']}"
+    title = f"contact of the measured heights of {job.wildcards.real_surface}"
     parameters = {"surface": job.wildcards.real_surface, "source": heights.source, **entry}
     found = conventions.annotate(found, **VARIABLE_TEXTS)
     datasets.write(found, job.output[0], title=title, parameters=parameters)

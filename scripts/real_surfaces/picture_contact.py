@@ -108,10 +108,10 @@ def main(job):
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
     made = {"surface": job.wildcards.real_surface}
-    title = f"where the heights touch: {asked['label']}"
+    title = f"where the heights of {job.wildcards.real_surface} touch"
     datasets.write(contact, job.output.contact, title=title, parameters=made | asked)
-    made |= {"material": params.material, **entry, "source": asked["source"]}
-    title = f"pull-off of {entry['label']} from {asked['label']}"
+    made |= {"material": params.material, **entry}
+    title = f"pull-off of {params.material} from {job.wildcards.real_surface}"
     datasets.write(pull_off, job.output.pull_off, title=title, parameters=made)
     draw_still(contact, pull_off, job.output.figure)
 

@@ -47,7 +47,7 @@ def main(job):
         for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
     materials = datasets.parameters(verdicts)["materials"]
-    labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
+    labels = {name: entry["label"] for name, entry in params.surfaces.items()}
     pairs = arrange_pairs(verdicts, materials, labels)
     embed = pages.embed_figure
     write_page(
@@ -78,6 +78,7 @@ def main(job):
         experiments=experiments.describe(tested),
         experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),
         surfaces=surfaces,
+        described=params.surfaces,
         sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
         answers={name: at_load(answer) for name, answer in answers.items()},
         comparisons={name: compare_theory(data) for name, data in comparisons.items()},

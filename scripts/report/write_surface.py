@@ -10,7 +10,7 @@ import numpy as np
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
-from common.materials import describe_modulus, read_material
+from common.materials import describe_modulus, find_doubts, read_material
 from common.templates import write_page
 from common.verdicts import describe_moment, find_limits, find_value
 from criteria.thresholds import ASKED, find_thresholds
@@ -33,7 +33,6 @@ def main(job):
     inputs = job.input
     surface = datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"])
     entries, pairs = job.params.materials, judge(job).sel(surface=job.wildcards.real_surface)
-    surface_labels = datasets.parameters(pairs)["labels"]
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
     mine = [name for name in names if name not in provided.MATERIALS]
     at_first = mine or names[: surface_figures.SHOWN]
@@ -48,23 +47,23 @@ def main(job):
     }
     contact = bem = None
     if inputs.get("contact"):
-        contact = describe_contact(inputs, [entries[name] for name in mine])
+        contact = describe_contact(inputs, entries, mine)
     if inputs.get("measured_contact"):
         bem = describe_measured_contact(datasets.read(inputs.measured_contact, ["a_v"]))
     write_page(
         inputs.template,
         job.output.page,
         files=dict(inputs.items()) | {"verdicts": job.output.verdicts},
-        report=f"{job.output.page.rsplit('/', 2)[0]}/report.html",
         surface=surface,
-        made=datasets.parameters(surface),
+        made=job.params.surface,
         sizes=describe_surface(surface),
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
         contact_area=CONTACT_AREA,
+        doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         verdicts=[
-            describe_verdict(pairs.sel(material=name), entries[name], surface_labels)
+            describe_verdict(pairs.sel(material=name), entries[name], job.params.labels)
             | {"mine": name in mine}
             for name in names
         ],
@@ -80,19 +79,18 @@ def judge(job):
     """Write the verdicts on the surface, and return them."""
     surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
-    labels = {n: datasets.parameters(s)["label"] for n, s in (surfaces | material_surfaces).items()}
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
     name = job.wildcards.real_surface
     verdicts = find_thresholds(verdicts, surfaces[name], material_surfaces, job.params.materials)
-    title = f"verdicts of the stickiness criteria: {labels[name]}"
-    parameters = {"materials": job.params.materials, "labels": labels}
+    title = f"verdicts of the stickiness criteria: {job.params.surface['label']}"
+    parameters = {"materials": job.params.materials, "labels": job.params.labels}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     laws = [
         describe_law(verdicts.sel(material=material, surface=name), entry)
         for material, entry in job.params.materials.items()
     ]
     with datasets.whole_file(job.output.contact_laws) as path:
-        made = {"version": __version__, "surface": labels[name], "pairs": laws}
+        made = {"version": __version__, "surface": job.params.surface["label"], "pairs": laws}
         path.write_text(json.dumps(made, indent=1, ensure_ascii=False, allow_nan=False))
     return datasets.read(job.output.verdicts)
 
@@ -125,12 +123,13 @@ def describe_verdict(pair, entry, labels):
     }
 
 
-def describe_contact(files, mine):
+def describe_contact(files, entries, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map."""
     contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
         return None
-    loads = list_loads(contact, {entry["label"]: read_material(entry) for entry in mine})
+    solids = {entries[name]["label"]: read_material(entries[name]) for name in mine}
+    loads = list_loads(contact, solids)
     texts = []
     for load in loads:
         pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
@@ -143,7 +142,7 @@ def describe_contact(files, mine):
         "still": pages.embed_png(files.contact_figure),
         "data": contact,
         "loads": loads,
-        "pulled": made["label"],
+        "pulled": entries[made["material"]]["label"],
         "moment": describe_moment(read_material(made)).partition(",")[0],
         "pull_off": pull_off,
     }

@@ -7,6 +7,7 @@ all such units, and catch gross mistakes only: pascals for units of E*, micromet
 from __future__ import annotations
 
 import warnings
+from typing import NamedTuple
 
 _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flattens a surface
 _MOST_HEIGHT, _LEAST_HEIGHT = 100.0, 1e-9  # rms height over the side of the cell
@@ -17,13 +18,36 @@ REFUSED_SIDE = (
     f"is longer than {LONGEST_SIDE:g} m, which no microscope or profilometer measures; correct it "
     "(2 mm, not 2 m?), or give plausibility: ignore if it is so"
 )
-# Lowest and highest values of real solids and surfaces in SI units, most with room to spare.
-_SI_LIMITS = {
-    "length": (SHORTEST_SIDE, LONGEST_SIDE, "give the side of the heights in m (2e-3 for 2 mm)"),
-    "modulus": (10.0, 1e13, "give it in Pa"),
-    "work_of_adhesion": (1e-6, 10.0, "give it in J/m^2"),
-    "range": (1e-11, 1e-5, "give it in m"),
-    "rms_slope": (1e-7, 1.0, "small slopes are assumed; give heights and lengths both in m"),
+
+
+class Limits(NamedTuple):
+    """Values of real solids and surfaces in SI units, most with room to spare."""
+
+    least: float
+    usual: float  #: above, a value is improbable
+    most: float
+    reason: str
+    unit: str = ""  #: empty if the reason says what to give
+
+
+#: By the name of the argument, or of the key in the configuration.
+LIMITS = {
+    "length": Limits(
+        *(SHORTEST_SIDE, LONGEST_SIDE, LONGEST_SIDE),
+        "give the side of the heights in m (2e-3 for 2 mm)",
+    ),
+    "rms_slope": Limits(
+        *(1e-7, 1.0, 1.0), "small slopes are assumed; give heights and lengths both in m"
+    ),
+    "modulus": Limits(10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"),
+    "work_of_adhesion": Limits(
+        *(1e-6, 3.0, 10.0),
+        "clean metals reach 3 J/m^2, other solids 0.1 J/m^2; is it in mJ/m^2, or an energy of "
+        "peeling, which includes dissipation?",
+        "J/m^2",
+    ),
+    "range": Limits(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
+    "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),
 }
 
 
@@ -49,10 +73,11 @@ def warn_of_heights(rms_height: float, length: float) -> None:
         )
 
 
-def warn_of_si(stacklevel: int = 3, **values: float) -> None:
-    """Warn of a value, by its name in `_SI_LIMITS`, that no real pair has in SI units."""
+def warn_of_si(**values: float) -> None:
+    """Warn of a value, by its name in `LIMITS`, that hardly any real pair has in SI units."""
     for name, value in values.items():
-        low, high, remedy = _SI_LIMITS[name]
+        low, high, _, reason, unit = LIMITS[name]
         if not low <= value <= high:
-            text = f"{name} = {value:.3g} is outside {low:g} to {high:g}: {remedy}"
-            warnings.warn(text, PlausibilityWarning, stacklevel=stacklevel)
+            text = f"{name} = {value:.3g} is outside {low:g} to {high:g}: {reason}"
+            text += f"; give it in {unit}" if unit else ""
+            warnings.warn(text, PlausibilityWarning, stacklevel=2)

@@ -56,7 +56,7 @@ def test_tough_edges_do_not_ask_for_more_adhesion_on_finer_surfaces():
 def test_measured_surfaces_test_the_line(files):
     found = criterion.real_surfaces(files)
     assert (found.verdict, found.facts["line"]) == (REPRODUCED, NOT)
-    assert found.facts["measured"] == [("terrain", pytest.approx(70))]
+    assert found.facts["measured"] == [("rough terrain", pytest.approx(70))]
     files["measured_surfaces"] = [real_surface("steel", kind="measured", c0=1e-4)]
     assert criterion.real_surfaces(files).facts["line"] == REPRODUCED
     files["measured_surfaces"] = []

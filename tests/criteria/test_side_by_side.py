@@ -21,7 +21,7 @@ FILM = {"youngs_modulus": "4 GPa", "poisson_ratio": 0.4, "thickness": "50 um"}
 MATERIALS = {
     "psa": COMMON | {"label": "adhesive", "plane_strain_modulus": "0.1 MPa"},
     "tape": COMMON | FILM | {"label": "a | b", "youngs_modulus": "60 kPa", "backing": FILM},
-    "stiff": COMMON | {"label": "stiff, brittle", "plane_strain_modulus": "1 GPa"},
+    "stiff": COMMON | {"label": "stiff", "plane_strain_modulus": "1 GPa", "range": "0.3 um"},
 }
 SURFACES = {"asphalt": 1e-5, "pane < 1 m": 1e-7, "spiky": 1e-7}  # rms heights in m
 
@@ -41,8 +41,9 @@ def written(monkeypatch, tmp_path):
     outputs = {name: str(tmp_path / f"v.{ending}") for name, ending in names.items()}
     pages = {"template": "report/verdicts.md.j2", "page": "report/verdicts.html.j2"}
     grid = {"minimum": 1.0, "maximum": 10.0, "per_decade": 1}
-    asked = {"frequencies": grid, "material_surfaces": [], "surfaces": list(SURFACES)}
-    judge.main(make_job({"surfaces": []} | pages, outputs, materials=MATERIALS, **asked))
+    asked = {"frequencies": grid, "material_surfaces": []}
+    asked |= {"materials": MATERIALS, "labels": {name: name for name in SURFACES}}
+    judge.main(make_job({"surfaces": []} | pages, outputs, **asked))
     return outputs
 
 
@@ -81,5 +82,14 @@ def test_workbook_holds_numbers_and_the_page_words(written):
     frame, sheet = pd.read_csv(written["csv"]), pd.read_excel(written["workbook"])
     pd.testing.assert_frame_equal(sheet, frame, check_dtype=False, rtol=1e-5)
     page = Page(Path(written["page"]).read_text(encoding="utf-8"))
-    page.check("a | b", "pane < 1 m", "Keeps 30 %", "not judged", "peel force")
-    assert "| a \\| b | pane < 1 m |" in Path(written["table"]).read_text(encoding="utf-8")
+    page.check(
+        "Stiff: range = 0.3 µm is improbable: molecules",
+        "a | b",
+        "pane < 1 m",
+        "Keeps 30 %",
+        "not judged",
+        "peel force",
+    )
+    table = Path(written["table"]).read_text(encoding="utf-8")
+    assert table.startswith("# Do they stick?\n\n**Stiff: range = 0.3 um is improbable: molecules")
+    assert "| a \\| b | pane < 1 m |" in table

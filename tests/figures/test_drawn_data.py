@@ -280,14 +280,14 @@ def test_figure_5_interpolates_limits_between_adhesion_lengths(ax):
 WAVE_NUMBERS = np.geomspace(1e3, 1e6, 4)
 
 
-def spectrum(label, **more):
+def spectrum(**more):
     levels = {"psd": np.outer([1e-5, 1e-3], WAVE_NUMBERS**-3.6)}
     coords = {"end": ["smooth", "rough"], "wave_number": WAVE_NUMBERS}
-    return dataset(coords, levels | more, label=label)
+    return dataset(coords, levels | more)
 
 
 def test_figure_6_fills_between_the_ends_of_a_parametric_surface(ax):
-    plot_fig6.draw_spectra(ax, [spectrum("road")], plot_fig6.EXPONENT)
+    plot_fig6.draw_spectra(ax, [("road", spectrum())], plot_fig6.EXPONENT)
     _, low, high = band_ends(ax)
     np.testing.assert_allclose([low, high], [[1e-5] * 4, [1e-3] * 4])
     drawn(ax, [1e-4, 1e10], [1e-3, 1e-3], linestyle="--")
@@ -298,7 +298,7 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
     q = WAVE_NUMBERS
     more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
     more |= {"fitted": np.array([0, 1, 1, 0], dtype="i1"), "q1": 1e6, "q_cutoff": 1e5}
-    plot_fig6.draw_spectra(ax, [spectrum("wafer", **more)], plot_fig6.EXPONENT)
+    plot_fig6.draw_spectra(ax, [("wafer", spectrum(**more))], plot_fig6.EXPONENT)
     drawn(ax, q[:3], [1e-5] * 3, marker="o")
     drawn(ax, q, [np.nan, 2e-5, 2e-5, np.nan], color=plotting.BLACK)
     ((_, halves),) = bar_lengths(ax)

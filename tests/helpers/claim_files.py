@@ -185,13 +185,13 @@ def stickiness_map():
     return made_by(data, slope_a_v=3.0, shortest_over_range=4)
 
 
-def real_surface(label, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
+def real_surface(name, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):
     values = {name: ("end", [c0 / 10, c0]) for name in ("C0", "C0_reference_upper")}
     values |= {"h_rms": ("end", [h_rms / 10, h_rms]), "rms_slope": ("end", [0.1, 1.0])}
     values |= {"elastic_energy": ("end", [q0 * h_rms**2 / 150, q0 * h_rms**2 / 1.5])}
     values |= {"q0": q0, "q1": 2 * np.pi / 1e-6, "hurst": 0.8}
     data = xr.Dataset(values, coords={"end": ["smooth", "rough"]})
-    return made_by(data, kind=kind, label=label)
+    return made_by(data, kind=kind, surface=name)
 
 
 def verdicts(**margins):
@@ -199,7 +199,8 @@ def verdicts(**margins):
     dims = "material", "surface", "end"
     margin = np.broadcast_to(np.reshape([*margins.values()], (-1, 1, 1)), (len(margins), 1, 2))
     coords = dict(zip(dims, ([*margins], ["polished_steel"], ["smooth", "rough"]), strict=True))
-    return xr.Dataset({"jtb_margin": (dims, margin)}, coords=coords)
+    labels = {"terrain": "rough terrain", "steel": "steel"}
+    return made_by(xr.Dataset({"jtb_margin": (dims, margin)}, coords=coords), labels=labels)
 
 
 def generated(seed, zeta=16, stretch=1.0):

@@ -53,6 +53,12 @@ PRESETS = {
 }
 
 
+SURFACES = {
+    "glass": {"kind": "self_affine", "label": "glass pane", "note": "typical"},
+    "sand": {"kind": "measured", "label": "sand < 1 mm", "source": "own"},
+}
+
+
 @pytest.fixture(scope="module")
 def claims():
     count = len(GRADES)
@@ -129,7 +135,8 @@ def verdicts():
     iron = {"label": "iron", "plane_strain_modulus": "2 GPa"}
     both = {"work_of_adhesion": "50 mJ/m^2", "range": "1 nm", "source": "own"}
     materials = {"jelly": jelly | both, "iron": iron | both}
-    return made_by(dataset, materials=materials, pressure=0.065)
+    labels = {name: entry["label"] for name, entry in SURFACES.items()}
+    return made_by(dataset, materials=materials, labels=labels, pressure=0.065)
 
 
 @pytest.fixture(scope="module")
@@ -150,10 +157,7 @@ def surfaces():
         measured = budgeted(measured, name, sampling=error)
     known = budgeted(known, "hurst")
     measured = measured.assign_attrs(remarks="noisy <spectrum>")
-    return {
-        "glass": made_by(known, kind="self_affine", label="glass pane", note="typical"),
-        "sand": made_by(measured, kind="measured", label="sand < 1 mm", source="own"),
-    }
+    return {"glass": made_by(known), "sand": made_by(measured)}
 
 
 def ensemble():
@@ -266,16 +270,16 @@ def page(results, tmp_path_factory):
     inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
     inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
     path = folder / "report/report.html"
-    settings = {"presets": PRESETS, "fidelity": "draft"}
+    settings = {"presets": PRESETS, "fidelity": "draft", "surfaces": SURFACES}
     settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
     write_report.main(make_job(inputs, {"page": str(path)}, **settings))
     return Page(path.read_text(encoding="utf-8"))
 
 
 @pytest.fixture(scope="module")
-def pairs(verdicts, surfaces):
-    labels = {name: datasets.parameters(surface)["label"] for name, surface in surfaces.items()}
-    return arrange_pairs(verdicts, datasets.parameters(verdicts)["materials"], labels)
+def pairs(verdicts):
+    made = datasets.parameters(verdicts)
+    return arrange_pairs(verdicts, made["materials"], made["labels"])
 
 
 @pytest.mark.slow

@@ -73,6 +73,7 @@ def write_page(found, folder, materials=MATERIALS, bem=None, **pictures):
     outputs |= {name: str(folder / f"{name}.png") for name in ("figure", "curves")}
     outputs["contact_laws"] = str(folder / "laws.json")
     asked = {"material_surfaces": [], "materials": materials, "frequencies": FREQUENCIES}
+    asked |= {"surface": made, "labels": {"plate": made["label"]}}
     write_surface.main(make_job(inputs, outputs, wildcards=PLATE, **asked))
     return Page(Path(outputs["page"]).read_text(encoding="utf-8"))
 
@@ -158,7 +159,7 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
         "Steel does not stick: nothing of the work of adhesion remains.",
     )
     assert {link for link in page.links if not link.startswith(("#", "https://doi.org/"))} == {
-        *("../report.html", "../../plate.nc", "../../verdicts.nc")
+        *("../../plate.nc", "../../verdicts.nc")
     }
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
     assert re.search(r"sticks for certain below [\d. ×⁰-⁹]+ Hz", page.text)
@@ -260,8 +261,13 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     assert (pairs.verdict == NOT_JUDGED).all()
     assert np.isnan(pairs.probability).all()
     assert not pairs.disagrees.any()
-    text = write_page(found, folder).text
-    for words in ("Not judged.", "of the points have the one value 0", "give missing_value: 0"):
+    text = write_page(found, folder, {"gel": GEL | {"range": "0.3 um"}}).text
+    for words in (
+        "Gel <soft>: range = 0.3 µm is improbable: molecules attract",
+        "Not judged.",
+        "of the points have the one value 0",
+        "give missing_value: 0",
+    ):
         assert words in text
     assert "stick: " not in text
     assert not surface_figures.find_curves(pairs, {"gel": "gel"}, ["gel"])

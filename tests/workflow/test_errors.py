@@ -1,8 +1,11 @@
 """Bad configuration stops the workflow before any job, in one line and with nothing written."""
 
 import pytest
+from helpers.dry_runs import dry_run
 
 pytestmark = pytest.mark.workflow
+
+PAGES = "results/tiny/report/surfaces"
 
 
 def only_line(done):
@@ -21,6 +24,38 @@ def test_stops_before_any_job(fresh):
         "config/materials.yaml: materials.crystal.plane_strain_modulus = '-1 GPa' must be positive"
     )
     assert not (fresh / "results").exists()
+
+
+TAB = "line 2: not valid YAML: it holds a tab: indent with blanks"
+EMPTY = "must hold keys and values, found nothing"
+FOLDER = "cannot be read as YAML: Is a directory"
+
+
+@pytest.mark.parametrize("path", ["config/materials.yaml", "config/config.yaml"])
+@pytest.mark.parametrize(
+    ("text", "says"), [("a:\n\tb: 1\n", TAB), ("# a\n", EMPTY), (None, FOLDER)]
+)
+def test_a_file_that_cannot_be_read_is_named(fresh, path, text, says):
+    (fresh / path).unlink()
+    (fresh / path).mkdir() if text is None else fresh.add(text, path)
+    assert only_line(dry_run(fresh.folder)) == f"{path}: {says}"
+
+
+def test_results_must_be_a_folder(fresh):
+    fresh.add("", "results")
+    assert only_line(fresh.dry_run()).startswith("results must be a folder: move this file, or")
+
+
+@pytest.mark.parametrize(
+    ("target", "hint"),
+    [
+        ("verdict", "did you mean 'verdicts'?"),
+        ("xyz", "choose from fig1, fig2, "),
+        (f"{PAGES}/ashpalt.html", f"did you mean '{PAGES}/asphalt.html'?"),
+    ],
+)
+def test_a_misspelt_target_is_asked_back(fresh, target, hint):
+    assert only_line(fresh.dry_run(target)).startswith(f"'{target}' is no target; {hint}")
 
 
 def test_a_target_of_another_fidelity_gets_a_hint(fresh):

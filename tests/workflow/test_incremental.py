@@ -36,6 +36,18 @@ CHANGES = {
         {"judge", "write_surface", "plot_fig9", "check_claims", "write_report"},
         {"analyse_surface", *SOLUTIONS},
     ),
+    "label of a material": (
+        "config/materials.yaml",
+        ("label: silicone (PDMS)", "label: silicone"),
+        {"judge", "write_surface", "write_report"},
+        {"analyse_surface", "picture_contact", *SOLUTIONS},
+    ),
+    "label of a surface": (
+        "config/tiny_surfaces.yaml",
+        ("label: Jacksboro fault, Tennessee (terrain)", "label: terrain"),
+        {"judge", "write_surface", "write_report", "plot_fig6", "check_claims"},
+        {"analyse_surface", "picture_contact", *SOLUTIONS},
+    ),
     "experiment": (
         "config/experiments.yaml",
         ('"37 mJ/m^2"', '"38 mJ/m^2"'),

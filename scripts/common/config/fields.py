@@ -9,20 +9,11 @@ from typing import Annotated, Any, ClassVar, Literal, TypeVar
 import pydantic
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, PlainValidator
 
+from stickiness.plausibility import LIMITS
 from stickiness.traction_laws import LAWS, PREDICTED
 from stickiness.units import si
 
 T = TypeVar("T")
-
-# Keys that are gone, by section, and what to do without them.
-GONE = {
-    "Configuration.tradeoff": "config/campaigns/tradeoff.yaml holds that campaign",
-    "Configuration.remaining": "config/campaigns/remaining.yaml holds that campaign",
-    "Configuration.dmt_error": "the file is always config/dmt_error.csv",
-    "Case.carry_to": "simulate the broad spectrum, or give model: theory",
-    "ReferenceCase.measured": "a_V now comes from the run itself",
-    "Criteria.ranges": "theory on real surfaces is evaluated at fixed ranges",
-}
 
 
 def _complete_schema(schema, section):
@@ -54,8 +45,6 @@ class Section(BaseModel):
             return given
         fields = cls.model_fields
         for key in [key for key in given if key not in fields]:
-            if remedy := GONE.get(f"{cls.__name__}.{key}"):
-                raise ValueError(f": the key {key!r} is gone: {remedy}")
             raise ValueError(f": unknown key {key!r}; {suggest(key, fields)}")
         for key, field in fields.items():
             if field.is_required() and key not in given:
@@ -152,15 +141,16 @@ def both(first: Any, second: Any) -> Any:
     return Annotated[tuple[first, second], Field(strict=False)]
 
 
-def quantity(word: str, unit: str, low: str = "", high: str = "") -> Any:
-    """Return the type of a text with a unit, positive and within limits if these are given."""
+def quantity(word: str, unit: str, limits: str = "") -> Any:
+    """Return the type of a text with a unit, positive and possible by the named limits."""
 
     def read(given: Any) -> "Quantity":
         value = Quantity(given, unit)
         if not value > 0:
             raise ValueError(f"{given!r} must be positive")
-        if low and not si(low, unit) <= value <= si(high, unit):
-            raise ValueError(f"{given!r} must be in {low} … {high}; no solid is beyond")
+        if limits and not (one := LIMITS[limits]).least <= value <= one.most:
+            between = f"{one.least:g} … {one.most:g} {unit}"
+            raise ValueError(f"{given!r} must be in {between}: {one.reason}")
         return value
 
     schema = pydantic.WithJsonSchema({"type": "string", "quantity": word})
@@ -202,12 +192,10 @@ WaveNumber = quantity("wave number", "1/m")
 Pressure = quantity("pressure", "Pa")
 Frequency = quantity("frequency", "Hz")
 Time = quantity("time", "s")
-# Limits are far wider than the values of real solids and catch mistaken prefixes; tough tapes
-# dissipate 1 kJ/m^2.
-Modulus = quantity("modulus", "Pa", "1 Pa", "100000 GPa")
-Energy = quantity("energy per area", "J/m^2", "1e-9 J/m^2", "10000 J/m^2")
-Range = quantity("length", "m", "1e-12 m", "1e-4 m")
-Thickness = quantity("length", "m", "1e-10 m", "1 m")
+Modulus = quantity("modulus", "Pa", "modulus")
+Energy = quantity("energy per area", "J/m^2", "work_of_adhesion")
+Range = quantity("length", "m", "range")
+Thickness = quantity("length", "m", "thickness")
 
 
 class Labelled(Section):

@@ -62,15 +62,22 @@ class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml whe
 def load(path: str | Path) -> dict[str, Any]:
     """Read a YAML file of the configuration; a ConfigError says if it is missing or not valid."""
     try:
-        content = yaml.load(Path(path).read_text(encoding="utf-8"), _UniqueKeys)
+        text = Path(path).read_text(encoding="utf-8")
+        content = yaml.load(text, _UniqueKeys)
     except FileNotFoundError:
         raise ConfigError(f"{path}: no such file; set its path in {USER}") from None
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", "it is no text in UTF-8")
+        raise ConfigError(f"{path}: cannot be read as YAML: {reason}") from None
     except yaml.YAMLError as error:
         mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", error)
         line = f" line {mark.line + 1}" if mark else ""
+        if mark and "\t" in text.splitlines()[mark.line]:
+            problem = "it holds a tab: indent with blanks"
         raise ConfigError(f"{path}:{line}: not valid YAML: {problem}") from None
     if not isinstance(content, dict):
-        raise ConfigError(f"{path}: must hold keys and values, found {type(content).__name__}")
+        found = "nothing" if content is None else type(content).__name__
+        raise ConfigError(f"{path}: must hold keys and values, found {found}")
     return content
 
 

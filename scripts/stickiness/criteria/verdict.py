@@ -52,6 +52,7 @@ class StickinessVerdict:
     margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
     pair: Pair  #: the surface and the material, in SI units
     spectrum: Spectrum = field(repr=False)  #: of the surface
+    doubts: tuple[str, ...] = ()  #: why the answer is probably to another question
 
     def to_dict(self) -> dict[str, Any]:
         """Return the effective attraction for DEM and FE models, in SI units and ready for JSON."""
@@ -85,7 +86,7 @@ class StickinessVerdict:
             "few surfaces with a direction were simulated\n"
         )
         more = f", separation factor {self.separation_factor:.3g}"
-        return (
+        return "".join(f"improbable: {doubt}\n" for doubt in self.doubts) + (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
             f"pull-off stress: {pull_off}\n"
@@ -187,15 +188,22 @@ def verdict(
         )
     if poisson is not None and not -1 < poisson <= 0.5:
         raise ValueError(f"poisson must be above -1 and at most 0.5, got {poisson!r}")
-    known = describe_surface(surface, length, solid)
     material = {"modulus": modulus, "work_of_adhesion": work_of_adhesion, "range": range}
-    warn_of_si(**material, rms_slope=known["rms_slope"])
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", PlausibilityWarning)
+        known = describe_surface(surface, length, solid)
+        warn_of_si(**material, rms_slope=known["rms_slope"])
+        if isinstance(solid, Layer):
+            warn_of_si(thickness=solid.thickness)
     spectrum = known.pop("spectrum")
     if range > RANGES[-1] * known["h_rms"]:
         raise ValueError(
             f"range = {range:.3g} is more than {RANGES[-1]:g} times the rms height "
             f"{known['h_rms']:.3g}: for this attraction the surface is smooth"
         )
+    for warning in caught:
+        warnings.warn(warning.message, stacklevel=2)
+    doubts = [one.message for one in caught if issubclass(one.category, PlausibilityWarning)]
     if a_v is None:
         a_v = surface_a_v(spectrum, known).at(range / known["h_rms"])
     limited = {"a_v": a_v, "separation_factor": separation_factor}
@@ -226,6 +234,7 @@ def verdict(
         margins=margins,
         pair=pair,
         spectrum=spectrum,
+        doubts=tuple(map(str, doubts)),
     )
 
 
@@ -275,12 +284,12 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
         )
     sides = np.broadcast_to(positive(length=length)[0], 2)
     for side in dict.fromkeys(map(float, sides)):
-        warn_of_si(length=side, stacklevel=5)
+        warn_of_si(length=side)
     dx, dy = (float(side) / n for side, n in zip(sides, heights.shape, strict=True))
     measured = instrument_spectrum.analyse(
         Topography(heights, dx, dy, "heights").detrended("plane")
     )
     for doubt in doubt_heights(heights, measured.fit):
-        warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=4)
+        warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=2)
     ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
     return measured.spectrum(), measured.fit.q_rolloff or measured.lowest, ratio

@@ -1,5 +1,6 @@
 """From a surface and a material to a verdict by one call."""
 
+import re
 import warnings
 
 import numpy as np
@@ -137,12 +138,19 @@ def test_wanted_share_moves_the_verdict():
     [
         ({"modulus": 0.7}, r"modulus = 0\.7 .* give it in Pa"),  # MPa
         ({"work_of_adhesion": 50}, r"work_of_adhesion = 50 .* J/m\^2"),  # mJ/m^2
+        ({"work_of_adhesion": 5}, r"work_of_adhesion = 5 .* an energy of peeling"),
         ({"range": 3e-12}, r"range = 3e-12 .* give it in m"),
+        ({"range": 3e-7}, r"range = 3e-07 is outside 1e-11 to 1e-07"),
+        ({"solid": Layer(0.03, 0.5), "poisson": 0.5}, r"thickness = 0\.03 .* give it in m"),
     ],
 )
-def test_values_in_other_units_are_warned_of(change, message):
+def test_improbable_values_are_warned_of_and_printed_first(change, message):
     with pytest.warns(PlausibilityWarning, match=message):
-        verdict(ROUGH, **GEL | change)
+        found = verdict(ROUGH, **GEL | change)
+    first, *others = str(found).splitlines()
+    assert re.match(f"improbable: {message}", first)
+    assert others[0].startswith(f"{found.word}: ")
+    assert "improbable" not in str(verdict(ROUGH, **GEL))
 
 
 @pytest.mark.slow
