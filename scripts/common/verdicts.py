@@ -27,13 +27,11 @@ def find_limits(dataset, name="remaining"):
 
 
 def find_value(dataset, name="remaining"):
-    """One value of a quantity, between its limits: the median of draws, or the mean of both ends.
+    """One value of a quantity, between its limits: the median of draws, or that at the rough end.
 
-    Of margins and moduli, which span decades, that is the geometric mean.
+    Means over both ends could contradict each other, for a share is no power of a modulus.
     """
-    value = dataset[name].mean("end")
-    if name not in ("remaining", "pull_off"):
-        value = np.exp(np.log(dataset[name]).mean("end"))
+    value = dataset[name].sel(end="rough", drop=True)
     if f"{name}_quantile" in dataset:
         drawn = dataset[f"{name}_quantile"]
         value = drawn.isel(quantile=drawn.sizes["quantile"] // 2, drop=True).fillna(value)
@@ -99,11 +97,6 @@ def show_probability(pair):
         return percent(share)
     error = float(pair.probability_total_error)
     return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
-
-
-def describe_threshold(pair):
-    """E* [MPa] below which the wanted share remains, with its limits."""
-    return describe_stress(pair, "modulus_threshold", MPA)
 
 
 def describe_stress(pair, name, unit):

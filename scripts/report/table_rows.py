@@ -52,7 +52,7 @@ def describe_pair(pair, entry):
         factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
         row["factor"] = "{} ({} to {})".format(*factors)
     onset = pair.margin.sel(criterion=EDGES)
-    threshold = texts.find_value(pair, "modulus_threshold")
+    threshold = texts.describe_stress(pair, "modulus_threshold", texts.MPA)
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
     total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
@@ -60,7 +60,7 @@ def describe_pair(pair, entry):
     cells = {
         "remaining": (texts.describe_share(pair), texts.find_value(pair)),
         "pull_off": (texts.describe_pull_off(pair), texts.find_value(pair, "pull_off")),
-        "threshold": (texts.describe_threshold(pair), threshold),
+        "threshold": (threshold, texts.find_value(pair, "modulus_threshold")),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (interval(*onset.values, 2), onset.mean()),

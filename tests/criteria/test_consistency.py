@@ -101,6 +101,8 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
     for limit, margin, threshold in zip((low, high), margins, thresholds, strict=True):
         agree(limit >= DEFAULT_SHARE, margin >= 1)
         np.testing.assert_allclose(margin * found.modulus_quoted, threshold, rtol=1e-12)
+    values = find_value(found), find_value(found, "modulus_threshold")
+    agree(values[0] >= DEFAULT_SHARE, values[1] >= found.modulus_quoted)
     sticks = np.isin(words, ["sticks", "sticks fully"])
     no = np.isin(words, ["does not stick", "sticks only locally"])
     agree(sticks, low >= DEFAULT_SHARE)

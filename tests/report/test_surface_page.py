@@ -162,7 +162,7 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
         *("../../plate.nc", "../../verdicts.nc")
     }
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
-    assert re.search(r"sticks below [\d. ×⁰-⁹]+ Hz", page.text)
+    assert re.search(r"sticks for certain below [\d. ×⁰-⁹]+ Hz", page.text)
     assert page.html.count("Bokeh.logger.set_level") == 1
 
 
