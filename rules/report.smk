@@ -74,11 +74,12 @@ rule write_surface:
     input:
         unpack(contact_of_surface),
         template=project_file("report/surface.html.j2"),
-        parts=PAGE_PARTS,
+        parts=[*PAGE_PARTS, project_file("report/thresholds.html.j2")],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         material_surfaces=MATERIAL_SURFACES,
     output:
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+        contact_laws=f"{RESULTS}/criteria/verdicts/{{real_surface}}.json",
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(

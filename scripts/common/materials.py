@@ -106,9 +106,9 @@ def show_modulus(modulus, entry, digits=2):
         name, given = "E*", entry["plane_strain_modulus"]
     else:
         name, modulus = "E", modulus * (1 - entry["poisson_ratio"] ** 2)
-        series = entry.get("youngs_modulus_prony", {"equilibrium": entry.get("youngs_modulus")})
-        table = entry.get("youngs_modulus_table", [("", series["equilibrium"])])
-        given = table[0][1]
+        table, series = (entry.get(key) for key in RATE_KEYS)
+        given = table[0][1] if table else series and series["equilibrium"]
+        given = given or entry["youngs_modulus"]
     unit = given.lstrip("0123456789.+-eE ")
     value = modulus / si(f"1 {unit}", "Pa")
     readable = LEAST_READABLE <= value < MOST_READABLE

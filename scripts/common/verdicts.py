@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.formatting import amount, duration, interval, number, percent
+from common.formatting import amount, duration, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 
 LEAST_SHOWN = 1e-3  # share below which a text says 0 %
@@ -122,10 +122,6 @@ def show_stresses(low, high, unit, between=" … "):
     >>> show_stresses(2e5, 3.14e6, MPA), show_stresses(0.5, 2.0, KPA, " to ")
     ('0.2 … 3.1', '< 0.001 to 0.002')
     """
-    if high < LEAST_STRESS:
-        return show_stress(high, unit)
-    if between == " … " and low >= LEAST_STRESS and high <= MOST_STRESS:
-        return interval(low / unit, high / unit, 2)
     return between.join(dict.fromkeys(show_stress(x, unit) for x in (low, high)))
 
 

@@ -11,11 +11,8 @@ import numpy as np
 import xarray as xr
 
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
-from stickiness.remaining.prediction import (
-    Roughness,
-    find_anisotropy_error_factor,
-    find_film_response,
-)
+from stickiness.remaining.prediction import MODULUS_FACTORS, Roughness, find_film_response
+from stickiness.remaining.prediction import find_anisotropy_error_factor as find_error_factor
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum import combine as add_roughness
 from stickiness.spectrum.kinds import Tabulated
@@ -36,20 +33,27 @@ def combine(material, surface, a_v, second=None):
 
     `a_v` is what `find_a_v` has for the surface.
     """
-    pair, doubts = describe(surface), [find_doubts([surface, second])]
+    pair, doubts = conform(material, surface, second), [find_doubts([surface, second])]
     if second is not None:
-        pair = add_surfaces(surface, second, material.solid)
         spectra = zip(ENDS, find_spectra(surface, second), strict=True)
         try:
             a_v = [find_end_a_v(pair, *each) for each in spectra]
         except ValueError:  # attractive areas vanish within rounding
             doubts.append(TOO_DIFFERENT)
-    if material.solid != HALF_SPACE:
-        pair = put_on_layer(pair, material.solid, find_spectra(surface, second))
     at = [each.at(material.range / h) for each, h in zip(a_v, pair.h_rms.values, strict=True)]
     names = ("a_v", "a_v_low", "a_v_high")
     pair = pair.assign({n: ("end", x) for n, x in zip(names, np.transpose(at), strict=True)})
     return pair.assign_attrs(not_judged="\n".join(filter(None, doubts)))
+
+
+def conform(material, surface, second=None):
+    """Roughness that the solid of a `Material` has to conform to."""
+    pair = describe(surface)
+    if second is not None:
+        pair = add_surfaces(surface, second, material.solid)
+    if material.solid == HALF_SPACE:
+        return pair
+    return put_on_layer(pair, material.solid, find_spectra(surface, second))
 
 
 def find_doubts(surfaces):
@@ -65,7 +69,8 @@ def describe(surface):
         **{bound: pair[name] for name, bound in BOUNDS.items() if name in pair},
         stiffening=xr.ones_like(pair.elastic_energy),
         relative_compliance=1.0,
-        anisotropy_error_factor=find_anisotropy_error_factor(float(surface.get("axis_ratio", 1.0))),
+        film_response=(("end", "response", "factor"), np.zeros((2, 2, len(MODULUS_FACTORS)))),
+        anisotropy_error_factor=find_error_factor(float(surface.get("axis_ratio", 1.0))),
     )
 
 
@@ -151,10 +156,8 @@ def read_draws(pair, law):
     """`Roughness` of the draws of a measured surface, for a law by name; None of others."""
     if "h_rms_draws" not in pair:
         return None
-    # Slopes of the draws are not kept; those of both ends hardly differ.
-    pair = pair.assign(law=law, rms_slope=pair.rms_slope.mean("end"))
-    names = [field.name for field in fields(Roughness) if field.name in pair]
-    known = {name: pair.get(f"{name}_draws", pair[name]).values for name in names}
-    if "film_response" in known:
-        known["film_response"] = known["film_response"].mean(axis=0)
-    return Roughness(**known)
+    # Slopes and layers of the draws are not kept; those of both ends hardly differ.
+    means = {name: pair[name].mean("end") for name in ("rms_slope", "film_response")}
+    pair = pair.assign(law=law, **means)
+    names = [field.name for field in fields(Roughness)]
+    return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})

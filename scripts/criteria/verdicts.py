@@ -140,10 +140,10 @@ def judge_pairs(solids, roughness, frequencies):
         name: ("material", [getattr(solid, name) for solid in solids])
         for name in ("modulus", "work_of_adhesion", "range", "law", "pressed")
     }
-    left_out = ["draw", "response"]
-    ends = [[one.drop_dims(left_out, errors="ignore") for one in row] for row in roughness]
+    ends = [[one.drop_dims("draw", errors="ignore") for one in row] for row in roughness]
     rough = xr.combine_nested(ends, DIMS[:2], combine_attrs="drop").assign(known)
-    rough = rough.broadcast_like(rough.h_rms).transpose(*DIMS)
+    films = rough.film_response.transpose(*DIMS, ...).values
+    rough = rough.drop_dims("response").broadcast_like(rough.h_rms).transpose(*DIMS)
     at = zip(solids, rough.h_rms.values, rough.q0.values, strict=True)
     strain = np.array([solid.solid.strain(h_rms, q0) for solid, h_rms, q0 in at])
     names = [field.name for field in fields(pairs.Pair) if field.name in rough]
@@ -152,7 +152,7 @@ def judge_pairs(solids, roughness, frequencies):
         **{name: rough[name].values for name in names},
         separation_factor=tuple(factors.T[..., None, None]),
         layer_strain=strain,
-        film_response=stack_films(roughness),
+        film_response=films,
     )
     dataset = xr.Dataset({name: (DIMS, values) for name, values in pairs.judge(pair).items()})
     margins = [criterion.margin(pair) for criterion in CRITERIA.values()]
@@ -177,16 +177,6 @@ def judge_pairs(solids, roughness, frequencies):
     ).assign_coords(
         end=list(ENDS), criterion=list(CRITERIA), quantile=list(QUANTILES), frequency=frequencies
     )
-
-
-def stack_films(roughness):
-    """Responses of layers on films (material, surface, end, ...), 0 of others; None without."""
-    found = [[one.get("film_response") for one in row] for row in roughness]
-    films = [film for row in found for film in row if film is not None]
-    if not films:
-        return None
-    rigid = np.zeros(films[0].shape)
-    return np.array([[rigid if film is None else film.values for film in row] for row in found])
 
 
 def judge_measured(solids, draws):
@@ -269,27 +259,21 @@ def follow(pair, solids, draws, dim, moduli, factors, heights):
     """
     known = xr.DataArray(~np.isnan(moduli), dims=(dim, "material"))
     moduli = np.where(known, moduli, pair.modulus[:, 0, 0])
-    at = scale_heights(pair, heights[:, None, None, None])
+    at = pair.scaled(heights[:, None, None, None])
     factors = np.where(known.values[..., None], factors, 1.0)
     by_limit = tuple(np.moveaxis(factors, -1, 0)[..., None, None])
-    at = replace(at.with_modulus(moduli[..., None, None]), separation_factor=by_limit)
+    moduli = moduli[..., None, None]
+    at = replace(at.at_modulus(moduli / pair.modulus), modulus=moduli, separation_factor=by_limit)
     found = xr.Dataset(
         {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
     )
     quantiles = [
-        [follow_draws(solid, one, moduli[:, i], factors[:, i], heights) for one in draws[i]]
+        [follow_draws(solid, one, moduli[:, i, 0, 0], factors[:, i], heights) for one in draws[i]]
         for i, solid in enumerate(solids)
     ]
     found["remaining_quantile"] = (*DIMS[:2], dim, "quantile"), np.array(quantiles)
     curves = (found.remaining, *find_limits(found))
     return tuple(x.where(known).transpose(*DIMS, dim, missing_dims="ignore") for x in curves)
-
-
-def scale_heights(rough, factor):
-    """A `Pair` or a `Roughness` with its heights times a factor: no spectrum is integrated."""
-    powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
-    powers |= {"layer_strain": 1} if isinstance(rough, pairs.Pair) else {}
-    return replace(rough, **{n: getattr(rough, n) * factor**power for n, power in powers.items()})
 
 
 def follow_draws(solid, draws, moduli, factors, heights):
@@ -298,7 +282,7 @@ def follow_draws(solid, draws, moduli, factors, heights):
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     along, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
     moduli, heights, *factors = along[..., None]
-    rough = scale_heights(draws, heights).at_modulus(moduli / solid.modulus)
+    rough = draws.scaled(heights).at_modulus(moduli / solid.modulus)
     errors = draw_errors(draws)
     factors = choose_factor(factors, errors)
     shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors, factors)

@@ -8,8 +8,8 @@ from common.formatting import NOTHING, amount, interval, number, percent, quanti
 from common.materials import read_material, show_modulus
 from stickiness.criteria.pair import BROAD_A_V, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.criteria.thresholds import find_rate
 from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.solids.moduli import crossings
 from stickiness.statistics import COVERS
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  # of the verdicts, in the order of codes
@@ -52,6 +52,7 @@ def describe_pair(pair, entry):
         factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
         row["factor"] = "{} ({} to {})".format(*factors)
     onset = pair.margin.sel(criterion=EDGES)
+    threshold = texts.find_value(pair, "modulus_threshold")
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
     total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
@@ -59,10 +60,7 @@ def describe_pair(pair, entry):
     cells = {
         "remaining": (texts.describe_share(pair), texts.find_value(pair)),
         "pull_off": (texts.describe_pull_off(pair), texts.find_value(pair, "pull_off")),
-        "threshold": (
-            texts.describe_threshold(pair),
-            texts.find_value(pair, "modulus_threshold"),
-        ),
+        "threshold": (texts.describe_threshold(pair), threshold),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (interval(*onset.values, 2), onset.mean()),
@@ -71,8 +69,8 @@ def describe_pair(pair, entry):
         "modulus": (texts.show_stress(float(pair.modulus_quoted), texts.MPA), pair.modulus_quoted),
     }
     stresses = (("pull_off", texts.KPA), ("modulus_threshold", texts.MPA))
-    ends = {name: texts.show_stresses(*sort_ends(pair, name), unit) for name, unit in stresses}
-    ends["remaining"] = texts.show_shares(*map(texts.round_share, sort_ends(pair, "remaining")))
+    ends = {name: texts.show_stresses(*sorted(pair[name].values), unit) for name, unit in stresses}
+    ends["remaining"] = texts.show_shares(*sorted(map(texts.round_share, pair.remaining.values)))
     return row | {
         "not_judged": "",
         "nothing": texts.round_share(texts.find_limits(pair)[1]) == 0,
@@ -85,30 +83,20 @@ def describe_pair(pair, entry):
     }
 
 
-def sort_ends(pair, name):
-    """Values of a quantity at both ends of the surface, the lower one first."""
-    return sorted(map(float, pair[name].values))
-
-
 def describe_bounds(pair, entry):
     """Threshold of the modulus as that was given, and its limits, empty where nobody can use them.
 
     The verdict changes at the limits, so that they are told from the modulus of the material.
     """
-    value = float(texts.find_value(pair, "modulus_threshold"))
-    limits, given = texts.find_limits(pair, "modulus_threshold"), float(pair.modulus_quoted)
-    shown = []
-    for bound in (value, *map(float, limits)):
+    name, given, shown = "modulus_threshold", float(pair.modulus_quoted), []
+    for bound in map(float, (texts.find_value(pair, name), *texts.find_limits(pair, name))):
         useful = texts.LEAST_STRESS <= bound <= texts.MOST_STRESS
         digits = 4 if abs(bound / given - 1) < NEAR else 2
         shown.append(show_modulus(bound, entry, digits) if useful else "")
     text, low, high = shown
     least, most = (bound.partition(" = ")[2] for bound in (low, high))
-    if text:
-        least = least.removesuffix(most[most.rfind(" ") :])  # the unit, if they have one
-        text += f" ({least or 0} to {most or 'any'})"
-    else:
-        text = "none" if value < texts.LEAST_STRESS else "any"
+    least = least.removesuffix(most[most.rfind(" ") :])  # the unit, if they have one
+    text = f"{text} ({least or 0} to {most or 'any'})" if text else "none that matters"
     return {"threshold": text, "sticks_below": low, "fails_above": high}
 
 
@@ -120,14 +108,10 @@ def list_rates(material, pair):
     if not material.depends_on_rate or np.isfinite(material.dwell):
         return []
     found = []
-    for threshold in map(float, texts.find_limits(pair, "modulus_threshold")):
-        least = max(threshold, texts.LEAST_STRESS)
-        passed = crossings(material.plane_strain, least, pair.frequency.values)
-        words = [f"{'below' if up else 'above'} {number(f, 2)} Hz" for f, up in passed]
-        if not words:
-            always = np.nanmax(pair.modulus.values) < threshold
-            words = ["at every frequency" if always else "at no frequency"]
-        found.append(" and ".join(words))
+    for last, threshold in enumerate(map(float, texts.find_limits(pair, "modulus_threshold"))):
+        hertz = find_rate(material.plane_strain, threshold, pair.frequency.values, bool(last))
+        words = {0.0: "at no frequency", np.inf: "at every frequency"}
+        found.append(words.get(hertz, f"below {number(hertz, 2)} Hz"))
     return list(dict.fromkeys(found))
 
 
@@ -135,10 +119,10 @@ def find_largest_unknown(pair):
     """What widens the limits of a pair most: the strain of its layer, the surface or the model."""
     if float(texts.find_limits(pair, "margin")[0]) == 0:
         return "layer"
-    spectrum, model = float(pair.error_of_spectrum), float(pair.error_of_model)
+    spectrum, model = pair.error_of_spectrum, pair.error_of_model
     if np.isnan(spectrum):  # not measured, but known between two ends
-        ends, low, high = (np.log(pair[f"modulus_threshold{x}"]) for x in ("", "_low", "_high"))
-        spectrum, model = float(np.ptp(ends.values)), float((high - low).mean())
+        ends, low, high = (np.log(pair[f"modulus_threshold{x}"]) for x in SIGNS)
+        spectrum, model = np.ptp(ends.values), (high - low).mean()
     return "surface" if spectrum > model else "model"
 
 

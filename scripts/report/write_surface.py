@@ -3,6 +3,8 @@
 It has verdicts and their reasons, curves, contact, parameters and spectrum.
 """
 
+import json
+
 import numpy as np
 
 from common import provided
@@ -10,13 +12,16 @@ from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import describe_modulus, find_doubts, read_material
 from common.templates import write_page
-from common.verdicts import describe_moment
+from common.verdicts import describe_moment, find_limits, find_value
+from criteria.thresholds import ASKED, find_thresholds
 from criteria.verdicts import judge_materials, read_surfaces
 from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
-from stickiness import datasets
+from stickiness import __version__, datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.pair import NOT_JUDGED
+from stickiness.criteria.contact_law import describe_contact_law
+from stickiness.criteria.pair import NOT_JUDGED, SIGNS, WORDS
+from stickiness.criteria.thresholds import CONTACT_AREA
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.statistics import COVERS
@@ -56,6 +61,7 @@ def main(job):
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
+        contact_area=CONTACT_AREA,
         verdicts=[
             describe_verdict(pairs.sel(material=name), entries[name], job.params.labels)
             | {"mine": name in mine}
@@ -74,10 +80,32 @@ def judge(job):
     surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
-    title = f"verdicts of the stickiness criteria: {job.params.surface['label']}"
-    parameters = {"materials": job.params.materials, "labels": job.params.labels}
+    name, labels = job.wildcards.real_surface, job.params.labels
+    verdicts = find_thresholds(verdicts, surfaces[name], material_surfaces, job.params.materials)
+    title = f"verdicts of the stickiness criteria: {labels[name]}"
+    parameters = {"materials": job.params.materials, "labels": labels}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
+    laws = [
+        describe_law(verdicts.sel(material=material, surface=name), entry)
+        for material, entry in job.params.materials.items()
+    ]
+    with datasets.whole_file(job.output.contact_laws) as path:
+        made = {"version": __version__, "surface": labels[name], "pairs": laws}
+        path.write_text(json.dumps(made, indent=1, ensure_ascii=False, allow_nan=False))
     return datasets.read(job.output.verdicts)
+
+
+def describe_law(pair, entry):
+    """Verdict and effective attraction of a pair for DEM and FE models."""
+    solid = read_material(entry)
+    limited = (
+        [float(x) for x in (find_value(pair, name), *find_limits(pair, name))]
+        for name in ("remaining", "pull_off")
+    )
+    given = solid.modulus, solid.work_of_adhesion, solid.range
+    found = describe_contact_law(*given, *limited, float(pair.energy_ratio.max()))
+    word = WORDS[int(pair.verdict)]
+    return {"material": entry["label"], "verdict": word, "law": solid.law, **found}
 
 
 def describe_verdict(pair, entry, labels):
@@ -86,6 +114,11 @@ def describe_verdict(pair, entry, labels):
     return describe_pair(pair, entry) | {
         "material": entry["label"],
         "given": describe_modulus(entry, labels),
+        "thresholds": {
+            name: [float(pair[f"{name}{end}"]) for end in SIGNS]
+            for name in ASKED
+            if not np.isnan(pair[f"{name}_low"])
+        },
         "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
     }
 

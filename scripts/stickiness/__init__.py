@@ -14,6 +14,8 @@ What a user needs:
 - `persson`: Persson's theory of contact area, mean gap and distribution of gaps
 - `criteria`: stickiness criteria, closed forms
 - `remaining`: how much adhesion remains on a rough surface, simulated or predicted
+- `full_contact_energy`: what full contact with a spectrum or with heights stores
+- `thresholds`: the modulus, rms height, thickness and rate at which a surface begins to stick
 - `verdict`: whether a rough surface sticks, with thresholds and error limits, from SI values
 
 And what these rest on:
@@ -45,7 +47,11 @@ _MODULES = (
     *("criteria", "remaining"),
 )
 _PACKAGES = ("measured", "accuracy", "datasets")
-_FUNCTIONS = {"verdict": "stickiness.criteria.verdict"}
+_FUNCTIONS = {
+    "verdict": "stickiness.criteria.verdict",
+    "thresholds": "stickiness.criteria.thresholds",
+    "full_contact_energy": "stickiness.remaining.full_contact",
+}
 
 __all__ = [*_MODULES, *_FUNCTIONS, *_PACKAGES, "__version__"]  # noqa: PLE0604
 

@@ -11,6 +11,7 @@ from common.verdicts import find_limits
 from criteria.verdicts import DWELL_FACTORS, MODULUS_FACTORS, ROUGHNESS_FACTORS, judge_pairs
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.prediction import MODULUS_FACTORS as FILM_FACTORS
 from stickiness.spectrum import SelfAffine
 
 HEIGHTS, Q0 = np.array([1e-6, 1.5e-6]), 6e4
@@ -46,6 +47,7 @@ def made_roughness(solid, drawn):
         draws = {"h_rms": h, "q0": np.full(DRAWS, Q0), "elastic_energy": factor * energy}
         draws |= {"half_space_energy": energy}
         data |= {f"{name}_draws": ("draw", values) for name, values in draws.items()}
+    data["film_response"] = ("end", "response", "factor"), np.zeros((2, 2, len(FILM_FACTORS)))
     return xr.Dataset(data).assign(stiffening=("end", np.full(2, factor)))
 
 

@@ -39,7 +39,7 @@ def test_paths_in_the_map_exist():
 PLAIN = """material surface errors source no claim claimed remark from subject printed correct proof
 recomputed experiment quantity observed predicted outcome on paper remarks case value allowed cost
 grid largest measured answer reason within the both ways heights theory without in all waves and
-means"""
+means below"""
 
 
 def test_heads_of_tables_are_in_the_glossary():

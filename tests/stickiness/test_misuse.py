@@ -13,7 +13,7 @@ from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measure, predict, share
 from stickiness.repulsive import richardson, subpixel
-from stickiness.solids import Film, HalfSpace, Layer, moduli
+from stickiness.solids import Film, HalfSpace, Layer
 from stickiness.solids.moduli import Constant, Prony, Table
 from stickiness.spectrum import Shells, Tabulated, combine
 
@@ -211,11 +211,6 @@ MISUSES = [
     ),
     (lambda: edge_zone.resolution(0.1, 0.0, 0.1), "range must be positive"),
     (lambda: Prony(1.0, ((1.0, 2.0, 3.0),)), "terms must be pairs"),
-    (
-        lambda: moduli.crossings(Constant(1.0), 2.0, [2.0, 1.0]),
-        "frequencies must be one increasing",
-    ),
-    (lambda: moduli.crossings(Constant(1.0), 2.0, [-1.0, 1.0]), "frequencies must be posit"),
     (lambda: richardson.estimate("area", [1, 2], 0, 1), "quantity must be one of area_fr"),
     (lambda: richardson.estimate("mean_gap", [1], 0, 1), "two or three grids, got 1"),
     (lambda: richardson.estimate("mean_gap", [1, np.nan], 0, 1), "values and part must be finite"),

@@ -6,7 +6,7 @@ quantity, give it a line there and one in `judge`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -83,10 +83,6 @@ class Pair(Roughness):
         """Work of adhesion over E* [m]."""
         return self.work_of_adhesion / self.modulus
 
-    def with_modulus(self, modulus: ArrayLike) -> Pair:
-        """Return the pair with another E* [Pa]: that of a layer changes, a film stays as it is."""
-        return replace(self.at_modulus(modulus / self.modulus), modulus=modulus)
-
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
 
@@ -113,9 +109,8 @@ class Pair(Roughness):
 
     def _withstand(self, value, sign, lost=0.0):
         """Value, or what replaces it if heights that a linear layer cannot take stiffen it."""
-        if sign >= 0 or np.all(np.asarray(self.layer_strain) <= MOST_STRAIN):
-            return value
-        return plain(np.where(np.asarray(self.layer_strain) > MOST_STRAIN, lost, value))
+        withstands = np.asarray(self.layer_strain) <= MOST_STRAIN
+        return plain(np.where(withstands | (sign >= 0), value, lost))
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:
@@ -168,8 +163,8 @@ def judge(pair: Pair) -> dict[str, NDArray]:
         "regime": np.select([weak, between, tough], range(3), 3).astype("i1"),
         "simulated": np.asarray(edges.simulated).astype("i1"),
         "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
+        "layer_strain": np.broadcast_to(pair.layer_strain, np.shape(length)),
     }
-    found["layer_strain"] = np.broadcast_to(pair.layer_strain, np.shape(length))
     for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
         found[f"pair_{name}"] = getattr(pair, name)
     return {name: np.asarray(value) for name, value in found.items()}

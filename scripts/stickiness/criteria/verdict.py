@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from stickiness import __version__
 from stickiness.arguments import number, positive
 from stickiness.criteria.a_v_table import RANGES, surface_a_v
-from stickiness.criteria.pair import LIMITED, REGIMES, WORDS, Pair, decide, judge
+from stickiness.criteria.contact_law import describe_contact_law
+from stickiness.criteria.pair import LIMITED, MOST_STRAIN, REGIMES, WORDS, Pair, decide, judge
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining import prediction
@@ -42,13 +44,26 @@ class StickinessVerdict:
     modulus_threshold_limits: tuple[float, float]
     separation_factor: float  #: on the work of separation, included in what remains
     separation_factor_limits: tuple[float, float]
+    poisson: float | None  #: given with Young's modulus, which the printed verdict then tells
     regime: str  #: one of `REGIMES`, by the Tabor parameter of the contact edges
     simulated: bool  #: whether full simulation covers the state of the edges
     a_v: float  #: a_V of the pair
     a_v_limits: tuple[float, float]
     margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
     pair: Pair  #: the surface and the material, in SI units
-    doubts: tuple[str, ...] = ()  #: why the answer is probably to another question
+    doubts: tuple[str, ...]  #: why the answer is probably to another question
+    spectrum: Spectrum = field(repr=False)  #: of the surface
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the effective attraction for DEM and FE models, in SI units and ready for JSON."""
+        pair = self.pair
+        found = describe_contact_law(
+            *(pair.modulus, pair.work_of_adhesion, pair.range),
+            (self.remaining, *self.remaining_limits),
+            (self.pull_off, *self.pull_off_limits),
+            pair.adhesion_length / pair.elastic_energy,
+        )
+        return {"version": __version__, "verdict": self.word, "law": pair.law, **found}
 
     def __str__(self) -> str:
         pair = self.pair
@@ -57,19 +72,27 @@ class StickinessVerdict:
         pull_off = f"{self.pull_off:.2g} Pa ({least:.2g} to {most:.2g} Pa)"
         if pair.adhesion_length > PULL_OFF_UNKNOWN * pair.elastic_energy:
             pull_off = f"at least {least:.2g} Pa (full contact, which was not simulated)"
-        modulus = [x / 1e6 for x in (self.modulus_threshold, *self.modulus_threshold_limits)]
+        name, factor = ("E*", 1e-6) if self.poisson is None else ("E", 1e-6 * (1 - self.poisson**2))
+        moduli = self.modulus_threshold, *self.modulus_threshold_limits, pair.modulus
+        modulus, least_modulus, most_modulus, given = (f"{factor * x:.3g}" for x in moduli)
+        strain = (
+            f"conforming strains the layer by about {pair.layer_strain:.2g}, beyond linear "
+            "elasticity: all adhesion may be lost\n"
+        )
         beyond = "" if self.simulated else " (beyond what was simulated)"
         others = [f"{CRITERIA[n].label} {x:.3g}" for n, x in self.margins.items() if n != REMAINING]
         direction = (
             f"the errors of what remains are multiplied by {pair.anisotropy_error_factor:.3g}: "
             "few surfaces with a direction were simulated\n"
         )
-        factor = f", separation factor {self.separation_factor:.3g}"
+        more = f", separation factor {self.separation_factor:.3g}"
         return "".join(f"improbable: {doubt}\n" for doubt in self.doubts) + (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
             f"pull-off stress: {pull_off}\n"
-            f"sticks below E* = {modulus[0]:.3g} MPa ({modulus[1]:.3g} to {modulus[2]:.3g} MPa)\n"
+            f"sticks below {name} = {modulus} MPa ({least_modulus} to {most_modulus} MPa); it is "
+            f"{given} MPa\n"
+            f"{strain if pair.layer_strain > MOST_STRAIN else ''}"
             f"edges at the finest wave: {self.regime}{beyond}\n"
             f"a_V = {self.a_v:.3g} ({self.a_v_limits[0]:.3g} to {self.a_v_limits[1]:.3g})\n"
             f"margins by other criteria: {'; '.join(others)}\n"
@@ -78,7 +101,7 @@ class StickinessVerdict:
             f"{pair.work_of_adhesion:.3g} J/m^2, range {pair.range:.3g} m, {pair.law} law, "
             f"h_rms = {pair.h_rms:.3g} m, longest wave {2 * np.pi / pair.q0:.3g} m"
             f"{f', pressed by {pair.pressed:.3g} Pa' if pair.pressed else ''}"
-            f"{factor if self.separation_factor != 1 else ''}"
+            f"{more if self.separation_factor != 1 else ''}"
         )
 
 
@@ -203,6 +226,7 @@ def verdict(
         word=WORDS[int(decide(*limits["remaining_limits"], grows, wanted_share))],
         **{name: found[name] for name in LIMITED},
         **limits,
+        poisson=poisson,
         regime=REGIMES[found["regime"]],
         simulated=bool(found["simulated"]),
         a_v=value,
@@ -210,6 +234,7 @@ def verdict(
         margins=margins,
         pair=pair,
         doubts=tuple(map(str, doubts)),
+        spectrum=spectrum,
     )
 
 

@@ -19,7 +19,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
-from scipy.special import erf
+from scipy.special import erf, erfinv
 
 from stickiness.arguments import finite, nonnegative, number, positive
 from stickiness.persson import gaps
@@ -133,6 +133,11 @@ class Persson:
             return np.where(p > 0, 1.0, 0.0)[()]
         y = self._setting.kernels.invert_area_scale(m / np.where(p > 0, p, 1.0) ** 2)
         return np.where(p > 0, erf(y), 0.0)[()]
+
+    def pressure_at_area(self, area_fraction: ArrayLike) -> NDArray:
+        """Mean pressure over E* at relative contact areas between 0 and 1 (1e-11 at least)."""
+        (area,) = positive(area_fraction=area_fraction)
+        return np.sqrt(self._setting.m2 / self._setting.kernels.area_scale(erfinv(area)))[()]
 
     def mean_gap(self, p: ArrayLike) -> NDArray:
         """Mean gap ubar [length] at mean pressure `p` > 0 (array of the shape of `p`).

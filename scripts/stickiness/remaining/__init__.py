@@ -3,6 +3,7 @@
 - `measurement`: works of approach and separation and pull-off of given heights, simulated
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form
 - `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
+- `full_contact`: elastic energy of full contact, of a spectrum or of heights
 - `sphere`: pull-off of a sphere from a rough surface
 """
 

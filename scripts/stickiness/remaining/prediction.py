@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -45,8 +46,8 @@ SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
-# of full contact is off by less than 3e-4 of itself.
-MODULUS_FACTORS = 10.0 ** (np.arange(-120, 121) / 20)
+# of full contact is off by less than 1e-3 of itself.
+MODULUS_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
 # `find_anisotropy_error_factor`.
 UNLIKE, UNLIKE_RATIO = 2.0, 4.0
@@ -108,6 +109,14 @@ class Roughness:
             elastic_energy=self.elastic_energy * found[..., 0],
             relative_compliance=self.relative_compliance * found[..., 1],
         )
+
+    def scaled(self, factor: ArrayLike) -> Self:
+        """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
+        powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
+        powers["layer_strain"] = 1  # of a `Pair`
+        known = {name: getattr(self, name, None) for name in powers}
+        scaled = {n: x * factor ** powers[n] for n, x in known.items() if x is not None}
+        return replace(self, **scaled)
 
     def share(
         self,
@@ -250,49 +259,35 @@ class Roughness:
         On a film it is the modulus of the layer that changes the length, from `adhesion_length`.
         """
         names = ("h_rms", "q0", "elastic_energy", "relative_compliance")
-        values = positive(**{name: getattr(self, name) for name in names}, range=range)
-        half_space = np.nan if self.half_space_energy is None else self.half_space_energy
-        sign = np.multiply(sign, self.anisotropy_error_factor)
-        at = (*values, half_space, sign, self.rms_slope, self.law, share, separation_factor)
-        start = np.nan if adhesion_length is None else np.log(adhesion_length)
-        *at, start = np.broadcast_arrays(*at, start)
-        energy, films, most = at[2], None, 0.0
-        if adhesion_length is not None and self.film_response is not None:
-            films = self.film_response
+        positive(**{name: getattr(self, name) for name in names}, range=range)
+        *known, films = (getattr(self, field.name) for field in fields(Roughness))
+        known = [np.nan if value is None else value for value in known]
+        start = np.nan if adhesion_length is None else adhesion_length
+        at = np.broadcast_arrays(*known, start, range, sign, separation_factor, share)
+        energy, share, shape = at[2], at[-1], at[0].shape
+        at, most = [values.ravel() for values in at], 0.0
+        if adhesion_length is None:
+            films = None
+        if films is not None:
             most = np.max(films[..., 0, :], axis=-1)
-            films = np.broadcast_to(films, (*start.shape, *films.shape[-2:]))
-            films = films.reshape(-1, *films.shape[-2:])
-        at += [start, np.arange(start.size).reshape(start.shape)]
+            table = films.shape[-2:]
+            films = np.broadcast_to(films, (*shape, *table)).reshape(-1, *table)
 
-        def excess(
-            log_length,
-            h,
-            q0,
-            energy,
-            layer,
-            range,
-            bound,
-            sign,
-            slope,
-            law,
-            share,
-            factor,
-            start,
-            i,
-        ):
-            film = None if films is None else films[i]
-            rough = Roughness(h, q0, energy, layer, bound, 1.0, slope, law, film)
-            rough = rough.at_modulus(np.exp(start - log_length))
+        def excess(log_length, i):
+            *known, start, range, sign, factor, share = (values[i] for values in at)
+            rough = Roughness(*known, None if films is None else films[i])
+            rough = rough.at_modulus(start / np.exp(log_length))
             return np.asarray(rough.share(np.exp(log_length), range, sign, factor)) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share)) + most
         # Limits say at the length given what the share there says, even if they do not rise.
-        given = np.clip(np.where(np.isnan(start), bracket[0], start), *bracket)
-        remains = excess(given, *at) >= 0
+        given = bracket[0] if adhesion_length is None else np.log(start)
+        given, place = np.clip(given, *bracket), np.arange(share.size).reshape(shape)
+        remains = excess(given, place) >= 0
         bracket = np.where(remains, bracket[0], given), np.where(remains, given, bracket[1])
-        found = elementwise.find_root(excess, bracket, args=tuple(at))
+        found = elementwise.find_root(excess, bracket, args=(place,))
         # Attraction whose range is far above h_rms holds at any strength.
-        always = excess(bracket[0], *at) >= 0
+        always = excess(bracket[0], place) >= 0
         return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
 
 
@@ -302,16 +297,12 @@ def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray |
     For factors on the modulus of a layer whose film stays as it is, ``(2, MODULUS_FACTORS)``; None
     without a film.
     """
-    if not isinstance(solid, Layer) or not isinstance(solid.backing, Film):
+    if not isinstance(solid, Layer) or not isinstance(film := solid.backing, Film):
         return None
-    firm, spectrum = replace(solid, backing="bonded"), spectrum.averaged()
-
-    def respond(q):
-        bends = np.subtract(solid.factor(q), firm.factor(q))
-        return firm.factor(q) + np.multiply.outer(MODULUS_FACTORS, bends)
-
-    energy = spectrum.integrate(lambda q: q / respond(q), *spectrum.band) / 4
-    return np.log([energy / spectrum.elastic_energy(solid), respond(q0) / solid.factor(q0)])
+    ratios = film.modulus_ratio / np.append(1.0, MODULUS_FACTORS)
+    layers = [replace(solid, backing=replace(film, modulus_ratio=float(r))) for r in ratios]
+    found = np.log([(spectrum.elastic_energy(layer), layer.factor(q0)) for layer in layers]).T
+    return found[:, 1:] - found[:, :1]
 
 
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:

@@ -143,24 +143,3 @@ def choose_factor(factor: tuple[ArrayLike, ArrayLike, ArrayLike], sign: ArrayLik
     value, low, high = map(np.asarray, factor)
     down, up = np.clip(np.negative(sign), 0, 1), np.clip(sign, 0, 1)
     return value * (low / value) ** down * (high / value) ** up
-
-
-def crossings(modulus: Modulus, threshold: float, frequencies: NDArray) -> list[tuple[float, bool]]:
-    """Frequencies at which the storage modulus passes a threshold [Pa], in ascending order.
-
-    They are interpolated between neighbours of the increasing `frequencies`, those of a table too,
-    in logarithms. With each comes whether the modulus exceeds the threshold beyond.
-    """
-    frequencies, _ = positive(frequencies=frequencies, threshold=threshold)
-    if frequencies.ndim != 1 or not np.all(np.diff(frequencies) > 0):
-        raise ValueError(f"frequencies must be one increasing sequence, got {frequencies!r}")
-    if isinstance(modulus, Table) and frequencies.size:
-        inside = np.clip(modulus.frequencies, frequencies[0], frequencies[-1])
-        frequencies = np.union1d(frequencies, inside)
-    excess = np.log(np.asarray(modulus.storage(frequencies)) / threshold)
-    a, b = excess[:-1], excess[1:]
-    known = np.isfinite(a) & np.isfinite(b) & (a != 0)
-    here = np.flatnonzero((np.sign(a) != np.sign(b)) & known)
-    a, b, low, high = a[here], b[here], frequencies[here], frequencies[here + 1]
-    passed = low * (high / low) ** (a / (a - b))
-    return list(zip(passed.tolist(), (b > a).tolist(), strict=True))

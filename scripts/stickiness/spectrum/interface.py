@@ -18,7 +18,7 @@ import numpy as np
 import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.arguments import nonnegative, number, plain
+from stickiness.arguments import nonnegative, number
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.spectrum.direction import CIRCLE, Ellipse
 
@@ -175,13 +175,8 @@ class Spectrum(ABC):
         averaged = self.averaged()
         return float(averaged.integrate(lambda q: q / solid.factor(q), *averaged.band)) / 4
 
-    def integrate(
-        self, function: Callable[[NDArray], NDArray], low: float, high: float
-    ) -> float | NDArray:
-        """Return 2 pi * integral from `low` to `high`, included, of q f(q) C(q) dq, f smooth.
-
-        A function may return several values, along leading axes before those of its argument.
-        """
+    def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
+        """Return 2 pi * integral from `low` to `high`, included, of q f(q) C(q) dq, f smooth."""
         low, high = max(low, self.q0), min(high, self.q1)
         if not high > low:
             return 0.0
@@ -193,8 +188,7 @@ class Spectrum(ABC):
         edges = np.interp(np.arange(start[-1] + 1), start, np.log(knots))
         half = 0.5 * np.diff(edges)[:, None]
         q = np.exp(edges[:-1, None] + half * (1 + x))
-        parts = half * w * q**2 * self.psd(q) * function(q)
-        return plain(2 * np.pi * np.sum(parts, axis=(-2, -1)))
+        return float(2 * np.pi * np.sum(half * w * q**2 * self.psd(q) * function(q)))
 
     def modes(self, length: float) -> tuple[NDArray, NDArray, NDArray]:
         """Modes of a periodic cell of side `length` that lie in the band.

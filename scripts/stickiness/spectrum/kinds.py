@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.arguments import nonnegative, number, plain
+from stickiness.arguments import nonnegative, number
 from stickiness.spectrum.direction import CIRCLE, Ellipse, expm1_over
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum
 
@@ -296,11 +296,9 @@ class Shells(Spectrum):
         keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep])
 
-    def integrate(
-        self, function: Callable[[NDArray], NDArray], low: float, high: float
-    ) -> float | NDArray:
+    def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
         inside = (self.q >= low) & (self.q <= high)
-        return plain(np.sum(self.variance[inside] * function(self.q[inside]), axis=-1))
+        return float(np.sum(self.variance[inside] * function(self.q[inside])))
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance of each mode of the band: its shell's variance in equal parts."""

@@ -209,3 +209,29 @@ def test_measured_heights_give_the_verdict_of_their_spectrum():
     # One realisation, and a cutoff below the Nyquist wave number, are worth some ten per cent.
     ratio = of_heights.margins["persson_tosatti"] / of_spectrum.margins["persson_tosatti"]
     assert ratio == pytest.approx(1, rel=0.4)
+
+
+def test_a_layer_that_cannot_take_the_heights_may_keep_nothing():
+    """Low limits of all numbers say the same, and the printed verdict says why."""
+    thin, thick = (
+        verdict(
+            SelfAffine(hurst=0.8, q0=6e4, q1=6e6, h_rms=2e-6),
+            modulus=1e3,
+            poisson=0.5,
+            work_of_adhesion=0.06,
+            range=3e-10,
+            solid=Layer(thickness, 0.5),
+        )
+        for thickness in (4e-6, 4e-5)
+    )
+    for name in ("remaining", "pull_off", "margin", "modulus_threshold"):
+        low, high = getattr(thin, f"{name}_limits")
+        assert low == 0 < getattr(thin, name) <= high
+        assert getattr(thick, f"{name}_limits")[0] > 0
+    assert (thin.word, thick.word) == ("depends", "sticks fully")
+    assert "strains the layer by about 2" in str(thin)  # 2/(4 * 0.24)
+    assert "strains" not in str(thick)
+    # Moduli are Young's, as it was given.
+    threshold = 0.75e-6 * thick.modulus_threshold
+    assert f"sticks below E = {threshold:.3g} MPa" in str(thick)
+    assert "it is 0.001 MPa" in str(thick)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.solids.moduli import Constant, Prony, Table, choose_factor, crossings
+from stickiness.solids.moduli import Prony, Table, choose_factor
 
 SERIES = Prony(1e4, ((3e4, 1.0), (2e5, 1e-3)))
 
@@ -121,18 +121,3 @@ def test_table_is_interpolated_in_logarithms_and_says_nothing_beyond():
     table = Table((0.1, 10.0), (1e4, 1e6))
     assert table.storage(1.0) == pytest.approx(1e5)
     assert np.isnan(table.storage([0.01, 100.0])).all()
-
-
-def test_crossings_between_the_end_of_a_table_and_the_next_frequency_count():
-    """The grid has one point in the table, and none of the peak between."""
-    table = Table((0.1, 1.0, 10.0), (1e3, 1e5, 1e3))
-    found = crossings(table, 1e4, [0.01, 5.0, 100.0])
-    assert found == [(pytest.approx(10**-0.5), True), (pytest.approx(10**0.5), False)]
-
-
-def test_crossings_of_a_table_are_exact_and_know_their_direction():
-    table = Table((0.01, 1.0, 100.0), (1e4, 1e6, 1e4))  # slopes +1 and -1
-    grid = np.geomspace(1e-3, 1e3, 25)
-    found = [(pytest.approx(0.1), True), (pytest.approx(10.0), False)]
-    assert crossings(table, 1e5, grid) == found
-    assert crossings(Constant(1e5), 1e6, grid) == []

@@ -1,0 +1,216 @@
+"""What would make a material stick to a rough surface: the verdict's questions the other way round.
+
+Shares need not fall steadily, so that a whole range is searched. The limits of a threshold are
+where the low limit of the share first fails, and where the high limit of the share last suffices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.criteria.a_v_table import RANGES
+from stickiness.criteria.pair import BROAD_A_V, Pair
+from stickiness.criteria.verdict import verdict
+from stickiness.persson.theory import Persson
+from stickiness.remaining.prediction import LEAST_LENGTH
+from stickiness.solids import HALF_SPACE, Solid
+from stickiness.solids.moduli import Modulus, Prony, Table
+from stickiness.spectrum.interface import Spectrum
+
+CONTACT_AREA = 0.05  #: share of the nominal area
+# Relative, of areas by theory: covers simulations at these areas (H = 0.3 to 0.9, magnifications of
+# 16 to 256, cells of two waves and more). On thin bonded layers theory has as little as half of it.
+AREA_ERROR, AREA_ERROR_LAYER, AREAS = 0.15, 0.45, (0.005, 0.35)
+ROUGHEST, DEEPEST = 1e3, 25.0  # searched, over the heights, and over 1/q of the longest waves
+_PER_DECADE, _FINER, _TIMES = 5, 5, 10  # points of the first search, of finer ones; searches
+_FREQUENCIES = 1e-12, 1e12  # [Hz], of a Prony series
+
+Remain = Callable[[Pair], NDArray]
+
+
+class Threshold(NamedTuple):
+    """A number with its limits; 0 or infinity where no value sticks, or all that were searched."""
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Thresholds:
+    """What would make a material stick to a surface, all else being as it is."""
+
+    modulus: Threshold  #: sticks below [Pa]; Young's modulus if Poisson's ratio was given, else E*
+    rms_height: Threshold  #: sticks below [m]
+    thickness: Threshold | None  #: sticks above [m]; None of a half-space
+    pressure: Threshold  #: mean pressure [Pa] that makes the area of contact, without adhesion
+    rate: Threshold | None  #: sticks below [Hz]; None without `storage`
+
+
+def thresholds(
+    surface: Spectrum | ArrayLike,
+    *,
+    contact_area: float = CONTACT_AREA,
+    storage: Prony | Table | None = None,
+    **material: Any,
+) -> Thresholds:
+    """Find the modulus, rms height, thickness and rate at which a material begins to stick.
+
+    And the pressure at which a share of the nominal area is in contact.
+
+    Parameters
+    ----------
+    surface : Spectrum or (nx, ny) array
+        As of `verdict`. Other rms heights have a spectrum of the same shape.
+    contact_area : float
+        Share of the nominal area, 0.005 to 0.35, down to the shortest wave of the surface. By
+        `Persson` with Wang and Müser's correction (Tribol. Lett. 65:103, 2017).
+    storage : solids.moduli.Prony or Table, optional
+        Modulus against the frequency, Young's or E* as `modulus`.
+    **material
+        Other arguments of `verdict`, with its errors and warnings.
+
+    Returns
+    -------
+    Thresholds
+        At a threshold the verdict has the wanted share to 1e-4; at its limits one of the limits of
+        the share.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> wall = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
+    >>> found = thresholds(wall, modulus=2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    >>> print(f"sticks below E = {found.modulus.value / 1e6:.2f} MPa")
+    sticks below E = 1.57 MPa
+    """
+    if not AREAS[0] <= contact_area <= AREAS[1]:
+        raise ValueError(f"contact_area must be in {AREAS}, got {contact_area!r}")
+    judged = verdict(surface, **{"a_v": (BROAD_A_V,) * 3} | material)
+    pair, spectra, solid = judged.pair, [judged.spectrum], material.get("solid", HALF_SPACE)
+    found = judged.modulus_threshold, *judged.modulus_threshold_limits
+    any_modulus = 0.99 * pair.work_of_adhesion / (LEAST_LENGTH * pair.elastic_energy)
+    as_given = material["modulus"] / pair.modulus  # Young's modulus or E*
+    modulus = Threshold(*(as_given * x if x < any_modulus else np.inf for x in found))
+    return Thresholds(
+        modulus=modulus,
+        rms_height=find_rms_height(pair, pair.h_rms),
+        thickness=find_thickness(pair, solid, spectra),
+        pressure=find_pressure(spectra, solid, pair, contact_area),
+        rate=storage
+        and Threshold(*(find_rate(storage, x, _FREQUENCIES, x == modulus.high) for x in modulus)),
+    )
+
+
+def remain_at_ends(pair: Pair) -> NDArray:
+    """Low limit, value and high limit of the share that remains, along a last axis."""
+    return np.stack([pair.remaining(sign) for sign in (-1, 0, 1)], axis=-1)
+
+
+def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Threshold:
+    """Find the rms height [m] below which the wanted share remains; `h_rms` is what `pair` has.
+
+    `pair` has arrays of the ends of what is known of a surface, or of draws, and `remain` makes
+    shares (x, end, limit) of it.
+    """
+    ends = pair.range / RANGES[-1], ROUGHEST * h_rms
+    return _search(lambda x: remain(pair.scaled(x / h_rms)), *ends, pair.wanted_share)
+
+
+def find_thickness(
+    pair: Pair, solid: Solid, spectra: list[Spectrum], remain: Remain = remain_at_ends
+) -> Threshold | None:
+    """Find the thickness [m] of a layer above which the wanted share remains; None of a half-space.
+
+    `spectra` are of the ends; draws change as both do on average. Others as of `find_rms_height`.
+    """
+
+    def put_on(thickness: NDArray) -> NDArray:
+        layers = [solid, *(replace(solid, thickness=d) for d in thickness[:, 0])]
+        energy = np.array([[one.elastic_energy(layer) for one in spectra] for layer in layers])
+        if np.size(pair.h_rms) > len(spectra):
+            energy = np.exp(np.log(energy).mean(axis=1, keepdims=True))
+        soft = np.array([np.atleast_1d(layer.factor(pair.q0)) for layer in layers])
+        changed = {
+            "elastic_energy": pair.elastic_energy * energy[1:] / energy[0],
+            "relative_compliance": pair.relative_compliance * soft[1:] / soft[0],
+            "layer_strain": [np.atleast_1d(x.strain(pair.h_rms, pair.q0)) for x in layers[1:]],
+        }
+        return remain(replace(pair, **{name: np.array(x) for name, x in changed.items()}))
+
+    ends = DEEPEST / spectra[0].band[0], np.min(pair.h_rms)
+    return None if solid == HALF_SPACE else _search(put_on, *ends, pair.wanted_share)
+
+
+def _search(
+    remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float
+) -> Threshold:
+    """Find the geometric mean of the thresholds of all ends, and their farthest limits."""
+
+    @cache  # the first places are the same for all limits
+    def kept(places: tuple[float, ...]) -> NDArray:
+        return remain(np.array(places)[:, None])
+
+    def find(end: int, limit: int) -> float:
+        def share(x: NDArray) -> NDArray:
+            return kept(tuple(x))[:, end, limit]
+
+        return find_crossing(share, start, stop, wanted, last=limit == 2)
+
+    ends = range(kept((start,)).shape[1])
+    found = np.array([[find(end, limit) for limit in range(3)] for end in ends])
+    with np.errstate(invalid="ignore"):  # none at one end, any at the other
+        value = float(np.prod(found[:, 1]) ** (1 / len(ends)))
+    return Threshold(value, float(found.min()), float(found.max()))
+
+
+def find_crossing(
+    share: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float, last: bool
+) -> float:
+    """Find where a share first, or at `last`, falls below the wanted one from `start` to `stop`.
+
+    0 or infinity if that is beyond the start or the stop. The share is large at the start.
+    """
+    x = np.geomspace(start, stop, 2 + int(_PER_DECADE * abs(np.log10(stop / start))))
+    for finer in range(_TIMES):
+        enough = share(x[1:-1] if finer else x) >= wanted
+        if finer:  # between a place that has enough and one that has not
+            enough = np.concatenate([[True], enough, [False]])
+        before, after = np.append(True, enough), np.append(enough, False)
+        count = np.flatnonzero(before)[-1] if last else np.argmin(after)
+        if count in (0, x.size):
+            return 0.0 if (count == 0) == (start < stop) else np.inf
+        x = np.geomspace(x[count - 1], x[count], _FINER)
+    return float(np.sqrt(x[0] * x[-1]))
+
+
+def find_rate(
+    storage: Modulus, modulus: float, frequencies: ArrayLike, last: bool = False
+) -> float:
+    """Find the frequency [Hz] up to which a storage modulus stays below another one.
+
+    0 or infinity if at none or all of those between the first and the last of `frequencies`. A
+    table with a peak may fall below again: see `find_crossing` for `last`.
+    """
+    known = getattr(storage, "frequencies", frequencies)
+    start, stop = np.clip((known[0], known[-1]), frequencies[0], frequencies[-1])
+    return find_crossing(lambda f: modulus / storage.storage(f), start, stop, 1.0, last)
+
+
+def find_pressure(
+    spectra: list[Spectrum], solid: Solid, pair: Pair, area: float = CONTACT_AREA
+) -> Threshold:
+    """Find the mean pressure [Pa] at an area of contact of both ends, without adhesion."""
+    q0, unlike = float(np.mean(pair.q0)), float(np.mean(pair.anisotropy_error_factor))
+    error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
+    areas = area * np.array([1.0, (1 - error) * (1 - AREA_ERROR_LAYER * harder), 1 + error])
+    theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
+    found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
+    value = float(np.exp(np.log(found[:, 0]).mean()))
+    return Threshold(value, float(found[:, 1].min()), float(found[:, 2].max()))
