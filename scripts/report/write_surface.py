@@ -60,8 +60,8 @@ def main(job):
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
-        contact_area=CONTACT_AREA,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
+        contact_area=CONTACT_AREA,
         verdicts=[
             describe_verdict(pairs.sel(material=name), entries[name], job.params.labels)
             | {"mine": name in mine}
@@ -80,17 +80,17 @@ def judge(job):
     surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
     material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
     verdicts = judge_materials(surfaces, material_surfaces, job.params)
-    name = job.wildcards.real_surface
+    name, labels = job.wildcards.real_surface, job.params.labels
     verdicts = find_thresholds(verdicts, surfaces[name], material_surfaces, job.params.materials)
-    title = f"verdicts of the stickiness criteria: {job.params.surface['label']}"
-    parameters = {"materials": job.params.materials, "labels": job.params.labels}
+    title = f"verdicts of the stickiness criteria: {labels[name]}"
+    parameters = {"materials": job.params.materials, "labels": labels}
     datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
     laws = [
         describe_law(verdicts.sel(material=material, surface=name), entry)
         for material, entry in job.params.materials.items()
     ]
     with datasets.whole_file(job.output.contact_laws) as path:
-        made = {"version": __version__, "surface": job.params.surface["label"], "pairs": laws}
+        made = {"version": __version__, "surface": labels[name], "pairs": laws}
         path.write_text(json.dumps(made, indent=1, ensure_ascii=False, allow_nan=False))
     return datasets.read(job.output.verdicts)
 

@@ -51,8 +51,8 @@ class StickinessVerdict:
     a_v_limits: tuple[float, float]
     margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
     pair: Pair  #: the surface and the material, in SI units
+    doubts: tuple[str, ...]  #: why the answer is probably to another question
     spectrum: Spectrum = field(repr=False)  #: of the surface
-    doubts: tuple[str, ...] = ()  #: why the answer is probably to another question
 
     def to_dict(self) -> dict[str, Any]:
         """Return the effective attraction for DEM and FE models, in SI units and ready for JSON."""
@@ -233,8 +233,8 @@ def verdict(
         a_v_limits=(low, high),
         margins=margins,
         pair=pair,
-        spectrum=spectrum,
         doubts=tuple(map(str, doubts)),
+        spectrum=spectrum,
     )
 
 
