@@ -81,7 +81,7 @@ UNMEASURED = (np.nan,) * 3
         ((0.1, 0.1), (0.2, 0.1), 0.1, UNMEASURED, "sticks"),
         ((0.5, 0.09), (1.0, 0.1), 1.1, UNMEASURED, "depends"),
         ((0.0, 0.0), (0.1, 0.0), 0.1, UNMEASURED, "depends"),
-        ((0.0, 0.0), (0.09, 0.0), 1.1, UNMEASURED, "sticks only locally"),
+        ((0.0, 0.0), (0.09, 0.0), 1.1, UNMEASURED, "adheres locally, does not hold"),
         ((0.0, 0.0), (0.09, 0.0), 0.9, UNMEASURED, "does not stick"),
         # On a measured surface the draws decide.
         ((0.0, 0.0), (1.0, 1.0), 2.0, (0.85, 0.9, 1.0), "sticks fully"),

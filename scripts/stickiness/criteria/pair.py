@@ -19,7 +19,7 @@ from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import choose_factor
 
 WORDS = (
-    *("does not stick", "sticks only locally", "depends", "sticks", "sticks fully"),
+    *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
     "not judged",
 )
 NOT_STICKY, TOUCHES, DEPENDS, STICKY, STICKS_FULLY, NOT_JUDGED = range(6)

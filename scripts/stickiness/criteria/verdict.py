@@ -29,7 +29,7 @@ class StickinessVerdict:
     """Answer for one material on one surface; every pair of limits is (low, high)."""
 
     #: One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
-    #: "sticks only locally" if contact grows by itself at the finest wave but less than
+    #: "adheres locally, does not hold" if contact grows by itself at the finest wave but less than
     #: the wanted share remains, "sticks fully" if at least `pair.FULL_SHARE` does.
     word: str
     remaining: float  #: share of the work of adhesion that remains on the rough surface
