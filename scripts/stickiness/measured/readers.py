@@ -32,17 +32,18 @@ _SUFFIXES = {
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
-_PACKED = {  # first bytes of what no reader unpacks
-    b"\x1f\x8b": "gzip",
-    b"\x1f\x9d": "compress",
-    b"BZh": "bzip2",
-    b"\xfd7zXZ\0": "xz",
-    b"7z\xbc\xaf\x27\x1c": "7z",
-}
-_OLD_EXCEL = b"\xd0\xcf\x11\xe0"
 _EXCEL = (
     "the file is an Excel workbook: save its sheet of heights as text (CSV), without other columns"
 )
+_PACKED = "the file is compressed ({}): unpack it, and give the file inside"
+_UNREADABLE = {  # first bytes of what no reader takes
+    b"\xd0\xcf\x11\xe0": _EXCEL,  # of an old version
+    b"\x1f\x8b": _PACKED.format("gzip"),
+    b"\x1f\x9d": _PACKED.format("compress"),
+    b"BZh": _PACKED.format("bzip2"),
+    b"\xfd7zXZ\0": _PACKED.format("xz"),
+    b"7z\xbc\xaf\x27\x1c": _PACKED.format("7z"),
+}
 _LONGEST = 200  # characters of SurfaceTopography's words
 _FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
 _SLACK = 0.01  # of a step, by which positions may be off the grid
@@ -122,14 +123,12 @@ def find_packing(path: str | Path) -> str:
         head = file.read(8)
     if not head:
         return "the file is empty: copy it again"
-    if head.startswith(b"PK\3\4") and not zipfile.is_zipfile(path):
-        return "the file is incomplete, its end is missing: copy it again"
-    if head.startswith(_OLD_EXCEL):
-        return _EXCEL
-    for start, name in _PACKED.items():
-        if head.startswith(start):
-            return f"the file is compressed ({name}): unpack it, and give the file inside"
-    return ""
+    if head.startswith(b"PK\3\4"):
+        if not zipfile.is_zipfile(path):
+            return "the file is incomplete, its end is missing: copy it again"
+        with zipfile.ZipFile(path) as archive:
+            return _EXCEL if "xl/workbook.xml" in archive.namelist() else ""
+    return next((advice for start, advice in _UNREADABLE.items() if head.startswith(start)), "")
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
@@ -434,26 +433,21 @@ def _find_damage(path: Path, error: Exception) -> str:
     """What is wrong with a file that SurfaceTopography cannot read, and what helps."""
     from SurfaceTopography import IO
 
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:
-            if "xl/workbook.xml" in archive.namelist():
-                return _EXCEL
-        if isinstance(error, IO.CannotDetectFileFormat):
-            return "the file is a zip archive: unpack it, and give the file of heights"
-    # Readers that know the first bytes may find that others are missing. Any file may be an hgt.
-    for reader in IO.readers if isinstance(error, IO.CannotDetectFileFormat) else ():
-        try:
-            reader(str(path)) if reader.format() != "hgt" else None
-        except IO.CorruptFile as damage:
-            error = damage
-            break
-        except Exception:  # of other formats
-            continue
-    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
-    reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
+    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())[:_LONGEST]
     if isinstance(error, IO.CorruptFile):
-        return f"the file is incomplete or damaged ({words[:_LONGEST]}): copy it again"
+        return f"the file is incomplete or damaged ({words}): copy it again"
+    reason = f"{type(error).__name__}: {words}".removesuffix(": ")
     if isinstance(error, IO.CannotDetectFileFormat):
+        if zipfile.is_zipfile(path):
+            return "the file is a zip archive: unpack it, and give the file of heights"
+        # Readers that know the first bytes may find that others are missing; any may be an hgt.
+        for reader in (reader for reader in IO.readers if reader.format() != "hgt"):
+            try:
+                reader(str(path))
+            except IO.CorruptFile as damage:
+                return _find_damage(path, damage)
+            except Exception:  # of other formats
+                continue
         reason = "no reader takes it; give format to see what its reader says"
     return (
         f"SurfaceTopography cannot read it ({reason}); is the file complete? Else export it as a "
