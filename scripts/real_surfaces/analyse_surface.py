@@ -219,11 +219,7 @@ def analyse(entry):
         remarks="; ".join(f"{IGNORED}: {doubt}" for doubt in doubts if not withheld),
         cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
-        choices="\n".join(
-            f"{h.source} | {', '.join(h.others)}"
-            for h, one in zip(heights, entries, strict=True)
-            if h.others and not {"channel", "variable"} & set(one)
-        ),
+        choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
         not_judged="\n".join(withheld),
     )
 
