@@ -219,6 +219,7 @@ def analyse(entry):
         remarks="; ".join(f"{IGNORED}: {doubt}" for doubt in doubts if not withheld),
         cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
+        contradictions="\n".join(said for h in heights for said in h.contradictions),
         choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
         not_judged="\n".join(withheld),
     )

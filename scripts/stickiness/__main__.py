@@ -67,7 +67,8 @@ def read_options() -> argparse.Namespace:
     for title in ("material", "surface"):
         group = parser.add_argument_group(title)
         for key, (option, text) in TEXTS[title].items():
-            group.add_argument(option, dest=key, type=read_value, metavar="VALUE", help=text)
+            kind = str if key == "label" else read_value
+            group.add_argument(option, dest=key, type=kind, metavar="VALUE", help=text)
     given = parser.parse_args()
     used = [OPTIONS[key] for key in choose(given, MATERIAL)]
     if given.tape and used:

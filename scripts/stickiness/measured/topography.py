@@ -22,6 +22,7 @@ from stickiness.measured.readers import Length, Raw, metres, sides
 
 Size = Length | Sequence[Length] | None
 
+_SAME_SIZE = 0.01  # relative, up to which two sizes are the same
 _WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
@@ -36,6 +37,7 @@ class _Heights:
     as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
     others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
+    contradictions: tuple[str, ...] = ()  #: what the caller said otherwise than the file
 
     @property
     def h_rms(self) -> float:
@@ -176,11 +178,22 @@ def read(
     if spikes not in ("mask", "keep"):
         raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
     raw = readers.read(path, format, variable, channel)
+    kind = readers.format_of(path, format)
     source, heights = raw.source, raw.heights
     _ask_for_units(raw, length or pixel_size, height_unit, position_unit)
+    contradictions = []
+    # Where a format leaves no choice of the unit, its reader gives metres, as nobody says them.
+    if raw.unit == "m" and height_unit not in (None, "m") and kind == readers.INSTRUMENT:
+        contradictions.append(f"height_unit = {height_unit!r} is not used: the file has its unit")
+        height_unit = None
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
     x, steps = None, _places(raw, length, pixel_size, position_unit)
+    if raw.places is not None and raw.place_unit is not None and (length or pixel_size):
+        in_file = _places(raw, None, None, None)
+        if not np.allclose(in_file, steps, rtol=_SAME_SIZE, atol=0):
+            ratio = np.max(steps) / np.max(in_file)
+            contradictions.append(f"the size given is used, {ratio:.3g} times the size in the file")
     if heights.ndim == 1:
         order = np.argsort(steps, kind="stable")
         x, heights = steps[order], heights[order]
@@ -219,6 +232,7 @@ def read(
         "as_read": heights * scale if dropped or masked else None,
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
         "others": raw.others,
+        "contradictions": tuple(f"{source}: {said}" for said in contradictions),
     }
     if x is not None:
         return Profile(filled, *steps, source, float(gaps.max()), **known)
