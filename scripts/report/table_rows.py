@@ -6,9 +6,9 @@ from common import formatting, provided
 from common import verdicts as texts
 from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
 from common.materials import read_material, show_modulus
+from criteria.thresholds import find_rates
 from stickiness.criteria.pair import BROAD_A_V, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.criteria.thresholds import find_rate
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 
@@ -52,28 +52,28 @@ def describe_pair(pair, entry):
         factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
         row["factor"] = "{} ({} to {})".format(*factors)
     onset = pair.margin.sel(criterion=EDGES)
-    threshold = texts.describe_stress(pair, "modulus_threshold", texts.MPA)
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
     total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
     errors = f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
+    threshold, modulus = "modulus_threshold", float(pair.modulus_quoted)
     cells = {
         "remaining": (texts.describe_share(pair), texts.find_value(pair)),
         "pull_off": (texts.describe_pull_off(pair), texts.find_value(pair, "pull_off")),
-        "threshold": (threshold, texts.find_value(pair, "modulus_threshold")),
+        "threshold": (texts.describe_quantity(pair, threshold), texts.find_value(pair, threshold)),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (interval(*onset.values, 2), onset.mean()),
         "probability": (texts.show_probability(pair) if drawn else NOTHING, pair.probability),
         "errors": (errors if drawn else NOTHING, total),
-        "modulus": (texts.show_stress(float(pair.modulus_quoted), texts.MPA), pair.modulus_quoted),
+        "modulus": (texts.SHOWN[threshold](modulus), modulus),
     }
-    stresses = (("pull_off", texts.KPA), ("modulus_threshold", texts.MPA))
-    ends = {name: texts.show_stresses(*sorted(pair[name].values), unit) for name, unit in stresses}
-    ends["remaining"] = texts.show_shares(*sorted(map(texts.round_share, pair.remaining.values)))
+    ends = {
+        name: texts.join(*map(show, sorted(pair[name].values)))
+        for name, show in texts.SHOWN.items()
+    }
     return row | {
         "not_judged": "",
-        "nothing": texts.round_share(texts.find_limits(pair)[1]) == 0,
         "unknown": find_largest_unknown(pair) if WORDS[code] == "depends" else "",
         **describe_bounds(pair, entry),
         "rates": list_rates(read_material(entry), pair),
@@ -88,31 +88,26 @@ def describe_bounds(pair, entry):
 
     The verdict changes at the limits, so that they are told from the modulus of the material.
     """
-    name, given, shown = "modulus_threshold", float(pair.modulus_quoted), []
-    for bound in map(float, (texts.find_value(pair, name), *texts.find_limits(pair, name))):
-        useful = texts.LEAST_STRESS <= bound <= texts.MOST_STRESS
-        digits = 4 if abs(bound / given - 1) < NEAR else 2
-        shown.append(show_modulus(bound, entry, digits) if useful else "")
-    text, low, high = shown
+    name, given = "modulus_threshold", float(pair.modulus_quoted)
+    bounds = list(map(float, (texts.find_value(pair, name), *texts.find_limits(pair, name))))
+    useful = [bound for bound in bounds if texts.LEAST_STRESS <= bound <= texts.MOST_STRESS]
+    text, low, high = (
+        show_modulus(bound, entry, 4 if abs(bound / given - 1) < NEAR else 2, beside=useful)
+        if bound in useful
+        else ""
+        for bound in bounds
+    )
     least, most = (bound.partition(" = ")[2] for bound in (low, high))
-    least = least.removesuffix(most[most.rfind(" ") :])  # the unit, if they have one
+    least = least.removesuffix(most[most.rfind(" ") :])  # the unit
     text = f"{text} ({least or 0} to {most or 'any'})" if text else "none that matters"
     return {"threshold": text, "sticks_below": low, "fails_above": high}
 
 
 def list_rates(material, pair):
-    """Frequencies at which a pair sticks within all limits, and at which it may, as texts.
-
-    Empty of a material whose modulus does not depend on the rate, or that is judged by its dwell.
-    """
-    if not material.depends_on_rate or np.isfinite(material.dwell):
-        return []
-    found = []
-    for last, threshold in enumerate(map(float, texts.find_limits(pair, "modulus_threshold"))):
-        hertz = find_rate(material.plane_strain, threshold, pair.frequency.values, bool(last))
-        words = {0.0: "at no frequency", np.inf: "at every frequency"}
-        found.append(words.get(hertz, f"below {number(hertz, 2)} Hz"))
-    return list(dict.fromkeys(found))
+    """Frequencies at which a pair sticks within all limits, and at which it may, as texts."""
+    words = {0.0: "at no frequency", np.inf: "at every frequency"}
+    limits = find_rates(material, pair)[1:]
+    return list(dict.fromkeys(words.get(x, f"below {number(x, 2)} Hz") for x in limits))
 
 
 def find_largest_unknown(pair):

@@ -305,13 +305,13 @@ def test_the_report_shows_what_is_in_the_files(page):
         "multilevel: 32 coarse seeds, 100 long-wave controls",
         # The sentences of the verdicts.
         "Jelly & cream on glass pane sticks at 1 Hz: 50 % (40 to 84 %) of the work",
-        "It sticks up to E = 1100 kPa; its modulus at 1 Hz is 1 kPa.",
+        "It sticks up to E = 1.1 MPa; its modulus at 1 Hz is 1 kPa.",
         "For jelly & cream on sand < 1 mm it depends at 1 Hz: 2 % (1.6 to 36 %)",
-        "below E = 1100 kPa and would not stick above E = 3400 kPa; its modulus at 1 Hz is 1 kPa",
+        "below E = 1.1 MPa and would not stick above E = 3.4 MPa; its modulus at 1 Hz is 1 kPa",
         "The error of the model is the largest unknown",
         f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
         "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains. It would "
-        "stick below E* = 0.0015 GPa; its modulus is 2 GPa.",
+        "stick below E* = 1.5 MPa; its modulus is 2 GPa.",
         # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",
@@ -378,7 +378,7 @@ def test_thresholds_have_one_unit_and_all_limits(verdicts, values, limits, text)
         modulus_threshold_low=("end", [limits[0]] * 2),
         modulus_threshold_high=("end", [limits[1]] * 2),
     )
-    assert texts.describe_stress(found, "modulus_threshold", texts.MPA) == text
+    assert texts.describe_quantity(found, "modulus_threshold") == text
 
 
 def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
