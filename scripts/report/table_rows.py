@@ -21,26 +21,29 @@ COLUMNS += ("errors", "modulus")
 
 def arrange_pairs(verdicts, materials, labels):
     """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
-    return [
+    rows = [
         describe_pair(verdicts.sel(material=material, surface=surface), materials[material])
         | {"key": material, "material": materials[material]["label"]}
-        | {"name": surface, "surface": labels[surface]}
+        | {"name": surface, "surface": labels[surface], "mine": False}
         for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
         for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
     ]
+    for row in provided.choose_mine(rows):
+        row["mine"] = True
+    return rows
 
 
 def describe_pair(pair, entry):
-    """Verdict on a pair: `text` by column for readers, `sort` by column for sorting.
+    """Verdict on a `pair`: `text` by column for readers, `sort` by column for sorting.
 
-    `entry` is that of its material in the configuration. Texts in `ends` go from the rough to the
-    smooth end of the surface. A pair that is not judged has no numbers and comes last in every
-    order.
+    `entry` is that of its material in the configuration. Texts in `ends` are values at both ends of
+    the surface. A pair that is not judged has no numbers and comes last in every order.
     """
     code = int(pair.verdict)
-    row = {"code": code, "word": WORDS[code], "tone": TONES[code], "stiffening": "", "strain": ""}
-    row |= {"moment": texts.describe_moment(pair), "factor": "", "rates": [], "ends": {}}
+    row = {"pair": pair, "code": code, "word": WORDS[code], "tone": TONES[code]}
     row |= {"modulus": show_modulus(float(pair.modulus_quoted), entry, 3), "threshold": NOTHING}
+    row |= {"moment": texts.describe_moment(pair), "rates": [], "ends": {}}
+    row |= dict.fromkeys(("stiffening", "strain", "factor"), "")
     if code == NOT_JUDGED:
         nothing = {"text": dict.fromkeys(COLUMNS, NOTHING), "sort": dict.fromkeys(COLUMNS, -1.0)}
         return row | nothing | {"code": -1, "not_judged": str(pair.not_judged.item())}

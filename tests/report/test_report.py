@@ -346,7 +346,7 @@ def test_rows_of_pairs(pairs, verdicts):
     assert (sand["probability"], iron["probability"]) == ("42 %", "< 1.3 %")
     assert sand["errors"] == "spectrum 30 %, model 40 %"
     assert jelly_sand["sort"]["errors"] == pytest.approx(0.5)
-    assert write_report.choose_mine(pairs) == pairs
+    assert all(pair["mine"] for pair in pairs)
     drawn = verdicts.sel(material="jelly", surface="glass")
     drawn = drawn.assign(remaining_quantile=("quantile", [0.31, 0.6, 0.77]))
     row = describe_pair(drawn, materials["jelly"])
@@ -381,8 +381,8 @@ def test_thresholds_have_one_unit_and_all_limits(verdicts, values, limits, text)
     assert texts.describe_quantity(found, "modulus_threshold") == text
 
 
-def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
-    plot = interactive.draw_pairs(verdicts, pairs)
+def test_every_judged_pair_is_on_one_axis(pairs):
+    plot = interactive.draw_pairs(pairs)
     shown = defaultdict(list)
     for renderer in plot.renderers:
         if isinstance(renderer.glyph, Scatter):
@@ -399,7 +399,7 @@ def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
     drawn = sorted(tuple(xs) for data in lines for xs in data["xs"])
     assert drawn == [(0.005, 0.005), (0.05, 0.05), (0.25, 1.0), (4.0, 4.5)]
     doubtful = [pair | {"code": -1} for pair in pairs]
-    (line,) = interactive.draw_pairs(verdicts, doubtful).renderers  # the model alone
+    (line,) = interactive.draw_pairs(doubtful).renderers  # the model alone
     at = line.data_source.data
     shares = np.interp(np.log([0.5, 2.0]), np.log(at["x"]), at["y"])
     assert shares == pytest.approx([1.58, 52.1], rel=0.02)
