@@ -71,20 +71,16 @@ def ask(solid, judged, rough, spectra):
         shares = at.share(at.adhesion_length, at.range, errors, factor)
         return find_quantiles(shares, at.layer_strain <= MOST_STRAIN)[:, None]
 
+    rate = None
+    if solid.depends_on_rate and np.isnan(solid.dwell):
+        moduli = find_value(judged, "modulus_threshold"), *find_limits(judged, "modulus_threshold")
+        rate = [
+            questions.find_rate(solid.plane_strain, float(x), judged.frequency.values, place == 2)
+            for place, x in enumerate(moduli)
+        ]
     return (
         questions.find_rms_height(pair, float(np.sqrt(h_rms.prod())), remain),
         questions.find_thickness(pair, layer, spectra, remain),
-        find_rates(solid, judged),
+        rate,
         questions.find_pressure(spectra, layer, pair),
     )
-
-
-def find_rates(solid, judged):
-    """Frequency [Hz] below which a `Material` sticks, and its limits; none of elastic ones."""
-    if not solid.depends_on_rate or np.isfinite(solid.dwell):
-        return []
-    moduli = find_value(judged, "modulus_threshold"), *find_limits(judged, "modulus_threshold")
-    return [
-        questions.find_rate(solid.plane_strain, float(x), judged.frequency.values, place == 2)
-        for place, x in enumerate(moduli)
-    ]
