@@ -116,29 +116,3 @@ def show_modulus(modulus, entry, digits=2, beside=()):
     if not LEAST_READABLE <= min(shown * per_pascal) <= max(shown * per_pascal) <= MOST_READABLE:
         per_pascal, unit = unit_for(max(shown), "Pa", 2)
     return f"{name} = {number(shown[0] * per_pascal, digits)} {unit}"
-
-
-def describe_modulus(entry, labels):
-    """Modulus as configured, with the layer and, by the `labels` of surfaces, the roughness."""
-    if "plane_strain_modulus" in entry:
-        text = f"E* = {entry['plane_strain_modulus']}"
-    elif "youngs_modulus_table" in entry:
-        (first, low), *_, (last, high) = entry["youngs_modulus_table"]
-        text = f"E′ = {low} at {first} … {high} at {last}"
-    elif "youngs_modulus_prony" in entry:
-        series = entry["youngs_modulus_prony"]
-        plural = "s" if len(series["terms"]) > 1 else ""
-        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony term{plural}"
-    else:
-        text = f"E = {entry['youngs_modulus']}"
-    if "plane_strain_modulus" not in entry:
-        text += f", ν = {entry['poisson_ratio']}"
-    if "thickness" in entry:
-        backing = entry.get("backing", "bonded")
-        if isinstance(backing, str):
-            base = {"bonded": " on", "slip": ", free to slip on"}[backing] + " a rigid base"
-        else:
-            base = f" on a film of {backing['thickness']} and {backing['youngs_modulus']}"
-        text += f", {entry['thickness']} thick{base}"
-    text = text.replace(" um", " µm")
-    return f"{text}, rough as {labels[entry['surface']]}" if "surface" in entry else text

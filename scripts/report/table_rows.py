@@ -42,8 +42,8 @@ def describe_pair(pair, entry):
     code = int(pair.verdict)
     row = {"pair": pair, "code": code, "word": WORDS[code], "tone": TONES[code]}
     row |= {"modulus": show_modulus(float(pair.modulus_quoted), entry, 3), "threshold": NOTHING}
-    row |= {"moment": texts.describe_moment(pair), "rates": [], "ends": {}}
-    row |= dict.fromkeys(("stiffening", "strain", "factor"), "")
+    row |= {"moment": texts.describe_moment(pair), "stiffening": "", "strain": ""}
+    row |= {"rates": [], "ends": {}}
     if code == NOT_JUDGED:
         nothing = {"text": dict.fromkeys(COLUMNS, NOTHING), "sort": dict.fromkeys(COLUMNS, -1.0)}
         return row | nothing | {"code": -1, "not_judged": str(pair.not_judged.item())}
@@ -51,9 +51,6 @@ def describe_pair(pair, entry):
         row["stiffening"] = interval(*pair.stiffening.values, 2)
     if pair.layer_strain.max() > MOST_STRAIN:
         row["strain"] = number(pair.layer_strain.max(), 2)
-    if np.isfinite(pair.dwell):
-        factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
-        row["factor"] = "{} ({} to {})".format(*factors)
     onset = pair.margin.sel(criterion=EDGES)
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement

@@ -10,7 +10,7 @@ import numpy as np
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
-from common.materials import describe_modulus, find_doubts, read_material
+from common.materials import find_doubts, read_material
 from common.templates import write_page
 from common.verdicts import describe_moment, find_limits, find_value
 from criteria.thresholds import ASKED, find_thresholds
@@ -60,11 +60,11 @@ def main(job):
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
+        labels=job.params.labels,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         contact_area=CONTACT_AREA,
         verdicts=[
-            describe_verdict(pairs.sel(material=name), entries[name], job.params.labels)
-            | {"mine": name in mine}
+            describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
             for name in names
         ],
         shown_at_first=len(at_first),
@@ -108,12 +108,12 @@ def describe_law(pair, entry):
     return {"material": entry["label"], "verdict": word, "law": solid.law, **found}
 
 
-def describe_verdict(pair, entry, labels):
+def describe_verdict(pair, entry):
     """Verdict on one material, with its properties as given and every criterion's reason."""
     judged = int(pair.verdict) != NOT_JUDGED
     return describe_pair(pair, entry) | {
         "material": entry["label"],
-        "given": describe_modulus(entry, labels),
+        "entry": entry,
         "thresholds": {
             name: [float(pair[f"{name}{end}"]) for end in SIGNS]
             for name in ASKED
