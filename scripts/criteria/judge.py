@@ -67,17 +67,13 @@ def describe_page(dataset, materials, labels):
 
 
 def list_kept(pair):
-    """Whether a pair keeps shares, by its value and by its limits."""
-    by = {"value": (find_value(pair), find_value(pair)), "limits": find_limits(pair)}
+    """Whether a pair keeps shares, by its value and by its limits; empty if it is not judged."""
+    by = {"value": 2 * [find_value(pair)], "limits": find_limits(pair)}
+    words = ("no", "depends", "yes") if find_value(pair).notnull() else ("",) * 3
     return {
-        f"keeps {percent(share)} by {kind}": says_keeps(*range_, share)
-        for share, (kind, range_) in product(SHARES, by.items())
+        f"keeps {percent(share)} by {kind}": words[sum(int(x >= share) for x in found)]
+        for share, (kind, found) in product(SHARES, by.items())
     }
-
-
-def says_keeps(low, high, share):
-    """Whether at least a share remains between two values, empty where they are not known."""
-    return "yes" if low >= share else "no" if high < share else "depends" if high >= share else ""
 
 
 def tabulate_pairs(rows):

@@ -4,16 +4,20 @@ import re
 
 import numpy as np
 import pytest
-from helpers.analysed import A_V, wall
+import xarray as xr
 
 from common.materials import read_material
 from common.verdicts import find_limits, find_value
 from criteria import pair_roughness, verdicts
+from criteria.pair_roughness import ENDS
 from report.table_rows import describe_pair
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, WORDS
 from stickiness.criteria.registry import REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.spectrum import SelfAffine, Tabulated
 
+A_V = SurfaceAv(np.array([1e-12, 1.0]), np.full((2, 2), 3.0), 0.1)
 LIMITED = ("remaining", "pull_off", "margin", "modulus_threshold")
 FILM = {"youngs_modulus": "1 GPa", "poisson_ratio": 0.4, "thickness": "20 um"}
 SERIES = {"equilibrium": "20 kPa", "terms": [["0.1 MPa", "1 s"], ["10 MPa", "1 ms"]]}
@@ -42,10 +46,21 @@ def make_material(rng):
 def make_wall(rng, draws):
     """Analysed surface, with draws if it was measured."""
     q0, h = 2 * np.pi / 10 ** rng.uniform(-4, -2), 10 ** rng.uniform(-7.5, -5)
-    heights, q0_draws = (np.exp(std * rng.normal(size=draws)) for std in (0.2, 0.1))
-    found = wall(h, (0.8, 1.2), heights, np.geomspace(q0, 1e3 * q0, 30))
-    found = found.assign(q0_draws=("draw", q0 * q0_draws)) if draws else found
-    return found.assign(axis_ratio=rng.choice([1.0, 3.0]))
+    q = np.geomspace(q0, 1e3 * q0, 30)
+    both = [SelfAffine(hurst=0.8, q0=q0, q1=q[-1], h_rms=f * h) for f in (0.8, 1.2)]
+    both = [Tabulated(q, one.psd(q)) for one in both]
+    names = ("h_rms", "rms_slope", "rms_curvature")
+    data = {name: ("end", [getattr(one, name) for one in both]) for name in names}
+    data["elastic_energy"] = "end", [one.elastic_energy() for one in both]
+    data["psd"] = ("end", "wave_number"), [one.psd(q) for one in both]
+    if draws:
+        factor = np.exp(0.2 * rng.normal(size=draws))
+        energy = np.sqrt(np.prod(data["elastic_energy"][1]))
+        drawn = {"h_rms": h * factor, "elastic_energy": factor**2 * energy}
+        drawn["q0"] = q0 * np.exp(0.1 * rng.normal(size=draws))
+        data |= {f"{name}_draws": ("draw", values) for name, values in drawn.items()}
+    found = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
+    return found.assign(q0=q0, q1=q[-1], hurst=0.8, axis_ratio=rng.choice([1.0, 3.0]))
 
 
 @pytest.fixture(scope="module")

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from helpers.analysed import A_V, LONGEST, wall
+from helpers.analysed import LONGEST, wall
 
 from common.materials import read_material
 from common.templates import make_environment
@@ -13,17 +13,23 @@ from common.verdicts import find_limits
 from criteria import verdicts
 from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine, find_spectra
 from report.table_rows import describe_pair
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import WORDS
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE, MODULUS_FACTORS, find_film_response
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine
 
-pytestmark = pytest.mark.usefixtures("fixed_a_v")
-
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 TAPE = {"label": "tape", "youngs_modulus": "0.1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "made up"}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+
+
+@pytest.fixture(autouse=True)
+def fixed_a_v(monkeypatch):
+    """Of a_V nothing here depends, and theory takes its time."""
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
 
 
 def joined(material, surface, second=None):
@@ -81,7 +87,7 @@ THIN |= {"thickness": "40 um", "backing": FILM | {"thickness": "4 um", "youngs_m
 def at_moduli(moduli, draws):
     """Verdicts on the thin tape with these E* [Pa], each with its film as a solid of its own."""
     entries = {str(i): THIN | {"youngs_modulus": f"{0.75 * x!r} Pa"} for i, x in enumerate(moduli)}
-    return judged(entries, {"wall": wall(h_rms=4e-6, draws=[1] * draws)}).sel(surface="wall")
+    return judged(entries, {"wall": wall(h_rms=4e-6, draws=draws)}).sel(surface="wall")
 
 
 @pytest.mark.slow
@@ -147,8 +153,8 @@ def test_the_response_on_a_film_ends_at_the_rigid_base_and_at_the_bent_plate():
 
 
 def test_the_layer_acts_on_draws_as_on_both_ends():
-    found = joined(read_material(TAPE | {"thickness": "40 um"}), wall(draws=[1] * 3))
-    plain = joined(read_material(TAPE), wall(draws=[1] * 3))
+    found = joined(read_material(TAPE | {"thickness": "40 um"}), wall(draws=3))
+    plain = joined(read_material(TAPE), wall(draws=3))
     ratio = found.elastic_energy_draws / plain.elastic_energy_draws
     assert ratio == pytest.approx(np.full(3, found.stiffening[0]))
     assert found.relative_compliance < 1
@@ -156,7 +162,7 @@ def test_the_layer_acts_on_draws_as_on_both_ends():
 
 
 def test_roughness_of_both_solids_adds():
-    surface = wall(draws=[1] * 4)
+    surface = wall(draws=4)
     both = joined(read_material(TAPE), surface, second=surface)
     one = joined(read_material(TAPE), surface)
     for name in ("h_rms", "rms_slope", "rms_curvature"):
@@ -169,7 +175,7 @@ def test_roughness_of_both_solids_adds():
 
 
 def test_a_smooth_partner_changes_nothing():
-    rough, smooth = wall(draws=[1] * 4), wall(h_rms=1e-11)
+    rough, smooth = wall(draws=4), wall(h_rms=1e-11)
     smooth = smooth.isel(end=[0, 0]).assign_coords(end=list(ENDS))  # known exactly
     both = joined(read_material(TAPE), rough, second=smooth)
     assert both.elastic_energy == pytest.approx(rough.elastic_energy.values, rel=1e-6)

@@ -1,19 +1,24 @@
 """Thresholds of pairs beside the library's, and put back into the verdict."""
 
+import json
+
 import numpy as np
 import pytest
-from helpers.analysed import tabulate, wall
+import xarray as xr
 
 from common.materials import read_material
 from common.verdicts import find_limits
 from criteria import verdicts
+from criteria.pair_roughness import ENDS
 from criteria.thresholds import ASKED, find_thresholds
 from stickiness import thresholds
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import SIGNS
+from stickiness.spectrum import SelfAffine, Tabulated
 
-pytestmark = pytest.mark.usefixtures("fixed_a_v")
-
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 Q = np.geomspace(6e4, 6e7, 200)
+SHAPE = SelfAffine(hurst=0.8, q0=Q[0], q1=Q[-1], h_rms=1.0)
 FREQUENCIES = np.geomspace(1e-3, 1e3, 13)
 TAPE = {"label": "tape", "youngs_modulus": "1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "60 mJ/m^2", "range": "3 nm", "source": "made up"}
@@ -23,6 +28,33 @@ SLOW |= {"youngs_modulus_prony": SERIES}
 LAYER = TAPE | {"thickness": "20 um"}
 BACKING = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 MATERIALS = {"deep": TAPE, "slow": SLOW, "layer": LAYER, "film": LAYER | {"backing": BACKING}}
+
+
+@pytest.fixture(autouse=True)
+def fixed_a_v(monkeypatch):
+    """Of a_V nothing here depends, and theory takes its time."""
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+
+
+def spectrum(h_rms):
+    return Tabulated(Q, h_rms**2 * SHAPE.psd(Q))
+
+
+def wall(h_rms=1e-6, apart=1.0, draws=0):
+    """Analysed surface whose rough end is so many times as high as the smooth one."""
+    ends = [spectrum(h_rms * factor) for factor in (1, apart)]
+    names = ("h_rms", "rms_slope", "rms_curvature")
+    data = {name: ("end", [getattr(one, name) for one in ends]) for name in names}
+    data["elastic_energy"] = "end", [one.elastic_energy() for one in ends]
+    data["psd"] = ("end", "wave_number"), [one.psd(Q) for one in ends]
+    if draws:
+        h = h_rms * np.random.default_rng(1).lognormal(0.0, 0.2, draws)
+        data["h_rms_draws"] = "draw", h
+        data["q0_draws"] = "draw", np.full(draws, Q[0])
+        data["elastic_energy_draws"] = "draw", spectrum(1.0).elastic_energy() * h**2
+    data |= {"q0": Q[0], "q1": Q[-1], "hurst": 0.8}
+    dataset = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": Q})
+    return dataset.assign_attrs(parameters=json.dumps({"label": "wall", "kind": "self_affine"}))
 
 
 def judge(entries, surface):
@@ -38,13 +70,13 @@ def three(pair, name):
 @pytest.mark.parametrize("name", MATERIALS)
 def test_a_surface_that_is_known_has_the_thresholds_of_the_library(name):
     solid = read_material(MATERIALS[name])
-    pair = judge({name: MATERIALS[name]}, wall(ends=(1, 1), q=Q)).sel(material=name)
+    pair = judge({name: MATERIALS[name]}, wall()).sel(material=name)
     known = {"modulus": solid.modulus * 0.75, "poisson": 0.5, "solid": solid.solid}
     known |= {"work_of_adhesion": solid.work_of_adhesion, "range": solid.range}
     storage = solid.plane_strain if name == "slow" else None
     if storage is not None:  # E* as the modulus is
         known |= {"modulus": solid.modulus, "poisson": None}
-    found = thresholds(tabulate(1e-6, Q), storage=storage, **known)
+    found = thresholds(spectrum(1e-6), storage=storage, **known)
     values = found.rms_height, found.thickness, found.rate, found.pressure
     for asked, expected in zip(ASKED, values, strict=True):
         expected = expected or (np.nan,) * 3
@@ -64,8 +96,7 @@ def test_verdict_and_thresholds_of_random_pairs_agree(apart, draws):
         | (layers[i % 3] and layers[i % 3] | {"thickness": f"{float(rng.uniform(3, 90))!r} um"})
         for i in range(15)
     }
-    factors = np.random.default_rng(1).lognormal(0.0, 0.2, draws)
-    found = judge(entries, wall(ends=(1, apart), draws=factors, q=Q))
+    found = judge(entries, wall(1e-6, apart, draws))
     for name, entry in entries.items():
         pair = found.sel(material=name)
         low, high = (float(limit) >= 0.1 for limit in find_limits(pair))

@@ -172,13 +172,10 @@ def ensemble():
             for name in ("standard_error", "discretisation_error")
         },
     }
-    for name, mean, sampling, discretisation in (
-        ("area_fraction", 0.05, 0.01, 0.002),
-        ("mean_gap", 1.0, 0.001, 0.02),
-    ):
-        data[f"{name}_mean"] = ("pressure", [mean, 7.0])
-        data[f"{name}_standard_error"] = ("pressure", [sampling, 7.0])
-        data[f"{name}_discretisation_error"] = ("pressure", [discretisation, 7.0])
+    kinds = ("mean", "standard_error", "discretisation_error")
+    for name, *known in (("area_fraction", 0.05, 0.01, 0.002), ("mean_gap", 1.0, 0.001, 0.02)):
+        for kind, value in zip(kinds, known, strict=True):
+            data[f"{name}_{kind}"] = "pressure", [value, 7.0]
     coords = {"seed": [1, 2], "resolution": [2, 4], "pressure": [0.06, 0.3], "range": ranges}
     made = {"case": "case_of_two", "hurst": 0.8, "magnification": 64, "grid_points": 256}
     made |= {"pixels_per_wavelength": 4, "tolerance": 1e-6, "largest_residual": 1e-6}
