@@ -220,25 +220,18 @@ def test_thinner_tapes_keep_less_and_the_row_says_why():
 
 
 SERIES = {"equilibrium": "10 kPa", "terms": [["30 kPa", "1 s"], ["0.2 MPa", "1 ms"]]}
+TABLE = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
+THICK = "E = 0.1 MPa, ν = 0.5, 50 µm thick"
 
 
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
         ({"surface": "wall"}, "E = 0.1 MPa, ν = 0.5, rough as the brick wall"),
-        ({"thickness": "50 um"}, "E = 0.1 MPa, ν = 0.5, 50 µm thick on a rigid base"),
-        (
-            {"thickness": "50 um", "backing": "slip"},
-            "E = 0.1 MPa, ν = 0.5, 50 µm thick, free to slip on a rigid base",
-        ),
-        (
-            {"thickness": "50 um", "backing": FILM},
-            "E = 0.1 MPa, ν = 0.5, 50 µm thick on a film of 25 µm and 3 GPa",
-        ),
-        (
-            {"youngs_modulus_table": [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]},
-            "E′ = 50 kPa at 10 mHz … 0.5 MPa at 0.1 kHz, ν = 0.5",
-        ),
+        ({"thickness": "50 um"}, f"{THICK} on a rigid base"),
+        ({"thickness": "50 um", "backing": "slip"}, f"{THICK}, free to slip on a rigid base"),
+        ({"thickness": "50 um", "backing": FILM}, f"{THICK} on a film of 25 µm and 3 GPa"),
+        ({"youngs_modulus_table": TABLE}, "E′ = 50 kPa at 10 mHz … 0.5 MPa at 0.1 kHz, ν = 0.5"),
         ({"youngs_modulus_prony": SERIES}, "E = 10 kPa at rest, 2 Prony terms, ν = 0.5"),
         ({"plane_strain_modulus": "2 MPa"}, "E* = 2 MPa"),
     ],
