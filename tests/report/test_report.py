@@ -220,25 +220,19 @@ def experiments():
 
 
 @pytest.fixture(scope="module")
-def results(claims, verdicts, surfaces):
-    """Datasets by the names of the rule's inputs."""
-    return {
+def page(claims, verdicts, surfaces, tmp_path_factory):
+    """The report on files with these results, by the names of the rule's inputs."""
+    a_v = xr.Dataset({"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4})
+    results = {
         "claims": claims,
         "verdicts": verdicts,
-        "criterion": made_by(
-            xr.Dataset({"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4}), pressure=0.065
-        ),
+        "criterion": made_by(a_v, pressure=0.065),
         "experiments": experiments(),
         "surfaces": surfaces,
         "ensembles": {"case_of_two": ensemble()},
         "comparisons": {"case_of_two": comparison()},
         "answers": {"case_of_two": answer()},
     }
-
-
-@pytest.fixture(scope="module")
-def page(results, tmp_path_factory):
-    """The report on files with these results."""
     folder = tmp_path_factory.mktemp("results")
 
     def save(dataset, path):
@@ -344,16 +338,12 @@ def test_rows_of_pairs(pairs, verdicts):
     assert sand["errors"] == "spectrum 30 %, model 40 %"
     assert jelly_sand["sort"]["errors"] == pytest.approx(0.5)
     assert all(pair["mine"] for pair in pairs)
-    drawn = verdicts.sel(material="jelly", surface="glass")
-    drawn = drawn.assign(remaining_quantile=("quantile", [0.31, 0.6, 0.77]))
-    row = describe_pair(drawn, materials["jelly"])
     # One value, the median of draws; both ends are told apart.
-    assert (row["text"]["remaining"], row["ends"]["remaining"]) == (
-        "60 % (31 to 77 %)",
-        "50 … 70 %",
-    )
-    drawn = drawn.assign(remaining_quantile=("quantile", [0.31, 0.4, 0.77]))
-    assert describe_pair(drawn, materials["jelly"])["text"]["remaining"] == "40 % (31 to 77 %)"
+    jelly = verdicts.sel(material="jelly", surface="glass")
+    for median, text in ((0.6, "60 % (31 to 77 %)"), (0.4, "40 % (31 to 77 %)")):
+        drawn = jelly.assign(remaining_quantile=("quantile", [0.31, median, 0.77]))
+        row = describe_pair(drawn, materials["jelly"])
+        assert (row["text"]["remaining"], row["ends"]["remaining"]) == (text, "50 … 70 %")
 
 
 BEYOND = f"> {number(1e7)}"
