@@ -29,6 +29,7 @@ REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
+IGNORED = "judged all the same (plausibility: ignore)"
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
 VARIABLE_TEXTS = {
@@ -107,15 +108,8 @@ def self_affine(entry):
 
 def configured_spectrum(asked, end):
     """Self-affine spectrum of one end of the configured range of h_rms or C0."""
-
-    def bound(key, unit):
-        value = asked[key]
-        return si(value[end] if isinstance(value, list) else value, unit)
-
     hurst = asked["hurst"]
-    size = {"h_rms": bound("h_rms", "m")} if "h_rms" in asked else {}
-    if "C0" in asked:
-        size["C0"] = bound("C0", f"m^{2 - 2 * hurst:g}")
+    units = {"h_rms": "m", "C0": f"m^{2 - 2 * hurst:g}"}
     return SelfAffine(
         hurst=hurst,
         q0=wave_number(asked, "q0", "longest_wavelength"),
@@ -123,31 +117,34 @@ def configured_spectrum(asked, end):
         q_rolloff=wave_number(asked, "", "rolloff_wavelength"),
         anisotropy=asked.get("anisotropy", 1.0),
         angle=np.radians(asked.get("angle", 0.0)),
-        **size,
+        **{key: bound(asked[key], end, unit) for key, unit in units.items() if key in asked},
     )
 
 
 def texture_spectrum(asked, end):
     """Spectrum of one end of what a drawing says, see `texture`; low values are the smooth end."""
-
-    def bound(key, end):
-        value = asked[key]
-        return si(value[end] if isinstance(value, list) else value, "m")
-
-    name, factor = ("Rq", 1.0) if "Rq" in asked else ("Ra", texture.RQ_OVER_RA)
+    given, factor = (asked["Rq"], 1.0) if "Rq" in asked else (asked["Ra"], texture.RQ_OVER_RA)
+    # Wider profile elements are smoother. Where they are not known, the cut-off limits them.
+    widths = [bound(asked["RSm"], at) for at in (-1, 0)] if "RSm" in asked else ()
     if "lambda_c" in asked:
-        cutoff = bound("lambda_c", 0)
+        cutoff = si(asked["lambda_c"], "m")
     else:
-        widest = bound("RSm", -1) if "RSm" in asked else 0.0
-        cutoff = texture.standard_cutoff(factor * bound(name, -1) / texture.RQ_OVER_RA, widest)
-    spacing = bound("RSm", -1 - end) if "RSm" in asked else texture.RSM_OVER_CUTOFF[end] * cutoff
+        cutoff = texture.standard_cutoff(
+            factor * bound(given, -1) / texture.RQ_OVER_RA, *widths[:1]
+        )
+    spacing = widths[end] if widths else texture.RSM_OVER_CUTOFF[end] * cutoff
     return SelfAffine(
         hurst=texture.HURST[end],
         q0=2 * np.pi / cutoff,
         q_rolloff=2 * np.pi * texture.RSM_OVER_ROLLOFF[end] / spacing,
         q1=2 * np.pi / si(asked.get("shortest_wavelength", "1 nm"), "m"),
-        h_rms=texture.HEIGHT_OVER_RQ[end] * factor * bound(name, end),
+        h_rms=texture.HEIGHT_OVER_RQ[end] * factor * bound(given, end),
     )
+
+
+def bound(value, end, unit="m"):
+    """One end, 0 or -1, of a value or a range."""
+    return si(value[end] if isinstance(value, list) else value, unit)
 
 
 def wave_number(asked, key, wavelength):
@@ -164,8 +161,7 @@ def analyse(entry):
     found = [find_spectrum(h, one) for h, one in zip(heights, entries, strict=True)]
     spectrum = stitching.stitch([one for one, _ in found])
     fit, cutoff = spectrum.fit, spectrum.cutoff
-    doubts = [doubt for _, failures in found for doubt in failures]
-    doubts += [] if doubts else plausibility.doubt_fit(fit)
+    doubts = [doubt for _, doubt in found if doubt] or [*plausibility.doubt_fit(fit)]
     extend_to = 2 * np.pi / si(entry["extend_to"], "m") if "extend_to" in entry else None
     if extend_to is not None and not fit.is_self_affine:
         doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
@@ -173,11 +169,9 @@ def analyse(entry):
     drawn = stitching.draw(
         spectrum, DRAWS, SEED, extend_to=extend_to, continue_to=2 * np.pi / SHORTEST_WAVE
     )
-    remarks, doubts = [], doubts + [doubt for one in heights for doubt in one.doubts]
-    if entry.get("plausibility", "check") == "ignore":
-        remarks = [f"judged all the same (plausibility: ignore): {doubt}" for doubt in doubts]
-        doubts = []
-    for doubt in doubts:
+    doubts += [doubt for one in heights for doubt in one.doubts]
+    withheld = [] if entry.get("plausibility") == "ignore" else doubts
+    for doubt in withheld:
         logging.warning("no verdict: %s", doubt)
 
     line, line_se, upper = fit.c0_at_hurst(REFERENCE_HURST)
@@ -222,15 +216,11 @@ def analyse(entry):
         dataset["offset"] = "measurement", spectrum.offsets
         dataset["scatter"] = spectrum.scatter
     return annotate(dataset, **errors).assign_attrs(
-        remarks="; ".join(remarks),
+        remarks="; ".join(f"{IGNORED}: {doubt}" for doubt in doubts if not withheld),
         cutoff=cutoff.reason,
         files="; ".join(h.source for h in heights),
-        choices="\n".join(
-            f"{h.source} | {', '.join(h.others)}"
-            for h, one in zip(heights, entries, strict=True)
-            if h.others and not {"channel", "variable"} & set(one)
-        ),
-        not_judged="\n".join(doubts),
+        choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
+        not_judged="\n".join(withheld),
     )
 
 

@@ -1,7 +1,6 @@
 """Measured surfaces as configured: levelled heights, and the spectrum of one measurement."""
 
 from dataclasses import replace
-from functools import partial
 from inspect import signature
 
 from common.config.entries import measurements
@@ -42,22 +41,22 @@ def find_cutoff(entry, index, heights, finest):
 
 
 def find_spectrum(heights, measurement):
-    """Spectrum of one measurement, and in a list why its fit is none to rely on."""
+    """Spectrum of one measurement, and why its fit is none to rely on; empty if it is."""
     lengths = {name: si(measurement[name], "m") for name in LENGTHS if name in measurement}
     detect = measurement.get("cutoff", "detect") == "detect"
     limits = instrument_spectrum.Limits(**lengths, detect=detect)
-    analyse = partial(instrument_spectrum.analyse, heights, measurement.get("window", "hann"))
+    window, shape = measurement.get("window", "hann"), heights.heights.shape
     try:
-        return analyse(limits), []
+        return instrument_spectrum.analyse(heights, window, limits), ""
     except ValueError as error:
-        points = " x ".join(map(str, heights.heights.shape))
+        points = " x ".join(map(str, shape))
         doubt = f"{heights.source}: no fit to the spectrum of {points} points: {error}"
-        if min(heights.heights.shape) < (FEWEST_ON_LINE, FEWEST_POINTS)[heights.heights.ndim - 1]:
+        if min(shape) < (FEWEST_ON_LINE, FEWEST_POINTS)[len(shape) - 1]:
             doubt += (
                 f"; a map needs about {FEWEST_POINTS} points along its shorter side, a profile "
                 f"{FEWEST_ON_LINE}"
             )
     try:
-        return analyse(demand=False), [doubt]
+        return instrument_spectrum.analyse(heights, window, demand=False), doubt
     except ValueError:
         raise ValueError(doubt) from None

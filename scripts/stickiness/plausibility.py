@@ -30,22 +30,18 @@ class Limits(NamedTuple):
     unit: str = ""  #: empty if the reason says what to give
 
 
+_OF_LENGTH = "give the side of the heights in m (2e-3 for 2 mm)"
+_OF_SLOPE = "small slopes are assumed; give heights and lengths both in m"
+_OF_WORK = (
+    "clean metals reach 3 J/m^2, other solids 0.1 J/m^2; is it in mJ/m^2, or an energy of peeling, "
+    "which includes dissipation?"
+)
 #: By the name of the argument, or of the key in the configuration.
 LIMITS = {
-    "length": Limits(
-        *(SHORTEST_SIDE, LONGEST_SIDE, LONGEST_SIDE),
-        "give the side of the heights in m (2e-3 for 2 mm)",
-    ),
-    "rms_slope": Limits(
-        *(1e-7, 1.0, 1.0), "small slopes are assumed; give heights and lengths both in m"
-    ),
+    "length": Limits(SHORTEST_SIDE, LONGEST_SIDE, LONGEST_SIDE, _OF_LENGTH),
+    "rms_slope": Limits(1e-7, 1.0, 1.0, _OF_SLOPE),
     "modulus": Limits(10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"),
-    "work_of_adhesion": Limits(
-        *(1e-6, 3.0, 10.0),
-        "clean metals reach 3 J/m^2, other solids 0.1 J/m^2; is it in mJ/m^2, or an energy of "
-        "peeling, which includes dissipation?",
-        "J/m^2",
-    ),
+    "work_of_adhesion": Limits(1e-6, 3.0, 10.0, _OF_WORK, "J/m^2"),
     "range": Limits(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
     "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),
 }

@@ -90,6 +90,9 @@ def hdf5(**arrays):
 # What is refused: content of the file, keys of the entry, words of the error.
 HEADER = "# x-pixels = 128\n# x-length = 5\n# z-unit = nm\n"
 HDF5 = hdf5(height=ROUGH)
+TORN = ["incomplete or damaged", "copy it"]
+NO_UNITS = "unit of position or the unit of height; give position_unit and height_unit"
+LINE = "\n".join(f"{i} {z}" for i, z in enumerate(ROUGH[0]))
 HALF = np.where(ROUGH > 0, np.nan, ROUGH)
 REFUSED = {
     "other rows": ("# rows: 256\n" + table(), ENTRY, ["128 rows", "'# rows: 256'", "complete"]),
@@ -110,11 +113,7 @@ REFUSED = {
     "no unit": (table(), {"length": "2 mm"}, ["tell the unit of height; give height_unit"]),
     "no size": (table(), {"height_unit": "um"}, ["size; give length (or pixel_size)"]),
     "neither": (table(), {}, ["size or the unit of height; give length", ") and height_unit"]),
-    "a profile without units": (
-        "\n".join(f"{i} {z}" for i, z in enumerate(ROUGH[0])),
-        {},
-        ["unit of position or the unit of height; give position_unit and height_unit"],
-    ),
+    "a profile without units": (LINE, {}, [NO_UNITS]),
     "another unit": (GWYDDION + table(), {"height_unit": "nm"}, ["'nm'", "the file says 'um'"]),
     "no length": (GWYDDION.replace("units: um", "units: V") + table(), {}, ["'1 V' is in V"]),
     "a voltage in NetCDF": (netcdf(z="V"), {}, ["a length is wanted, e.g. '10 um'"]),
@@ -125,12 +124,8 @@ REFUSED = {
     "missing": (HALF, {"missing": "refuse"}, ["more than the 0.0 % that are filled"]),
     "three dimensions": (np.ones((3, 4, 5)), {}, ["two-dimensional array or a profile"]),
     "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, ["not a readable numpy file"]),
-    "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, ["incomplete or damaged", "copy it"]),
-    "half a file": (
-        HDF5[: len(HDF5) // 2],
-        {"name": "a.dat"},
-        ["incomplete or damaged", "copy it"],
-    ),
+    "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, TORN),
+    "half a file": (HDF5[: len(HDF5) // 2], {"name": "a.dat"}, TORN),
     "gzip": (gzip.compress(b"1 2"), ENTRY, ["compressed (gzip): unpack it"]),
     "bzip2": (bz2.compress(b"1 2"), {"name": "a.npy"}, ["compressed (bzip2): unpack it"]),
     "xz": (lzma.compress(b"1 2"), ENTRY, ["compressed (xz): unpack it"]),
@@ -250,13 +245,6 @@ def test_a_choice_among_data_sets_is_told_unless_it_is_made(tmp_path, content, n
     assert analyse(tmp_path, content, name, **ENTRY, **{key: "height"}).choices == ""
 
 
-def test_many_spikes_are_told_with_their_number(tmp_path):
-    islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
-    many = analyse(tmp_path, changed(*islands, value=9.0))
-    assert int(many.masked_spikes) == 25
-    assert "all their neighbours: 25." in remarks(many)
-
-
 def remarks(dataset):
     """What the page remarks on a measured surface."""
     macros = make_environment("report").get_template("macros.html.j2").module
@@ -264,6 +252,10 @@ def remarks(dataset):
 
 
 def test_remarks_name_what_is_wrong(tmp_path):
+    islands = [(i, j) for i in range(5, N, 25) for j in range(5, N, 25)]  # 25 of 16384
+    many = analyse(tmp_path, changed(*islands, value=9.0))
+    assert int(many.masked_spikes) == 25
+    assert "all their neighbours: 25." in remarks(many)
     noise = remarks(analyse(tmp_path, NOISE).assign(anisotropy=0.8))
     for words in ("is outside 0 &lt; H ≤ 1", "depends on direction", "No roll-off was found"):
         assert words in noise

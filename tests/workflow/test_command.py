@@ -1,6 +1,7 @@
 """``python -m stickiness``: from a file of heights to a page, or to a line on what is wrong."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray as xr
 from helpers.copy_workflow import ROOT
 from helpers.pages import Page
 
@@ -19,7 +21,6 @@ pytestmark = pytest.mark.workflow
 TAPE = ["--modulus", "0.2 MPa", "--work", "60 mJ/m^2"]
 SIZE = ["--length", "2 mm", "--height-unit", "um"]
 RESULTS = Path("stickiness-results/results/draft")
-SHARED = Path("/work/shared/surfaces/tmd-1.tmd")
 
 
 def run(folder, *arguments, scripts=ROOT / "scripts"):
@@ -106,8 +107,21 @@ def test_the_library_alone_says_what_it_lacks(tmp_path):
     assert "the library without the workflow" in errors[0]
 
 
-@pytest.mark.skipif(not SHARED.exists(), reason="no files of instruments")
-def test_a_file_of_an_instrument_needs_no_more(folder):
-    code, answer, errors = run(folder, SHARED, *TAPE)
+def test_a_file_that_tells_all_needs_no_more_and_its_choice_is_told(folder):
+    heights = np.load(folder / "wall#1.npy")
+    places = {axis: (axis, np.linspace(0, 2, 128), {"units": "mm"}) for axis in "xy"}
+    both = xr.Dataset({"z": (("x", "y"), heights, {"units": "um"}), "line": ("x", heights[0])})
+    both.assign_coords(places).to_netcdf(folder / "told.nc")
+    code, answer, errors = run(folder, "told.nc", *TAPE)
     assert (code, errors) == (0, [])
-    assert answer[-1] == f"Page: {RESULTS}/report/surfaces/tmd-1.html"
+    assert "This page shows told.nc: z; there is also line." in answer[-2]
+    assert answer[-2].endswith("for an instrument’s file, or --variable for NetCDF or npz.")
+    assert answer[-1] == f"Page: {RESULTS}/report/surfaces/told.html"
+
+
+def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
+    _, lines, _ = run(folder, "--help")
+    assert max(map(len, lines)) <= 100
+    values = re.findall(r'"(\d[^"]*)"', "\n".join(lines))
+    assert len(values) > 10
+    assert all(re.match(r"[\d.]+ [a-zA-Z]", value) for value in values)

@@ -155,11 +155,7 @@ def ring_areas(q: NDArray, lowest: float) -> NDArray:
 
 
 def isotropic(
-    line: RadialPSD,
-    q_min: float,
-    q_max: float,
-    rolloff: bool | None = None,
-    demand: bool = True,
+    line: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None, demand: bool = True
 ) -> tuple[RadialPSD, SelfAffineFit]:
     """Rings of C behind narrow ones of a profile's C1, and the self-affine fit between two q."""
     rings = replace(line, psd=line.psd * (1 / line.q))

@@ -32,17 +32,18 @@ _SUFFIXES = {
 _X_NAMES = ("x", "lon", "longitude", "easting")
 _Y_NAMES = ("y", "lat", "latitude", "northing")
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
-_PACKED = {  # first bytes of what no reader unpacks
-    b"\x1f\x8b": "gzip",
-    b"\x1f\x9d": "compress",
-    b"BZh": "bzip2",
-    b"\xfd7zXZ\0": "xz",
-    b"7z\xbc\xaf\x27\x1c": "7z",
-}
-_OLD_EXCEL = b"\xd0\xcf\x11\xe0"
 _EXCEL = (
     "the file is an Excel workbook: save its sheet of heights as text (CSV), without other columns"
 )
+_PACKED = "the file is compressed ({}): unpack it, and give the file inside"
+_UNREADABLE = {  # first bytes of what no reader takes
+    b"\xd0\xcf\x11\xe0": _EXCEL,  # of an old version
+    b"\x1f\x8b": _PACKED.format("gzip"),
+    b"\x1f\x9d": _PACKED.format("compress"),
+    b"BZh": _PACKED.format("bzip2"),
+    b"\xfd7zXZ\0": _PACKED.format("xz"),
+    b"7z\xbc\xaf\x27\x1c": _PACKED.format("7z"),
+}
 _LONGEST = 200  # characters of SurfaceTopography's words
 _FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
 _SLACK = 0.01  # of a step, by which positions may be off the grid
@@ -89,7 +90,7 @@ class Raw:
     heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
     source: str  #: file, and variable or channel
     unit: str | None = None  #: of the heights
-    others: tuple[str, ...] = ()  #: other channels or variables that could be taken
+    others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
     places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
 
@@ -122,14 +123,12 @@ def find_packing(path: str | Path) -> str:
         head = file.read(8)
     if not head:
         return "the file is empty: copy it again"
-    if head.startswith(b"PK\3\4") and not zipfile.is_zipfile(path):
-        return "the file is incomplete, its end is missing: copy it again"
-    if head.startswith(_OLD_EXCEL):
-        return _EXCEL
-    for start, name in _PACKED.items():
-        if head.startswith(start):
-            return f"the file is compressed ({name}): unpack it, and give the file inside"
-    return ""
+    if head.startswith(b"PK\3\4"):
+        if not zipfile.is_zipfile(path):
+            return "the file is incomplete, its end is missing: copy it again"
+        with zipfile.ZipFile(path) as archive:
+            return _EXCEL if "xl/workbook.xml" in archive.namelist() else ""
+    return next((advice for start, advice in _UNREADABLE.items() if head.startswith(start)), "")
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
@@ -148,19 +147,22 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
 
 
 def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
-    """Read a file with the reader that `format_of` names."""
-    if advice := find_packing(path):
-        raise ValueError(f"{path}: {advice}")
-    kind = format_of(path, fmt)
-    if channel is not None and kind != INSTRUMENT:
-        raise ValueError(f"{path}: a {kind} file has no channels; leave channel out")
-    if variable is not None and kind in (INSTRUMENT, "text"):
-        raise ValueError(f"{path}: variable is for NetCDF and npz, this is of kind {kind!r}")
-    if kind == INSTRUMENT:
-        return _read_instrument(path, None if fmt == INSTRUMENT else fmt, channel)
-    if kind == "text":
-        return _read_text(path)
-    return (_read_netcdf if kind == "netcdf" else _read_numpy)(path, variable)
+    """Read a file with the reader that `format_of` names; errors name the file."""
+    try:
+        if advice := find_packing(path):
+            raise ValueError(advice)
+        kind = format_of(path, fmt)
+        if channel is not None and kind != INSTRUMENT:
+            raise ValueError(f"a {kind} file has no channels; leave channel out")
+        if variable is not None and kind in (INSTRUMENT, "text"):
+            raise ValueError(f"variable is for NetCDF and npz, this is of kind {kind!r}")
+        if kind == INSTRUMENT:
+            return _read_instrument(path, None if fmt == INSTRUMENT else fmt, channel)
+        if kind == "text":
+            return _read_text(path)
+        return (_read_netcdf if kind == "netcdf" else _read_numpy)(path, variable)
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
 
 
 def _read_netcdf(path: Path, variable: str | None) -> Raw:
@@ -169,8 +171,8 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
     try:
         dataset = xr.load_dataset(path)
     except (OSError, ValueError) as error:
-        raise ValueError(f"{path}: not a readable NetCDF file ({error})") from error
-    name, others = _choose(dataset.variables, dataset.data_vars, variable, path, "variable")
+        raise ValueError(f"not a readable NetCDF file ({error})") from error
+    name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
     data = dataset[name].astype(float)
     if data.ndim == 2:
         first, second = (str(dim).lower() for dim in data.dims)
@@ -181,38 +183,35 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
         if data.ndim == 1:
             places, unit = along[0].values.astype(float), along[0].units
         else:
-            steps = [_find_step(coordinate, path) for coordinate in along]
+            steps = [_find_step(coordinate) for coordinate in along]
             places, unit = (None, None) if None in steps else (np.array(steps), "m")
     source, values = f"{path}: {name}", np.array(data.values)
     return Raw(values, source, data.attrs.get("units"), others, places, unit)
 
 
 def _choose(
-    arrays: Mapping, candidates: Mapping, wanted: str | None, path: Path, what: str
+    arrays: Mapping, candidates: Mapping, wanted: str | None, what: str
 ) -> tuple[str, tuple[str, ...]]:
-    """Array to read: the one wanted, else the only map, else the only profile; and the others."""
-    usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
+    """Array to read: the one wanted; else the only map or the only profile, and the others."""
     if wanted is not None:
         if wanted not in arrays:
-            raise ValueError(f"{path}: no {what} {wanted!r}; the file has {sorted(arrays)}")
+            raise ValueError(f"no {what} {wanted!r}; the file has {sorted(arrays)}")
         if arrays[wanted].ndim not in (1, 2):
-            raise ValueError(f"{path}: {what} {wanted!r} is neither a map (2D) nor a profile (1D)")
-        return wanted, tuple(name for name in usable if name != wanted)
+            raise ValueError(f"{what} {wanted!r} is neither a map (2D) nor a profile (1D)")
+        return wanted, ()
+    usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
     found = [name for name in usable if arrays[name].ndim == 2] or usable
     if len(found) != 1:
-        raise ValueError(
-            f"{path}: needs one two-dimensional {what}, or one profile, found {sorted(found)}; "
-            "name one as variable"
-        )
+        said = f"needs one two-dimensional {what}, or one profile, found {sorted(found)}"
+        raise ValueError(f"{said}; name one as variable")
     return found[0], tuple(name for name in usable if name != found[0])
 
 
-def _find_step(coordinate, path: Path) -> float | None:
+def _find_step(coordinate) -> float | None:
     """Step of an evenly spaced coordinate [m]; None if its unit is no length."""
     steps = np.diff(coordinate.values.astype(float))
     if len(steps) == 0 or np.ptp(steps) > 1e-3 * abs(steps.mean()):
-        name = coordinate.name
-        raise ValueError(f"{path}: coordinate {name!r} is not evenly spaced; resample the data")
+        raise ValueError(f"coordinate {coordinate.name!r} is not evenly spaced; resample the data")
     try:
         return abs(float(steps.mean())) * si(f"1 {coordinate.units}", "m")
     except ValueError:
@@ -225,15 +224,15 @@ def _read_numpy(path: Path, variable: str | None) -> Raw:
     except (OSError, ValueError) as error:
         # numpy takes what it does not know for a pickle, and advises to load it all the same.
         reason = "it holds no plain array" if "pickle" in str(error) else error
-        raise ValueError(f"{path}: not a readable numpy file ({reason})") from error
+        raise ValueError(f"not a readable numpy file ({reason})") from error
     if isinstance(loaded, np.ndarray):
         if loaded.ndim not in (1, 2):
-            found = f"got shape {loaded.shape}"
-            raise ValueError(f"{path}: needs a two-dimensional array or a profile, {found}")
+            shape = loaded.shape
+            raise ValueError(f"needs a two-dimensional array or a profile, got shape {shape}")
         return Raw(np.array(loaded.T, dtype=float), str(path))
     with loaded:
         arrays = dict(loaded)
-    name, others = _choose(arrays, arrays, variable, path, "key")
+    name, others = _choose(arrays, arrays, variable, "key")
     return Raw(np.array(arrays[name].T, dtype=float), f"{path}: {name}", others=others)
 
 
@@ -242,26 +241,24 @@ def _read_text(path: Path) -> Raw:
     header, rows = _split_header(path.read_bytes())
     if not rows:
         raise ValueError(
-            f"{path}: no line of numbers found; expected a matrix of heights, or give format: "
+            "no line of numbers found; expected a matrix of heights, or give format: "
             "instrument if it is an instrument's file"
         )
     for line in header:
+        said = f"its header says {line!r}, which"
         if _OF_INSTRUMENTS.search(line):
-            raise ValueError(
-                f"{path}: its header says {line!r}, which the text reader does not take; "
-                "give format: instrument"
-            )
+            raise ValueError(f"{said} the text reader does not take; give format: instrument")
         if _FACTOR.search(line) and re.search(r"\d", line) and not _OF_NO_HEIGHTS.search(line):
             raise ValueError(
-                f"{path}: its header says {line!r}, which is not read; apply it to the "
-                "heights and remove the line, or try format: instrument"
+                f"{said} is not read; apply it to the heights and remove the line, or try format: "
+                "instrument"
             )
     fields = {match[1].lower(): match[2] for match in map(_FIELD.match, header) if match}
-    heights, places, place_unit = _read_rows(path, rows).T, None, fields.get("lateral unit")
+    heights, places, place_unit = _read_rows(rows).T, None, fields.get("lateral unit")
     columns, count = heights.shape
     shapes = [heights.shape]  # (columns, rows) that the header may mean
     if columns == 3 and count >= _FEWEST_POINTS:
-        heights, places = _map_points(path, heights)
+        heights, places = _map_points(heights)
         shapes.insert(0, heights.shape)
     elif columns == 1 or (columns == 2 and count > 2):
         # Headers of profiles count points along x, or rows of the table.
@@ -270,13 +267,13 @@ def _read_text(path: Path) -> Raw:
     elif "width" in fields:
         size = [fields[name] for name in ("width", "height") if name in fields]
         size = size if len(size) == 2 else size[0]  # without a height the pixels are square
-        size = sides(size, heights.shape, f"{path}: Width, Height in the header")
+        size = sides(size, heights.shape, "Width, Height in the header")
         places, place_unit = np.divide(size, heights.shape), "m"
     for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
         for line, match in ((line, pattern.search(line)) for line in header):
             if match and int(match[1]) not in (shape[axis] for shape in shapes):
                 raise ValueError(
-                    f"{path}: {shapes[0][axis]} {name}, but its header says {line!r}; is the file "
+                    f"{shapes[0][axis]} {name}, but its header says {line!r}; is the file "
                     "complete, and do decimal commas or separators split its numbers?"
                 )
     return Raw(heights, str(path), fields.get("value unit"), (), places, place_unit)
@@ -299,7 +296,7 @@ def _split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
     return header, rows
 
 
-def _read_rows(path: Path, rows: list[tuple[int, str]]) -> NDArray:
+def _read_rows(rows: list[tuple[int, str]]) -> NDArray:
     first = rows[0][1]
     separator = next((mark for mark in "\t;" if mark in first), None)  # None: any run of blanks
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
@@ -314,13 +311,11 @@ def _read_rows(path: Path, rows: list[tuple[int, str]]) -> NDArray:
             row = [np.nan if f.strip().lower() in _MISSING else float(f) for f in fields]
         except ValueError as error:
             raise ValueError(
-                f"{path}, line {number}: {error}; mark missing points by NaN and comment lines by #"
+                f"line {number}: {error}; mark missing points by NaN and comment lines by #"
             ) from None
         if values and len(row) != len(values[0]):
-            raise ValueError(
-                f"{path}, line {number}: {len(row)} numbers where the first row has "
-                f"{len(values[0])}; every row needs as many"
-            )
+            said = f"line {number}: {len(row)} numbers where the first row has {len(values[0])}"
+            raise ValueError(f"{said}; every row needs as many")
         values.append(row)
     matrix = np.array(values)
     # Do columns by turns hold whole numbers and their decimals: close to the next but one?
@@ -330,35 +325,35 @@ def _read_rows(path: Path, rows: list[tuple[int, str]]) -> NDArray:
         whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
         if beside > _ALTERNATE * whole:
             raise ValueError(
-                f"{path}: {matrix.shape[1]} columns without a decimal point that alternate: "
+                f"{matrix.shape[1]} columns without a decimal point that alternate: "
                 "decimal commas, which its separating commas hide; separate by tabs or "
                 "semicolons, or write decimal points"
             )
     return matrix
 
 
-def _map_points(path: Path, points: NDArray) -> tuple[NDArray, NDArray]:
+def _map_points(points: NDArray) -> tuple[NDArray, NDArray]:
     """Heights (nx, ny) of points (3, n) in any order, NaN where there is none, and grid steps."""
     points = points[:, np.isfinite(points[:2]).all(axis=0)]
-    (i, dx), (j, dy) = (_index(path, points[axis], "xy"[axis]) for axis in (0, 1))
+    (i, dx), (j, dy) = (_index(points[axis], "xy"[axis]) for axis in (0, 1))
     heights = np.full((int(i.max()) + 1, int(j.max()) + 1), np.nan)
     if points.shape[1] < (1 - _MOST_EMPTY) * heights.size:
         raise ValueError(
-            f"{path}: three columns, which as x y z leave most of a grid of {heights.shape[0]} x "
+            f"three columns, which as x y z leave most of a grid of {heights.shape[0]} x "
             f"{heights.shape[1]} points empty; resample them on a grid, or export a matrix"
         )
     if len(np.unique(i * heights.shape[1] + j)) < points.shape[1]:
-        raise ValueError(f"{path}: as x y z it has two points at one place; remove one")
+        raise ValueError("as x y z it has two points at one place; remove one")
     heights[i, j] = points[2]
     return heights, np.array([dx, dy])
 
 
-def _index(path: Path, positions: NDArray, name: str) -> tuple[NDArray, float]:
+def _index(positions: NDArray, name: str) -> tuple[NDArray, float]:
     """Index of every position on an even grid, and its step."""
     levels = np.unique(positions)
     gaps = np.diff(levels)
     if gaps.size == 0:
-        raise ValueError(f"{path}: three columns, which as x y z all have one {name}")
+        raise ValueError(f"three columns, which as x y z all have one {name}")
     gaps = gaps[gaps > _SLACK * gaps.max()]  # positions that differ by rounding only
     # Gaps of rounded positions differ: one step is the mean of the short ones, and then what
     # fits the whole side.
@@ -367,7 +362,7 @@ def _index(path: Path, positions: NDArray, name: str) -> tuple[NDArray, float]:
     index = (positions - levels[0]) / step
     if np.abs(index - np.rint(index)).max() > 10 * _SLACK:
         raise ValueError(
-            f"{path}: three columns, which as x y z are on no even grid along {name}; resample "
+            f"three columns, which as x y z are on no even grid along {name}; resample "
             "them on a grid, or export a matrix"
         )
     return np.rint(index).astype(int), step
@@ -380,7 +375,7 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
         from SurfaceTopography import IO
     if fmt is not None and fmt not in IO.lookup_reader_by_format:
         known = ", ".join(sorted(IO.lookup_reader_by_format))
-        raise ValueError(f"{path}: SurfaceTopography has no format {fmt!r}; it knows {known}")
+        raise ValueError(f"SurfaceTopography has no format {fmt!r}; it knows {known}")
     reader = _call(path, lambda: IO.open_topography(str(path), format=fmt))
     channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
     usable = [c for c in channels if holds_heights(c)]
@@ -390,12 +385,12 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     if channel is not None:
         named = [c for i, c in enumerate(channels) if channel in (i, c.channel_id, c.name)]
         if not named:
-            there = heights_in or "no channel of heights"
-            raise ValueError(f"{path}: no channel {channel!r}; the file has {there}")
+            has = heights_in or "no channel of heights"
+            raise ValueError(f"no channel {channel!r}; the file has {has}")
         info = named[0]
     source = f"{path}: {info.name}"
     if not holds_heights(info):
-        raise ValueError(f"{source} holds no heights; channels that do: {heights_in or 'none'}")
+        raise ValueError(f"{info.name} holds no heights; channels that do: {heights_in or 'none'}")
     # If the file does not hold the size, the caller must give it; until then it is in pixels.
     known = info.physical_sizes is not None
     size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
@@ -406,10 +401,10 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     if known and unit and heights.ndim == 1:
         places, place_unit = np.asarray(data.positions(), dtype=float), unit
     elif known and unit:
-        scale = metres(f"1 {unit}", f"{source}: unit of length in the file")
+        scale = metres(f"1 {unit}", f"{info.name}: unit of length in the file")
         places = np.array(data.physical_sizes, dtype=float) * scale / heights.shape
-    others = tuple(str(c.channel_id) for c in usable if c.index != info.index)
-    return Raw(heights, source, unit, others, places, place_unit)
+    others = [str(c.channel_id) for c in usable if channel is None and c.index != info.index]
+    return Raw(heights, source, unit, tuple(others), places, place_unit)
 
 
 def holds_heights(channel) -> bool:
@@ -427,33 +422,28 @@ def _call(path: Path, call: Callable):
         try:
             return call()
         except Exception as error:  # readers of broken files raise nearly anything
-            raise ValueError(f"{path}: {_find_damage(path, error)}") from error
+            raise ValueError(_find_damage(path, error)) from error
 
 
 def _find_damage(path: Path, error: Exception) -> str:
     """What is wrong with a file that SurfaceTopography cannot read, and what helps."""
     from SurfaceTopography import IO
 
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:
-            if "xl/workbook.xml" in archive.namelist():
-                return _EXCEL
-        if isinstance(error, IO.CannotDetectFileFormat):
-            return "the file is a zip archive: unpack it, and give the file of heights"
-    # Readers that know the first bytes may find that others are missing. Any file may be an hgt.
-    for reader in IO.readers if isinstance(error, IO.CannotDetectFileFormat) else ():
-        try:
-            reader(str(path)) if reader.format() != "hgt" else None
-        except IO.CorruptFile as damage:
-            error = damage
-            break
-        except Exception:  # of other formats
-            continue
-    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())
-    reason = f"{type(error).__name__}: {words[:_LONGEST]}".removesuffix(": ")
+    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())[:_LONGEST]
     if isinstance(error, IO.CorruptFile):
-        return f"the file is incomplete or damaged ({words[:_LONGEST]}): copy it again"
+        return f"the file is incomplete or damaged ({words}): copy it again"
+    reason = f"{type(error).__name__}: {words}".removesuffix(": ")
     if isinstance(error, IO.CannotDetectFileFormat):
+        if zipfile.is_zipfile(path):
+            return "the file is a zip archive: unpack it, and give the file of heights"
+        # Readers that know the first bytes may find that others are missing; any may be an hgt.
+        for reader in (reader for reader in IO.readers if reader.format() != "hgt"):
+            try:
+                reader(str(path))
+            except IO.CorruptFile as damage:
+                return _find_damage(path, damage)
+            except Exception:  # of other formats
+                continue
         reason = "no reader takes it; give format to see what its reader says"
     return (
         f"SurfaceTopography cannot read it ({reason}); is the file complete? Else export it as a "

@@ -74,11 +74,7 @@ class SelfAffineFit:
 
 
 def fit_rings(
-    rings: RadialPSD,
-    q_min: float,
-    q_max: float,
-    rolloff: bool | None = None,
-    demand: bool = True,
+    rings: RadialPSD, q_min: float, q_max: float, rolloff: bool | None = None, demand: bool = True
 ) -> SelfAffineFit:
     """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` is None.
 

@@ -195,7 +195,7 @@ def draw(
             f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
         )
     rng = np.random.default_rng(seed)
-    rings, top = spectrum.rings, spectrum.cutoff.q * (1 + 1e-9)
+    fit, rings, cutoff = spectrum.fit, spectrum.rings, spectrum.cutoff.q
     # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
     # of that mean and variance is positive and lacks the far tail of the posterior of a single
     # mode: the variance of the measured heights is known.
@@ -209,12 +209,10 @@ def draw(
     normal = rng.normal(size=(count, len(variance)))
     levels = rings.psd * np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
     # ln C at the cutoff, H and, with a plateau, ln q_rolloff.
-    fit = spectrum.fit
     centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
     law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
-    law[:, 0] -= 2 * (law[:, 1] + 1) * np.log(spectrum.cutoff.q)
-    cutoff = spectrum.cutoff.q
-    level, hurst = np.exp(law[:, 0]), law[:, 1]
+    hurst = law[:, 1]
+    level = np.exp(law[:, 0] - 2 * (hurst + 1) * np.log(cutoff))
 
     def integrate_law(end, order):
         log_ratio = np.log(end / cutoff)
@@ -223,7 +221,7 @@ def draw(
     moments = {}
     for name, order in ORDERS.items():
         # Beyond the cutoff slope, curvature and energy would be the instrument's.
-        inside = rings.q <= (np.inf if order == 0 and extend_to is None else top)
+        inside = rings.q <= (np.inf if order == 0 and extend_to is None else cutoff * (1 + 1e-9))
         moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
         if extend_to is not None:
             moment = moment + integrate_law(extend_to, order)

@@ -35,7 +35,7 @@ class _Heights:
     spikes: int = 0  #: number of points far off their neighbours, not used
     as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
-    others: tuple[str, ...] = ()  #: channels or variables of the file that could be taken as well
+    others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
 
     @property
     def h_rms(self) -> float:

@@ -170,10 +170,11 @@ class Roughness:
         """Elastic energy of full contact over rms height and rms slope, see `share`.
 
         A layer that is stiff to long waves raises the pressures of full contact as it does energy.
+        Of a half-space it is at most 1/4, since the mean of q over a spectrum is at most its rms.
         """
         bound = np.nan if self.half_space_energy is None else np.asarray(self.half_space_energy)
         energy = np.where(np.isfinite(bound), bound, self.elastic_energy)
-        return energy / (np.asarray(self.h_rms) * self.rms_slope)
+        return np.minimum(energy / (np.asarray(self.h_rms) * self.rms_slope), 0.25)
 
     def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Share of the nominal area that is in contact at zero load."""

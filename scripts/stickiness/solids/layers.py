@@ -152,9 +152,14 @@ class Layer(_Compliant):
         """Strain that conforming demands of the layer, order of magnitude.
 
         The rms height over the thickness d. Where the longest waves, of wave number `q0`, are
-        longer than d, material has to flow along the layer, and shears by 1/(q0 d) more.
+        longer than d and the layer sticks to its base, material that cannot be compressed has to
+        flow along it: the flow between parallel plates shears it by 3/(q0 d) more. A film is taken
+        for rigid, although its bending relieves the layer of long waves.
         """
-        return plain(np.divide(h_rms, self.thickness * np.minimum(1.0, q0 * self.thickness)))
+        k = np.asarray(q0) * self.thickness
+        flow = k**2 * 4 / 3 * (1 - self.poisson) ** 2  # over compression, in incompressible layers
+        flow = 0.0 if self.backing == "slip" else flow / (flow + 1 - 2 * self.poisson)
+        return plain(np.divide(h_rms, self.thickness) * np.maximum(1.0, 3 * flow / k))
 
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""

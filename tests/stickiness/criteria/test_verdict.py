@@ -229,7 +229,7 @@ def test_a_layer_that_cannot_take_the_heights_may_keep_nothing():
         assert low == 0 < getattr(thin, name) <= high
         assert getattr(thick, f"{name}_limits")[0] > 0
     assert (thin.word, thick.word) == ("depends", "sticks fully")
-    assert "strains the layer by about 2" in str(thin)  # 2/(4 * 0.24)
+    assert "strains the layer by about 6.2" in str(thin)  # 3 * 2/(4 * 0.24)
     assert "strains" not in str(thick)
     # Moduli are Young's, as it was given.
     threshold = 0.75e-6 * thick.modulus_threshold

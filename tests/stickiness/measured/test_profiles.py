@@ -79,10 +79,3 @@ def test_errors_of_the_exponent_cover_it(lines):
     # its standard errors of 1/3.
     assert 0.4 < np.std(z) < 2
     assert abs(np.mean(z)) < 1
-
-
-def test_a_profile_of_noise_is_refused():
-    noise = np.random.default_rng(3).normal(size=4000)
-    line = profile_spectrum(noise, 1.0)
-    with pytest.raises(ValueError, match=r"goes as q\^.* falls too slowly for a surface"):
-        isotropic(radial_average(line, FINE), 4 * line.q[0], line.q_nyquist)

@@ -12,13 +12,6 @@ CUTOFF, FILTER, STEP = 0.8e-3, 2.5e-6, 1e-6
 POINTS = int(7 * CUTOFF / STEP)
 
 
-def profiles(spectrum, count, seed=0):
-    """Ra, Rq, Rz and RSm of several profiles across a surface (count, 4)."""
-    rng = np.random.default_rng(seed)
-    lines = [profile_parameters.synthesise(spectrum, POINTS, STEP, rng) for _ in range(count)]
-    return np.array([profile_parameters.evaluate(h, STEP, CUTOFF, FILTER) for h in lines])
-
-
 def test_parameters_of_a_sine_are_its_closed_forms():
     heights = 1e-6 * np.sin(2 * np.pi * np.arange(POINTS) * STEP / 80e-6)
     ra, rq, rz, rsm = profile_parameters.evaluate(heights, STEP, CUTOFF, FILTER)
@@ -44,9 +37,11 @@ def test_energy_of_a_surface_lies_between_the_ends_of_its_drawing(hurst, rolloff
     for seed, shortest in enumerate((1e-9, 1e-6)):
         band = {"q0": 2 * np.pi / (5 * CUTOFF), "q1": 2 * np.pi / shortest}
         s = SelfAffine(hurst=hurst, q_rolloff=2 * np.pi / (rolloff * CUTOFF), h_rms=1e-6, **band)
-        measured = profiles(s, 10, seed)
+        rng = np.random.default_rng(seed)
+        lines = [profile_parameters.synthesise(s, POINTS, STEP, rng) for _ in range(10)]
+        measured = [profile_parameters.evaluate(h, STEP, CUTOFF, FILTER) for h in lines]
         # One profile of five sampling lengths scatters; a drawing means their mean.
-        ra, rq, rz, rsm = measured.mean(axis=0)
+        ra, rq, rz, rsm = np.mean(measured, axis=0)
         assert ra * texture.RQ_OVER_RA == pytest.approx(rq, rel=0.05)
         assert texture.RZ_OVER_RQ[0] < rz / rq < texture.RZ_OVER_RQ[1]
         drawing = {"kind": "surface_texture", "Ra": f"{ra} m", "lambda_c": f"{CUTOFF} m"}

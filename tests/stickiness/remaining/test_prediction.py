@@ -6,6 +6,7 @@ import pytest
 from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.prediction import HYSTERESIS, UNLIKE
+from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine, combine
 from stickiness.surface import realised_spectrum, synthesise
 
@@ -24,6 +25,23 @@ def test_threshold_is_the_inverse_of_the_share(share, sign, layer):
     ranges = np.array([1e-4, 0.1, 0.5, 1.0])
     length = surface.threshold(ranges, share, sign)
     assert surface.share(length, ranges, sign) == pytest.approx(share, rel=1e-6)
+
+
+@pytest.mark.parametrize("thickness", [10e-6, 20e-6])
+def test_a_stiff_film_is_a_rigid_base(thickness):
+    wall = SelfAffine(hurst=0.8, q0=1e4, q1=1e8, h_rms=1e-6)
+    layers = Layer(thickness, 0.5), Layer(thickness, 0.5, Film(1e15, 0.4, 25e-6))
+    for length in (1e-7, 1e-6):
+        rigid, film = (predict(wall, length, 1e-9, solid=layer) for layer in layers)
+        assert film.approach == pytest.approx(rigid.approach, abs=2e-3)
+
+
+def test_waves_that_take_energy_alone_leave_no_more():
+    """Those beyond the resolution of an instrument are part of the energy, not of the slope."""
+    energies = np.geomspace(0.1, 10.0, 31)
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energies, rms_slope=0.4)
+    for length, range_ in ((3.0, 1e-3), (0.3, 0.03), (0.03, 0.3)):
+        assert (np.diff(surface.share(length, range_)) <= 1e-12).all()
 
 
 def test_laws_are_told_apart_by_element():

@@ -26,15 +26,25 @@ def matrix(shear, nu):
 
 
 def boundary_value_problem(k, poisson, backing):
-    """S of a layer: shear-free surface under a unit pressure wave, conditions at its far side."""
+    """S of a layer under a unit pressure wave, and its largest strain over its displacement.
+
+    The surface is free of shear; the conditions are at the far side.
+    """
     with mpmath.workdps(150):
         nu, eye = mpmath.mpf(poisson), mpmath.eye(4)
-        through = mpmath.expm(matrix(mpmath.mpf(1), nu) * mpmath.mpf(k))
+        growth = matrix(mpmath.mpf(1), nu)
+        through = mpmath.expm(growth * mpmath.mpf(k))
         rows = {"bonded": (0, 1), "slip": (1, 2)}[backing]
         conditions = mpmath.matrix([[eye[row, j] for j in range(4)] for row in rows])
         conditions = conditions * through
         unknown = mpmath.lu_solve(conditions[:, :2], conditions[:, 3])  # zz = -1
-        return float(unknown[1] / (1 - nu))  # w E*/2, E* = 2/(1 - nu)
+        state, step = mpmath.matrix([*unknown, 0, -1]), mpmath.expm(growth * mpmath.mpf(k) / 20)
+        strains = []
+        for _ in range(21):  # of normal and of shear strain, times the thickness over k
+            strains += [abs((growth * state)[1]), abs(state[2])]
+            state = step * state
+        strain = max(strains) / abs(unknown[1])
+        return float(unknown[1] / (1 - nu)), float(strain)  # w E*/2, E* = 2/(1 - nu)
 
 
 BACKINGS = pytest.mark.parametrize("backing", ["bonded", "slip"])
@@ -44,7 +54,7 @@ BACKINGS = pytest.mark.parametrize("backing", ["bonded", "slip"])
 @BACKINGS
 @pytest.mark.parametrize("poisson", POISSON)
 def test_factor_solves_the_boundary_value_problem(poisson, backing):
-    expected = [boundary_value_problem(k, poisson, backing) for k in WAVES]
+    expected = [boundary_value_problem(k, poisson, backing)[0] for k in WAVES]
     # a thickness of two: k = q d
     factor = Layer(2.0, poisson, backing).factor(np.array(WAVES) / 2)
     np.testing.assert_allclose(factor, expected, rtol=1e-12)
@@ -91,6 +101,14 @@ def test_mean_compression_is_that_of_uniaxial_strain(poisson):
     limit = layer.compliance(1e-7)
     assert layer.mean_compliance == pytest.approx(limit, rel=1e-9, abs=1e-13)
     assert Layer(0.7, poisson, "slip").mean_compliance == layer.mean_compliance
+
+
+@BACKINGS
+@pytest.mark.parametrize("poisson", POISSON)
+def test_strain_is_the_largest_of_the_boundary_value_problem(poisson, backing):
+    for k, within in ((0.01, 1.01), (0.1, 1.2), (2.0, 1.8)):
+        strain = k * boundary_value_problem(k, poisson, backing)[1]
+        assert 1 / within < Layer(1.0, poisson, backing).strain(1.0, k) / strain < within
 
 
 @pytest.mark.parametrize("poisson", [0.3, 0.5])
