@@ -4,14 +4,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from common.formatting import amount, number
+from common.formatting import number, unit_for
 from stickiness.plausibility import LIMITS
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL
 from stickiness.units import si
 
-LEAST_READABLE, MOST_READABLE = 1e-3, 1e4  # numbers in the unit that a modulus was given in
+LEAST_READABLE, MOST_READABLE = 0.01, 1e3  # numbers in the unit that a modulus was given in
 RATE_KEYS = ("youngs_modulus_table", "youngs_modulus_prony")
 
 
@@ -100,43 +100,19 @@ def read_modulus(entry):
     return Constant(factor * si(entry["youngs_modulus"], "Pa"))
 
 
-def show_modulus(modulus, entry, digits=2):
-    """E* [Pa] as the modulus and the unit that the configuration gives, e.g. "E = 0.2 MPa"."""
-    if "plane_strain_modulus" in entry:
-        name, given = "E*", entry["plane_strain_modulus"]
-    else:
-        name, modulus = "E", modulus * (1 - entry["poisson_ratio"] ** 2)
-        table, series = (entry.get(key) for key in RATE_KEYS)
-        given = table[0][1] if table else series and series["equilibrium"]
-        given = given or entry["youngs_modulus"]
+def show_modulus(modulus, entry, digits=2, beside=()):
+    """E* [Pa] as the modulus that the configuration gives, e.g. "E = 0.2 MPa".
+
+    In the unit given there, or in one that suits it and all E* that are shown `beside` it.
+    """
+    name, factor, given = "E*", 1.0, entry.get("plane_strain_modulus")
+    if given is None:
+        name, factor = "E", 1 - entry["poisson_ratio"] ** 2
+        (_, given), *_ = entry.get("youngs_modulus_table", [("", entry.get("youngs_modulus"))])
+        given = given or entry["youngs_modulus_prony"]["equilibrium"]
     unit = given.lstrip("0123456789.+-eE ")
-    value = modulus / si(f"1 {unit}", "Pa")
-    readable = LEAST_READABLE <= value < MOST_READABLE
-    text = f"{number(value, digits)} {unit}" if readable else amount(modulus, "Pa", digits)
-    return f"{name} = {text}"
-
-
-def describe_modulus(entry, labels):
-    """Modulus as configured, with the layer and, by the `labels` of surfaces, the roughness."""
-    if "plane_strain_modulus" in entry:
-        text = f"E* = {entry['plane_strain_modulus']}"
-    elif "youngs_modulus_table" in entry:
-        (first, low), *_, (last, high) = entry["youngs_modulus_table"]
-        text = f"E′ = {low} at {first} … {high} at {last}"
-    elif "youngs_modulus_prony" in entry:
-        series = entry["youngs_modulus_prony"]
-        plural = "s" if len(series["terms"]) > 1 else ""
-        text = f"E = {series['equilibrium']} at rest, {len(series['terms'])} Prony term{plural}"
-    else:
-        text = f"E = {entry['youngs_modulus']}"
-    if "plane_strain_modulus" not in entry:
-        text += f", ν = {entry['poisson_ratio']}"
-    if "thickness" in entry:
-        backing = entry.get("backing", "bonded")
-        if isinstance(backing, str):
-            base = {"bonded": " on", "slip": ", free to slip on"}[backing] + " a rigid base"
-        else:
-            base = f" on a film of {backing['thickness']} and {backing['youngs_modulus']}"
-        text += f", {entry['thickness']} thick{base}"
-    text = text.replace(" um", " µm")
-    return f"{text}, rough as {labels[entry['surface']]}" if "surface" in entry else text
+    shown = factor * np.array([modulus, *beside])
+    per_pascal = 1 / si(f"1 {unit}", "Pa")
+    if not LEAST_READABLE <= min(shown * per_pascal) <= max(shown * per_pascal) <= MOST_READABLE:
+        per_pascal, unit = unit_for(max(shown), "Pa", 2)
+    return f"{name} = {number(shown[0] * per_pascal, digits)} {unit}"

@@ -16,7 +16,7 @@ def choose_mine(pairs):
     """Rows of the user's materials on the user's surfaces, or on all where one kind is missing."""
     of_materials = [pair for pair in pairs if pair["key"] not in MATERIALS]
     of_surfaces = [pair for pair in pairs if pair["name"] not in SURFACES]
-    both = [pair for pair in of_materials if pair in of_surfaces]
+    both = [pair for pair in of_materials if pair["name"] not in SURFACES]
     return both or of_materials or of_surfaces
 
 

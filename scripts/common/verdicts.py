@@ -46,11 +46,17 @@ def count_pairs(dataset):
 
 def describe_share(pair):
     """Share of the work of adhesion that remains, or a multiple, with the limits that decide."""
-    low, high, value = map(round_share, (*find_limits(pair), find_value(pair)))
-    show = percent if high <= 1 else lambda share: number(share, 2)
-    limits = show_shares(low, high, " to ", show)
-    text = show(value) if limits == show(value) else f"{show(value)} ({limits})"
-    return text if high <= 1 else f"{text} times"
+    if find_limits(pair)[1] <= 1:
+        return describe_quantity(pair, "remaining")
+    return f"{describe_quantity(pair, 'remaining', lambda share: number(share, 2))} times"
+
+
+def describe_quantity(pair, name, show=None):
+    """Value of a quantity with the limits of all that is unknown, or one text where they agree."""
+    found = (*find_limits(pair, name), find_value(pair, name))
+    low, high, value = ((show or SHOWN[name])(float(x)) for x in found)
+    limits = join(low, high, " to ")
+    return value if limits == value or high.startswith("<") else f"{value} ({limits})"
 
 
 def describe_moment(judged):
@@ -63,15 +69,14 @@ def describe_moment(judged):
     return f"after {duration(judged.dwell)} of dwell, broken at {rate}"
 
 
-def round_share(share):
-    """The share, or 0 where it is too small to be shown."""
-    return float(share) if float(share) >= LEAST_SHOWN else 0.0
+def show_share(share):
+    """A share as a percentage, 0 where it is too small to be shown."""
+    return percent(share if share >= LEAST_SHOWN else 0.0)
 
 
-def show_shares(low, high, between=" … ", show=percent):
-    """Two shares as percentages, or one where they agree."""
-    texts = show(low), show(high)
-    return texts[1] if texts[0] == texts[1] else f"{texts[0].removesuffix(' %')}{between}{texts[1]}"
+def join(low, high, between=" … "):
+    """Two texts, or one where they agree; with one percent sign."""
+    return high if low == high else f"{low.removesuffix(' %')}{between}{high}"
 
 
 def describe_pull_off(pair):
@@ -82,7 +87,7 @@ def describe_pull_off(pair):
     low = float(find_limits(pair, "pull_off")[0])
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
         return f"at least {show_stress(low, KPA)}" if low >= LEAST_STRESS else "not known"
-    return describe_stress(pair, "pull_off", KPA)
+    return describe_quantity(pair, "pull_off")
 
 
 def show_probability(pair):
@@ -92,30 +97,11 @@ def show_probability(pair):
     """
     low, share = float(pair.probability_low), float(pair.probability)
     if low < share:
-        return show_shares(low, share, " to ")
+        return join(percent(low), percent(share), " to ")
     if share not in (0, 1):
         return percent(share)
     error = float(pair.probability_total_error)
     return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
-
-
-def describe_stress(pair, name, unit):
-    """Value in a unit [Pa], with the limits of all that is unknown."""
-    low, high = map(float, find_limits(pair, name))
-    limits = show_stresses(low, high, unit, " to ")
-    value = show_stress(float(find_value(pair, name)), unit)
-    return value if high < LEAST_STRESS or limits == value else f"{value} ({limits})"
-
-
-def show_stresses(low, high, unit, between=" … "):
-    """Two stresses [Pa] in a unit [Pa], or one where they agree; outside of what matters, bounds.
-
-    Examples
-    --------
-    >>> show_stresses(2e5, 3.14e6, MPA), show_stresses(0.5, 2.0, KPA, " to ")
-    ('0.2 … 3.1', '< 0.001 to 0.002')
-    """
-    return between.join(dict.fromkeys(show_stress(x, unit) for x in (low, high)))
 
 
 def show_stress(value, unit):
@@ -125,3 +111,10 @@ def show_stress(value, unit):
     if value > MOST_STRESS:
         return f"> {number(MOST_STRESS / unit)}"
     return number(value / unit, 2)
+
+
+SHOWN = {  # how quantities are shown
+    "remaining": show_share,
+    "pull_off": lambda stress: show_stress(stress, KPA),
+    "modulus_threshold": lambda stress: show_stress(stress, MPA),
+}

@@ -5,10 +5,9 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
-from common.formatting import NOTHING, interval, percent
+from common.formatting import percent
 from common.job import start
 from common.materials import find_doubts
-from common.provided import choose_mine
 from common.templates import write_page
 from common.verdicts import KPA, MPA, SHARES, find_limits, find_value
 from criteria.verdicts import judge_materials, read_surfaces
@@ -39,7 +38,7 @@ def main(job):
     shown = describe_page(dataset, materials, labels)
     write_page(job.input.template, output.table, **shown)
     write_page(job.input.page, output.page, files=dict(output.items()), **shown)
-    frame = tabulate_pairs(dataset, shown["pairs"])
+    frame = tabulate_pairs(shown["pairs"])
     with datasets.whole_file(output.csv) as path:
         frame.to_csv(path, index=False, float_format="%.6g")
     with datasets.whole_file(output.workbook) as path, pd.ExcelWriter(path) as writer:
@@ -53,51 +52,35 @@ def describe_page(dataset, materials, labels):
     """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
     rows = arrange_pairs(dataset, materials, labels)
-    rows.sort(key=lambda row: row["sort"]["energy_ratio"], reverse=True)
-    mine = choose_mine(rows)
-    rows.sort(key=lambda row: row not in mine)
+    rows.sort(key=lambda row: (not row["mine"], -row["sort"]["energy_ratio"]))
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
         "doubts": [doubt for entry in materials.values() for doubt in find_doubts(entry)],
         "shares": SHARES,
-        "pairs": [row | {"mine": row in mine} | compare(select(dataset, row)) for row in rows],
+        "pairs": [row | {"keeps": list_kept(row["pair"])} for row in rows],
+        "criteria": CRITERIA,
         "others": [criterion.label for criterion in others],
         "thresholds": compare_thresholds(dataset, others, labels),
     }
 
 
-def select(dataset, row):
-    """The pair that a row describes."""
-    return dataset.sel(material=row["key"], surface=row["name"])
-
-
-def compare(pair):
-    """What a pair keeps, and what other criteria say of it, as texts."""
-    differs = [CRITERIA[str(c)].label for c in pair.criterion.values[pair.disagrees == 1]]
-    dmt = pair.margin.sel(criterion="violano") ** (5 / 3)  # h_rms limit over h_rms, as a ratio
-    by = {"value": (find_value(pair), find_value(pair)), "limits": find_limits(pair)}
+def list_kept(pair):
+    """Whether a pair keeps shares, by its value and by its limits; empty if it is not judged."""
+    by = {"value": 2 * [find_value(pair)], "limits": find_limits(pair)}
+    words = ("no", "depends", "yes") if find_value(pair).notnull() else ("",) * 3
     return {
-        "keeps": {
-            f"keeps {percent(share)} by {kind}": says_keeps(*range_, share)
-            for share, (kind, range_) in product(SHARES, by.items())
-        },
-        "dmt": show_range(dmt),
-        "differs": ", ".join(differs) or ("none" if dmt.notnull().all() else NOTHING),
+        f"keeps {percent(share)} by {kind}": words[sum(int(x >= share) for x in found)]
+        for share, (kind, found) in product(SHARES, by.items())
     }
 
 
-def says_keeps(low, high, share):
-    """Whether at least a share remains between two values, empty where they are not known."""
-    return "yes" if low >= share else "no" if high < share else "depends" if high >= share else ""
-
-
-def tabulate_pairs(dataset, rows):
+def tabulate_pairs(rows):
     """A row of numbers for every row of texts, with units in the heads; NaN where not known."""
     found = []
     for row in rows:
-        pair = select(dataset, row)
+        pair = row["pair"]
         cells = {"material": row["material"], "material key": row["key"]}
         cells |= {"surface": row["surface"], "surface key": row["name"]}
         cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
@@ -114,20 +97,16 @@ def tabulate_pairs(dataset, rows):
 
 
 def compare_thresholds(dataset, others, labels):
-    """Rows of thresholds by every criterion, one a surface, over all materials and both ends."""
+    """Label of every surface, and by criterion its thresholds over all materials and both ends."""
     by = dataset.threshold_by_criterion
     ours = by.sel(criterion=REMAINING)
     length = dataset.work_of_adhesion / ours * 1e9
     columns = [length, *(by.sel(criterion=criterion.name) / ours for criterion in others)]
     return [
-        (labels[surface], *(show_range(column.sel(surface=surface)) for column in columns))
+        (labels[surface], [column.sel(surface=surface) for column in columns])
         for surface in by.surface.values
         if ours.sel(surface=surface).notnull().any()  # else it is not judged
     ]
-
-
-def show_range(values):
-    return interval(float(values.min()), float(values.max()), 2)
 
 
 if __name__ == "__main__":

@@ -79,7 +79,7 @@ def plot_shares(label, **settings):
     return plot
 
 
-def draw_pairs(verdicts, pairs):
+def draw_pairs(pairs):
     """Remaining share of the `pairs` of `table_rows.arrange_pairs`, with limits, by w/U_full."""
     ranges = {"x_range": (LEAST_RATIO / 1.5, MOST_RATIO * 1.5), "y_range": (-3, 103)}
     plot = plot_shares("work of adhesion over energy of full contact", height=460, **ranges)
@@ -89,7 +89,7 @@ def draw_pairs(verdicts, pairs):
     line = plot.line(ratios, 100 * rough.share(ratios, SHORT_RANGE), **model)
     items = [("the model, short range", [line])]
     for code, (marker, colour) in enumerate(LOOKS):
-        ends = [end for pair in pairs if pair["code"] == code for end in locate(verdicts, pair)]
+        ends = [end for pair in pairs if pair["code"] == code for end in locate(pair)]
         if not ends:
             continue
         points = pd.DataFrame(ends)
@@ -106,9 +106,9 @@ def draw_pairs(verdicts, pairs):
     return plot
 
 
-def locate(verdicts, row):
+def locate(row):
     """Ends of what is known of a pair, the less share first: w/U_full, share [%] and its bar."""
-    pair = verdicts.sel(material=row["key"], surface=row["name"])
+    pair = row["pair"]
     told = {name: row[name] for name in ("material", "surface", "word")} | row["text"]
     ratios = np.clip(pair.energy_ratio.values, LEAST_RATIO, MOST_RATIO)
     ends = sorted(zip(np.minimum(100 * pair.remaining.values, 100), ratios, strict=True))

@@ -21,26 +21,29 @@ COLUMNS += ("errors", "modulus")
 
 def arrange_pairs(verdicts, materials, labels):
     """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
-    return [
+    rows = [
         describe_pair(verdicts.sel(material=material, surface=surface), materials[material])
         | {"key": material, "material": materials[material]["label"]}
-        | {"name": surface, "surface": labels[surface]}
+        | {"name": surface, "surface": labels[surface], "mine": False}
         for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS)
         for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES)
     ]
+    for row in provided.choose_mine(rows):
+        row["mine"] = True
+    return rows
 
 
 def describe_pair(pair, entry):
-    """Verdict on a pair: `text` by column for readers, `sort` by column for sorting.
+    """Verdict on a `pair`: `text` by column for readers, `sort` by column for sorting.
 
-    `entry` is that of its material in the configuration. Texts in `ends` go from the rough to the
-    smooth end of the surface. A pair that is not judged has no numbers and comes last in every
-    order.
+    `entry` is that of its material in the configuration. Texts in `ends` are values at both ends of
+    the surface. A pair that is not judged has no numbers and comes last in every order.
     """
     code = int(pair.verdict)
-    row = {"code": code, "word": WORDS[code], "tone": TONES[code], "stiffening": "", "strain": ""}
-    row |= {"moment": texts.describe_moment(pair), "factor": "", "rates": [], "ends": {}}
+    row = {"pair": pair, "code": code, "word": WORDS[code], "tone": TONES[code]}
     row |= {"modulus": show_modulus(float(pair.modulus_quoted), entry, 3), "threshold": NOTHING}
+    row |= {"moment": texts.describe_moment(pair), "stiffening": "", "strain": ""}
+    row |= {"rates": [], "ends": {}}
     if code == NOT_JUDGED:
         nothing = {"text": dict.fromkeys(COLUMNS, NOTHING), "sort": dict.fromkeys(COLUMNS, -1.0)}
         return row | nothing | {"code": -1, "not_judged": str(pair.not_judged.item())}
@@ -48,32 +51,29 @@ def describe_pair(pair, entry):
         row["stiffening"] = interval(*pair.stiffening.values, 2)
     if pair.layer_strain.max() > MOST_STRAIN:
         row["strain"] = number(pair.layer_strain.max(), 2)
-    if np.isfinite(pair.dwell):
-        factors = (number(pair[f"separation_factor{end}"].max(), 2) for end in SIGNS)
-        row["factor"] = "{} ({} to {})".format(*factors)
     onset = pair.margin.sel(criterion=EDGES)
-    threshold = texts.describe_stress(pair, "modulus_threshold", texts.MPA)
     low, high = texts.find_limits(pair, "margin")
     drawn = bool(np.isfinite(pair.probability))  # spectra from the errors of a measurement
     total = np.hypot(pair.error_of_spectrum, pair.error_of_model)
     errors = f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
+    threshold, modulus = "modulus_threshold", float(pair.modulus_quoted)
     cells = {
         "remaining": (texts.describe_share(pair), texts.find_value(pair)),
         "pull_off": (texts.describe_pull_off(pair), texts.find_value(pair, "pull_off")),
-        "threshold": (threshold, texts.find_value(pair, "modulus_threshold")),
+        "threshold": (texts.describe_quantity(pair, threshold), texts.find_value(pair, threshold)),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (interval(*onset.values, 2), onset.mean()),
         "probability": (texts.show_probability(pair) if drawn else NOTHING, pair.probability),
         "errors": (errors if drawn else NOTHING, total),
-        "modulus": (texts.show_stress(float(pair.modulus_quoted), texts.MPA), pair.modulus_quoted),
+        "modulus": (texts.SHOWN[threshold](modulus), modulus),
     }
-    stresses = (("pull_off", texts.KPA), ("modulus_threshold", texts.MPA))
-    ends = {name: texts.show_stresses(*sorted(pair[name].values), unit) for name, unit in stresses}
-    ends["remaining"] = texts.show_shares(*sorted(map(texts.round_share, pair.remaining.values)))
+    ends = {
+        name: texts.join(*map(show, sorted(pair[name].values)))
+        for name, show in texts.SHOWN.items()
+    }
     return row | {
         "not_judged": "",
-        "nothing": texts.round_share(texts.find_limits(pair)[1]) == 0,
         "unknown": find_largest_unknown(pair) if WORDS[code] == "depends" else "",
         **describe_bounds(pair, entry),
         "rates": list_rates(read_material(entry), pair),
@@ -88,14 +88,17 @@ def describe_bounds(pair, entry):
 
     The verdict changes at the limits, so that they are told from the modulus of the material.
     """
-    name, given, shown = "modulus_threshold", float(pair.modulus_quoted), []
-    for bound in map(float, (texts.find_value(pair, name), *texts.find_limits(pair, name))):
-        useful = texts.LEAST_STRESS <= bound <= texts.MOST_STRESS
-        digits = 4 if abs(bound / given - 1) < NEAR else 2
-        shown.append(show_modulus(bound, entry, digits) if useful else "")
-    text, low, high = shown
+    name, given = "modulus_threshold", float(pair.modulus_quoted)
+    bounds = list(map(float, (texts.find_value(pair, name), *texts.find_limits(pair, name))))
+    useful = [bound for bound in bounds if texts.LEAST_STRESS <= bound <= texts.MOST_STRESS]
+    text, low, high = (
+        show_modulus(bound, entry, 4 if abs(bound / given - 1) < NEAR else 2, beside=useful)
+        if bound in useful
+        else ""
+        for bound in bounds
+    )
     least, most = (bound.partition(" = ")[2] for bound in (low, high))
-    least = least.removesuffix(most[most.rfind(" ") :])  # the unit, if they have one
+    least = least.removesuffix(most[most.rfind(" ") :])  # the unit
     text = f"{text} ({least or 0} to {most or 'any'})" if text else "none that matters"
     return {"threshold": text, "sticks_below": low, "fails_above": high}
 

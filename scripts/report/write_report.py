@@ -9,8 +9,6 @@ import pandas as pd
 from common import experiment_outcomes as experiments
 from common.conventions import at_load
 from common.job import start
-from common.materials import describe_modulus
-from common.provided import choose_mine
 from common.templates import write_page
 from common.verdicts import count_pairs
 from report import interactive, pages
@@ -67,13 +65,10 @@ def main(job):
         words=count((pair["word"] for pair in pairs), WORD_TONES),
         local_word=WORDS[TOUCHES],
         pairs=pairs,
-        materials=[
-            materials[key] | {"modulus": describe_modulus(materials[key], labels)}
-            for key in dict.fromkeys(pair["key"] for pair in pairs)
-        ],
-        mine=choose_mine(pairs),
+        labels=labels,
+        materials=[materials[key] for key in dict.fromkeys(pair["key"] for pair in pairs)],
         library=interactive.library(),
-        every_pair=interactive.embed(interactive.draw_pairs(verdicts, pairs)),
+        every_pair=interactive.embed(interactive.draw_pairs(pairs)),
         disagreements=find_disagreements(verdicts),
         experiments=experiments.describe(tested),
         experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),

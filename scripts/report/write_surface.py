@@ -10,7 +10,7 @@ import numpy as np
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
-from common.materials import describe_modulus, find_doubts, read_material
+from common.materials import find_doubts, read_material
 from common.templates import write_page
 from common.verdicts import describe_moment, find_limits, find_value
 from criteria.thresholds import ASKED, find_thresholds
@@ -45,11 +45,8 @@ def main(job):
         "interactive": interactive.embed(interactive.draw_curves(found)),
         "still": pages.embed_png(job.output.curves),
     }
-    contact = bem = None
-    if inputs.get("contact"):
-        contact = describe_contact(inputs, entries, mine)
-    if inputs.get("measured_contact"):
-        bem = describe_measured_contact(datasets.read(inputs.measured_contact, ["a_v"]))
+    contact = inputs.get("contact") and describe_contact(inputs, entries, mine)
+    bem = inputs.get("measured_contact")
     write_page(
         inputs.template,
         job.output.page,
@@ -60,17 +57,17 @@ def main(job):
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
         wanted=DEFAULT_SHARE,
+        labels=job.params.labels,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         contact_area=CONTACT_AREA,
         verdicts=[
-            describe_verdict(pairs.sel(material=name), entries[name], job.params.labels)
-            | {"mine": name in mine}
+            describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
             for name in names
         ],
         shown_at_first=len(at_first),
         curves=curves,
         contact=contact,
-        bem=bem,
+        bem=bem and describe_measured_contact(datasets.read(bem, ["a_v"])),
         library=interactive.library() if curves or contact else "",
     )
 
@@ -108,12 +105,12 @@ def describe_law(pair, entry):
     return {"material": entry["label"], "verdict": word, "law": solid.law, **found}
 
 
-def describe_verdict(pair, entry, labels):
+def describe_verdict(pair, entry):
     """Verdict on one material, with its properties as given and every criterion's reason."""
     judged = int(pair.verdict) != NOT_JUDGED
     return describe_pair(pair, entry) | {
         "material": entry["label"],
-        "given": describe_modulus(entry, labels),
+        "entry": entry,
         "thresholds": {
             name: [float(pair[f"{name}{end}"]) for end in SIGNS]
             for name in ASKED
@@ -137,7 +134,9 @@ def describe_contact(files, entries, mine):
         area, gap = load["area"], load["gap"]
         texts.append(f"Mean pressure: {pressure}. Contact area: {area}. Mean gap: {gap}.")
     made = datasets.parameters(pull_off)
-    found = {
+    compared = () if pull_off.attrs["left_out"] else ("separation", "pull_off")
+    outside = [name for name in compared if not overlap(pull_off, name)]
+    return {
         "interactive": interactive.embed(interactive.draw_contact(contact, pull_off, texts)),
         "still": pages.embed_png(files.contact_figure),
         "data": contact,
@@ -145,14 +144,9 @@ def describe_contact(files, entries, mine):
         "pulled": entries[made["material"]]["label"],
         "moment": describe_moment(read_material(made)).partition(",")[0],
         "pull_off": pull_off,
+        "outside": outside,
+        "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
     }
-    if not pull_off.attrs["left_out"]:
-        outside = [name for name in ("separation", "pull_off") if not overlap(pull_off, name)]
-        found |= {
-            "outside": outside,
-            "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
-        }
-    return found
 
 
 def list_loads(contact, materials):

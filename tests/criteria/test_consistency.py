@@ -130,6 +130,7 @@ def test_texts_do_not_contradict_the_verdict(judged):
             for text in (*row["text"].values(), row["threshold"], row["modulus"]):
                 assert not re.search(r"nan|\(–|– \(|to –|inf", text), text
                 assert text != "–" or np.isnan(pair.probability)
+            assert len(set(re.findall(r"\w?Pa", row["threshold"]))) <= 1  # one unit
             if row["word"] == "depends":
                 assert row["text"]["probability"][0] not in "<>"
                 assert row["unknown"] in ("layer", "surface", "model")

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from helpers.analysed import LONGEST, wall
 
-from common.materials import describe_modulus, read_material
+from common.materials import read_material
+from common.templates import make_environment
 from common.verdicts import find_limits
 from criteria import verdicts
 from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine, find_spectra
@@ -218,15 +219,24 @@ def test_thinner_tapes_keep_less_and_the_row_says_why():
     assert describe_pair(thick, TAPE)["strain"] == "0.3"
 
 
+SERIES = {"equilibrium": "10 kPa", "terms": [["30 kPa", "1 s"], ["0.2 MPa", "1 ms"]]}
+TABLE = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
+THICK = "E = 0.1 MPa, ν = 0.5, 50 µm thick"
+
+
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
-        ({"surface": "wall"}, ", rough as the brick wall"),
-        ({"thickness": "50 um"}, ", 50 µm thick on a rigid base"),
-        ({"thickness": "50 um", "backing": "slip"}, ", 50 µm thick, free to slip on a rigid base"),
-        ({"thickness": "50 um", "backing": FILM}, ", 50 µm thick on a film of 25 µm and 3 GPa"),
+        ({"surface": "wall"}, "E = 0.1 MPa, ν = 0.5, rough as the brick wall"),
+        ({"thickness": "50 um"}, f"{THICK} on a rigid base"),
+        ({"thickness": "50 um", "backing": "slip"}, f"{THICK}, free to slip on a rigid base"),
+        ({"thickness": "50 um", "backing": FILM}, f"{THICK} on a film of 25 µm and 3 GPa"),
+        ({"youngs_modulus_table": TABLE}, "E′ = 50 kPa at 10 mHz … 0.5 MPa at 0.1 kHz, ν = 0.5"),
+        ({"youngs_modulus_prony": SERIES}, "E = 10 kPa at rest, 2 Prony terms, ν = 0.5"),
+        ({"plane_strain_modulus": "2 MPa"}, "E* = 2 MPa"),
     ],
 )
-def test_layers_are_described(keys, text):
-    labels = {"wall": "the brick wall"}
-    assert describe_modulus(TAPE | keys, labels) == "E = 0.1 MPa, ν = 0.5" + text
+def test_materials_are_shown_as_configured(keys, text):
+    macros = make_environment("report").get_template("macros.html.j2").module
+    found = macros.given(TAPE | keys, {"wall": "the brick wall"})
+    assert found.replace("\u00a0", " ") == text

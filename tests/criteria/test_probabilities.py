@@ -26,9 +26,6 @@ def test_materials_in_every_form():
     pairs = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
     table = materials.read_material(ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0})
     assert table.modulus == pytest.approx(np.sqrt(50e3 * 0.5e6))
-    assert "10 mHz" in materials.describe_modulus(
-        ENTRY | {"youngs_modulus_table": pairs, "poisson_ratio": 0}, {}
-    )
 
 
 FORM = {"youngs_modulus_prony": {"equilibrium": "1 MPa", "terms": [["1 GPa", "1 ms"]]}}

@@ -172,13 +172,10 @@ def ensemble():
             for name in ("standard_error", "discretisation_error")
         },
     }
-    for name, mean, sampling, discretisation in (
-        ("area_fraction", 0.05, 0.01, 0.002),
-        ("mean_gap", 1.0, 0.001, 0.02),
-    ):
-        data[f"{name}_mean"] = ("pressure", [mean, 7.0])
-        data[f"{name}_standard_error"] = ("pressure", [sampling, 7.0])
-        data[f"{name}_discretisation_error"] = ("pressure", [discretisation, 7.0])
+    kinds = ("mean", "standard_error", "discretisation_error")
+    for name, *known in (("area_fraction", 0.05, 0.01, 0.002), ("mean_gap", 1.0, 0.001, 0.02)):
+        for kind, value in zip(kinds, known, strict=True):
+            data[f"{name}_{kind}"] = "pressure", [value, 7.0]
     coords = {"seed": [1, 2], "resolution": [2, 4], "pressure": [0.06, 0.3], "range": ranges}
     made = {"case": "case_of_two", "hurst": 0.8, "magnification": 64, "grid_points": 256}
     made |= {"pixels_per_wavelength": 4, "tolerance": 1e-6, "largest_residual": 1e-6}
@@ -223,25 +220,19 @@ def experiments():
 
 
 @pytest.fixture(scope="module")
-def results(claims, verdicts, surfaces):
-    """Datasets by the names of the rule's inputs."""
-    return {
+def page(claims, verdicts, surfaces, tmp_path_factory):
+    """The report on files with these results, by the names of the rule's inputs."""
+    a_v = xr.Dataset({"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4})
+    results = {
         "claims": claims,
         "verdicts": verdicts,
-        "criterion": made_by(
-            xr.Dataset({"a_v": 3.21, "a_v_low": 2.8, "a_v_high": 4.4}), pressure=0.065
-        ),
+        "criterion": made_by(a_v, pressure=0.065),
         "experiments": experiments(),
         "surfaces": surfaces,
         "ensembles": {"case_of_two": ensemble()},
         "comparisons": {"case_of_two": comparison()},
         "answers": {"case_of_two": answer()},
     }
-
-
-@pytest.fixture(scope="module")
-def page(results, tmp_path_factory):
-    """The report on files with these results."""
     folder = tmp_path_factory.mktemp("results")
 
     def save(dataset, path):
@@ -305,13 +296,13 @@ def test_the_report_shows_what_is_in_the_files(page):
         "multilevel: 32 coarse seeds, 100 long-wave controls",
         # The sentences of the verdicts.
         "Jelly & cream on glass pane sticks at 1 Hz: 50 % (40 to 84 %) of the work",
-        "It sticks up to E = 1100 kPa; its modulus at 1 Hz is 1 kPa.",
+        "It sticks up to E = 1.1 MPa; its modulus at 1 Hz is 1 kPa.",
         "For jelly & cream on sand < 1 mm it depends at 1 Hz: 2 % (1.6 to 36 %)",
-        "below E = 1100 kPa and would not stick above E = 3400 kPa; its modulus at 1 Hz is 1 kPa",
+        "below E = 1.1 MPa and would not stick above E = 3.4 MPa; its modulus at 1 Hz is 1 kPa",
         "The error of the model is the largest unknown",
         f"Iron on glass pane {WORDS[TOUCHES]}: 1 % (0.8 to 1.2 %) of the work",
         "Iron on sand < 1 mm does not stick: nothing of the work of adhesion remains. It would "
-        "stick below E* = 0.0015 GPa; its modulus is 2 GPa.",
+        "stick below E* = 1.5 MPa; its modulus is 2 GPa.",
         # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",
@@ -346,17 +337,13 @@ def test_rows_of_pairs(pairs, verdicts):
     assert (sand["probability"], iron["probability"]) == ("42 %", "< 1.3 %")
     assert sand["errors"] == "spectrum 30 %, model 40 %"
     assert jelly_sand["sort"]["errors"] == pytest.approx(0.5)
-    assert write_report.choose_mine(pairs) == pairs
-    drawn = verdicts.sel(material="jelly", surface="glass")
-    drawn = drawn.assign(remaining_quantile=("quantile", [0.31, 0.6, 0.77]))
-    row = describe_pair(drawn, materials["jelly"])
+    assert all(pair["mine"] for pair in pairs)
     # One value, the median of draws; both ends are told apart.
-    assert (row["text"]["remaining"], row["ends"]["remaining"]) == (
-        "60 % (31 to 77 %)",
-        "50 … 70 %",
-    )
-    drawn = drawn.assign(remaining_quantile=("quantile", [0.31, 0.4, 0.77]))
-    assert describe_pair(drawn, materials["jelly"])["text"]["remaining"] == "40 % (31 to 77 %)"
+    jelly = verdicts.sel(material="jelly", surface="glass")
+    for median, text in ((0.6, "60 % (31 to 77 %)"), (0.4, "40 % (31 to 77 %)")):
+        drawn = jelly.assign(remaining_quantile=("quantile", [0.31, median, 0.77]))
+        row = describe_pair(drawn, materials["jelly"])
+        assert (row["text"]["remaining"], row["ends"]["remaining"]) == (text, "50 … 70 %")
 
 
 BEYOND = f"> {number(1e7)}"
@@ -378,11 +365,11 @@ def test_thresholds_have_one_unit_and_all_limits(verdicts, values, limits, text)
         modulus_threshold_low=("end", [limits[0]] * 2),
         modulus_threshold_high=("end", [limits[1]] * 2),
     )
-    assert texts.describe_stress(found, "modulus_threshold", texts.MPA) == text
+    assert texts.describe_quantity(found, "modulus_threshold") == text
 
 
-def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
-    plot = interactive.draw_pairs(verdicts, pairs)
+def test_every_judged_pair_is_on_one_axis(pairs):
+    plot = interactive.draw_pairs(pairs)
     shown = defaultdict(list)
     for renderer in plot.renderers:
         if isinstance(renderer.glyph, Scatter):
@@ -399,7 +386,7 @@ def test_every_judged_pair_is_on_one_axis(verdicts, pairs):
     drawn = sorted(tuple(xs) for data in lines for xs in data["xs"])
     assert drawn == [(0.005, 0.005), (0.05, 0.05), (0.25, 1.0), (4.0, 4.5)]
     doubtful = [pair | {"code": -1} for pair in pairs]
-    (line,) = interactive.draw_pairs(verdicts, doubtful).renderers  # the model alone
+    (line,) = interactive.draw_pairs(doubtful).renderers  # the model alone
     at = line.data_source.data
     shares = np.interp(np.log([0.5, 2.0]), np.log(at["x"]), at["y"])
     assert shares == pytest.approx([1.58, 52.1], rel=0.02)
