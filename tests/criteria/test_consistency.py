@@ -5,20 +5,19 @@ from itertools import product
 
 import numpy as np
 import pytest
-from helpers.analysed import wall
+from helpers.analysed import A_V, fix_a_v, wall
 
 from common.materials import read_material
 from common.verdicts import find_limits, find_value
 from criteria import pair_roughness, verdicts
 from criteria.thresholds import find_thresholds
 from report.table_rows import describe_pair
-from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, SIGNS, WORDS
 from stickiness.criteria.registry import REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
+from stickiness.units import si
 
-A_V = SurfaceAv(np.array([1e-12, 1.0]), np.full((2, 2), 3.0), 0.1)
 LIMITED = ("remaining", "pull_off", "margin", "modulus_threshold")
 FILM = {"youngs_modulus": "1 GPa", "poisson_ratio": 0.4, "thickness": "20 um"}
 SERIES = {"equilibrium": "20 kPa", "terms": [["0.1 MPa", "1 s"], ["10 MPa", "1 ms"]]}
@@ -60,7 +59,7 @@ def judged():
     walls = {name: make_wall(rng, 60 * (name < "given")) for name in ("a", "b", "c", "given", "x")}
     solids = {name: read_material(entry) for name, entry in entries.items()}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+        fix_a_v(patch)
         patch.setattr(pair_roughness, "find_end_a_v", lambda *given: A_V)
         for axis in ("MODULUS", "ROUGHNESS", "DWELL"):  # of curves, which take most of the time
             patch.setattr(verdicts, f"{axis}_FACTORS", np.ones(1))
@@ -164,7 +163,6 @@ def test_texts_do_not_contradict_the_verdict(judged):
 
 def read_shown(text):
     """Pa of a modulus as shown, such as "E = 0.2 MPa"."""
-    number, prefix = re.fullmatch(r"E = (.+) (\w?)Pa", text).groups()
     digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-    number = re.sub("^10(?=[⁻⁰¹²³⁴-⁹])", "1 × 10", number).translate(digits).replace(" × 10", "e")
-    return float(number) * {"": 1, "k": 1e3, "M": 1e6, "G": 1e9}[prefix]
+    number = re.sub("^10(?=[⁻⁰¹²³⁴-⁹])", "1 × 10", text.removeprefix("E = "))
+    return si(number.translate(digits).replace(" × 10", "e"), "Pa")

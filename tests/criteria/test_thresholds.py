@@ -2,17 +2,15 @@
 
 import numpy as np
 import pytest
-from helpers.analysed import wall
+from helpers.analysed import fix_a_v, wall
 
 from common.materials import read_material
 from criteria import verdicts
 from criteria.pair_roughness import real_spectrum
 from criteria.thresholds import ASKED, find_thresholds
 from stickiness import thresholds
-from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import SIGNS
 
-A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 TAPE = {"label": "tape", "youngs_modulus": "1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "60 mJ/m^2", "range": "3 nm", "source": "made up"}
 SERIES = {"equilibrium": "0.1 MPa", "terms": [["2 MPa", "0.1 s"], ["100 MPa", "1 ms"]]}
@@ -25,7 +23,7 @@ MATERIALS = {"deep": TAPE, "slow": SLOW, "layer": LAYER, "film": LAYER | {"backi
 
 @pytest.mark.parametrize("name", MATERIALS)
 def test_a_surface_that_is_known_has_the_thresholds_of_the_library(name, monkeypatch):
-    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+    fix_a_v(monkeypatch)
     solid, surface = read_material(MATERIALS[name]), wall(apart=1.0)
     pairs = verdicts.find_verdicts({name: solid}, {"": surface}, {}, np.geomspace(1e-3, 1e3, 13))
     pair = find_thresholds(pairs, surface, {}, {name: MATERIALS[name]}).squeeze()

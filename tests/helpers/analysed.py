@@ -5,10 +5,18 @@ import json
 import numpy as np
 import xarray as xr
 
+from criteria import verdicts
 from criteria.pair_roughness import ENDS
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine, Tabulated
 
 LONGEST = 2e-4  # of the made-up wall [m]
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
+
+
+def fix_a_v(monkeypatch):
+    """Take `A_V` for all surfaces: little depends on it, and theory takes its time."""
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
 
 
 def wall(h_rms=1e-6, draws=0, apart=2.0, scatter=0.0, longest=LONGEST, shortest=6e-8, **more):

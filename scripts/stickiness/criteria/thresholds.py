@@ -154,8 +154,8 @@ def find_rate(storage: Modulus, moduli: ArrayLike, frequencies: ArrayLike) -> Th
     It is searched between the first and the last of `frequencies`, within a table.
     """
     known = getattr(storage, "frequencies", frequencies)
-    ends = np.clip((known[0], known[-1]), frequencies[0], frequencies[-1])
-    return find_threshold(lambda f: moduli / storage.storage(f)[..., None], *ends, 1.0)
+    start, stop = np.clip((known[0], known[-1]), frequencies[0], frequencies[-1])
+    return find_threshold(lambda f: moduli / storage.storage(f)[..., None], start, stop, 1.0)
 
 
 def find_threshold(
