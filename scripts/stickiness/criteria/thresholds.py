@@ -179,10 +179,8 @@ def find_threshold(
         if count in (0, x.size):
             found[end, limit] = 0.0 if (count == 0) == (start < stop) else np.inf
         else:
-            ends = x[count - 1], x[count]
-            found[end, limit] = brentq(
-                excess, *ends, args=(end, limit), xtol=_PRECISION * min(ends)
-            )
+            around, xtol = x[count - 1 : count + 1], _PRECISION * x[count]
+            found[end, limit] = brentq(excess, *around, (end, limit), xtol)
     with np.errstate(invalid="ignore"):  # none at one end, any at the other
         value = float(np.prod(found[:, 1]) ** (1 / len(found)))
     return Threshold(value, float(found.min()), float(found.max()))
@@ -194,8 +192,8 @@ def find_pressure(
     """Find the mean pressure [Pa] at an area of contact of both ends, without adhesion."""
     q0, unlike = float(np.mean(pair.q0)), float(np.mean(pair.anisotropy_error_factor))
     error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
-    areas = area * np.array([1.0, (1 - error) * (1 - AREA_ERROR_LAYER * harder), 1 + error])
+    areas = area * np.array([(1 - error) * (1 - AREA_ERROR_LAYER * harder), 1.0, 1 + error])
     theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
     found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
-    value = float(np.exp(np.log(found[:, 0]).mean()))
-    return Threshold(value, float(found[:, 1].min()), float(found[:, 2].max()))
+    value = float(np.exp(np.log(found[:, 1]).mean()))
+    return Threshold(value, float(found[:, 0].min()), float(found[:, 2].max()))
