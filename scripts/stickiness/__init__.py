@@ -40,7 +40,7 @@ Examples
 
 from importlib import import_module
 
-__version__ = "0.2.0"
+__version__ = "0.3.0"
 
 _MODULES = (
     *("spectrum", "surface", "solids", "repulsive", "adhesive", "dmt", "persson"),
