@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
+from stickiness.criteria.pair import Pair
 from stickiness.remaining.prediction import MODULUS_FACTORS, Roughness, find_film_response
 from stickiness.remaining.prediction import find_anisotropy_error_factor as find_error_factor
 from stickiness.solids import HALF_SPACE, Film
@@ -21,6 +22,7 @@ ENDS = ("smooth", "rough")
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 # Energies, and those of a half-space that bound them on a layer.
 BOUNDS = {f"elastic_energy{end}": f"half_space_energy{end}" for end in ("", "_draws")}
+OF_MATERIAL = ("modulus", "work_of_adhesion", "range", "law", "pressed", "separation_factor")
 OF_SURFACE = (*MOMENTS, "q0", "h_rms_draws", "q0_draws", *BOUNDS)
 TOO_DIFFERENT = (
     "the two rough solids differ too much in scale: at the load at which a_V is evaluated, "
@@ -152,12 +154,23 @@ def put_on_layer(pair, solid, spectra):
     return found
 
 
-def read_draws(pair, law):
-    """`Roughness` of the draws of a measured surface, for a law by name; None of others."""
+def meet(material, rough):
+    """`Pair` of a `Material` on a `Roughness`, for all that needs no a_V."""
+    known = vars(rough) | {name: getattr(material, name) for name in OF_MATERIAL}
+    strain = material.solid.strain(rough.h_rms, rough.q0)
+    return Pair(**known, layer_strain=strain, rms_curvature=np.nan, a_v=np.nan)
+
+
+def read_ends(pair, ending=""):
+    """`Roughness` of both ends, or of all with another `ending` of names."""
+    names = [field.name for field in fields(Roughness) if field.name != "law"]
+    return Roughness(**{name: pair.get(f"{name}{ending}", pair[name]).values for name in names})
+
+
+def read_draws(pair, material):
+    """`Pair` of a `Material` on the draws of a measured surface; None of others."""
     if "h_rms_draws" not in pair:
         return None
     # Slopes and layers of the draws are not kept; those of both ends hardly differ.
     means = {name: pair[name].mean("end") for name in ("rms_slope", "film_response")}
-    pair = pair.assign(law=law, **means)
-    names = [field.name for field in fields(Roughness)]
-    return Roughness(**{name: pair.get(f"{name}_draws", pair[name]).values for name in names})
+    return meet(material, read_ends(pair.assign(means), "_draws"))

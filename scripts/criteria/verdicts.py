@@ -159,9 +159,9 @@ def judge_pairs(solids, roughness, frequencies):
     thresholds = [criterion.modulus_threshold(pair) for criterion in CRITERIA.values()]
     moduli = np.array([np.atleast_1d(solid.plane_strain.storage(frequencies)) for solid in solids])
     rows = zip(solids, roughness, strict=True)
-    draws = [[read_draws(one, solid.law) for one in row] for solid, row in rows]
+    draws = [[read_draws(one, solid) for one in row] for solid, row in rows]
     return dataset.assign(
-        **judge_measured(solids, draws),
+        **judge_measured(draws),
         **follow_remaining(pair, solids, draws, moduli),
         margin=((*DIMS, "criterion"), np.stack(margins, axis=-1)),
         threshold_by_criterion=((*DIMS, "criterion"), np.stack(thresholds, axis=-1)),
@@ -179,14 +179,11 @@ def judge_pairs(solids, roughness, frequencies):
     )
 
 
-def judge_measured(solids, draws):
+def judge_measured(draws):
     """Distributions over the draws of measured surfaces; NaN on others."""
     nothing = np.full(1, np.nan)
     unknown = dict.fromkeys((*DRAWN, "withstands"), nothing) | dict.fromkeys(ERRORS, np.nan)
-    found = [
-        [unknown if one is None else judge_draws(solid, one) for one in row]
-        for solid, row in zip(solids, draws, strict=True)
-    ]
+    found = [[unknown if one is None else judge_draws(one) for one in row] for row in draws]
     dataset = xr.Dataset({n: (DIMS[:2], [[x[n] for x in row] for row in found]) for n in ERRORS})
     for name in DRAWN:
         values = [[find_quantiles(one[name], one["withstands"]) for one in row] for row in found]
@@ -202,26 +199,26 @@ def find_quantiles(values, withstands):
     return np.moveaxis(found, 0, -1)
 
 
-def judge_draws(solid, draws):
-    """Judge one `Material` on the draws of a surface, with errors of the model."""
-    length, errors = solid.work_of_adhesion / solid.modulus, draw_errors(draws)
-    value, factor = (choose_factor(solid.separation_factor, sign) for sign in (0, errors))
-    pressed = solid.pressed / solid.modulus
-    known = {"range": solid.range, "adhesion_length": length}
+def judge_draws(draws):
+    """Judge a `Pair` on draws of its surface, with errors of the model."""
+    length, errors = draws.adhesion_length, draw_errors(draws)
+    value, factor = (choose_factor(draws.separation_factor, sign) for sign in (0, errors))
+    pressed = draws.pressed / draws.modulus
+    known = {"range": draws.range, "adhesion_length": length}
     at_value = length / draws.threshold(**known, separation_factor=value)
     margins = length / draws.threshold(**known, sign=errors, separation_factor=factor)
-    withstands = solid.solid.strain(draws.h_rms, draws.q0) <= pairs.MOST_STRAIN
+    withstands = draws.layer_strain <= pairs.MOST_STRAIN
     return {
         "withstands": withstands,
         "margin": margins,
-        "modulus_threshold": margins * solid.modulus,
-        "remaining": draws.share(length, solid.range, errors, factor),
-        "pull_off": solid.modulus * draws.tension(length, solid.range, errors, pressed, factor),
+        "modulus_threshold": margins * draws.modulus,
+        "remaining": draws.share(length, draws.range, errors, factor),
+        "pull_off": draws.modulus * draws.tension(length, draws.range, errors, pressed, factor),
         "probability": np.mean(margins > 1),
         "probability_low": np.mean((margins > 1) & withstands),
         "error_of_spectrum": np.std(np.log(at_value)),
         "error_of_model": np.std(np.log(margins / at_value)),
-        "share_error_of_spectrum": np.std(draws.share(length, solid.range)) * value,
+        "share_error_of_spectrum": np.std(draws.share(length, draws.range)) * value,
     }
 
 
@@ -246,12 +243,12 @@ def follow_remaining(pair, solids, draws, rates):
         heights = ROUGHNESS_FACTORS if axis == "roughness" else np.ones(len(moduli))
         at = dwells if axis == "dwell" else [solids] * len(moduli)
         factors = np.array([[one.separation_factor for one in row] for row in at])
-        curves = follow(pair, solids, draws, AXES[axis][0], moduli, factors, heights)
+        curves = follow(pair, draws, AXES[axis][0], moduli, factors, heights)
         found |= {f"remaining_by_{axis}{end}": x for end, x in zip(SIGNS, curves, strict=True)}
     return found
 
 
-def follow(pair, solids, draws, dim, moduli, factors, heights):
+def follow(pair, draws, dim, moduli, factors, heights):
     """Share with the limits that decide, for moduli (dim, material) and factors on heights (dim,).
 
     `factors` on the work of separation, with limits, are (dim, material, 3). A modulus that is not
@@ -268,31 +265,35 @@ def follow(pair, solids, draws, dim, moduli, factors, heights):
         {f"remaining{end}": ((dim, *DIMS), at.remaining(sign)) for end, sign in SIGNS.items()}
     )
     quantiles = [
-        [follow_draws(solid, one, moduli[:, i, 0, 0], factors[:, i], heights) for one in draws[i]]
-        for i, solid in enumerate(solids)
+        [follow_draws(one, moduli[:, i, 0, 0], factors[:, i], heights) for one in row]
+        for i, row in enumerate(draws)
     ]
     found["remaining_quantile"] = (*DIMS[:2], dim, "quantile"), np.array(quantiles)
     curves = (found.remaining, *find_limits(found))
     return tuple(x.where(known).transpose(*DIMS, dim, missing_dims="ignore") for x in curves)
 
 
-def follow_draws(solid, draws, moduli, factors, heights):
+def follow_draws(draws, moduli, factors, heights):
     """Quantiles of the share over the draws of a surface, ``(dim, quantile)``; NaN without."""
     if draws is None:
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     along, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
     moduli, heights, *factors = along[..., None]
-    rough = draws.scaled(heights).at_modulus(moduli / solid.modulus)
+    at = draws.scaled(heights).at_modulus(moduli / draws.modulus)
+    return remain_of_draws(replace(at, modulus=moduli, separation_factor=factors))[place]
+
+
+def remain_of_draws(draws):
+    """Quantiles of the share, along a last axis, of a `Pair` on draws."""
     errors = draw_errors(draws)
-    factors = choose_factor(factors, errors)
-    shares = rough.share(solid.work_of_adhesion / moduli, solid.range, errors, factors)
-    withstands = solid.solid.strain(rough.h_rms, rough.q0) <= pairs.MOST_STRAIN
-    return find_quantiles(shares, withstands)[place]
+    factor = choose_factor(draws.separation_factor, errors)
+    shares = draws.share(draws.adhesion_length, draws.range, errors, factor)
+    return find_quantiles(shares, draws.layer_strain <= pairs.MOST_STRAIN)
 
 
 def draw_errors(draws):
     """Errors of the model for every draw, in units of its limits, which cover 90 %."""
-    return np.random.default_rng(SEED).normal(size=len(draws.h_rms)) / COVERS
+    return np.random.default_rng(SEED).normal(size=np.shape(draws.h_rms)[-1]) / COVERS
 
 
 def withhold(dataset):

@@ -6,9 +6,9 @@ from common import formatting, provided
 from common import verdicts as texts
 from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
 from common.materials import read_material, show_modulus
+from criteria.thresholds import find_rate
 from stickiness.criteria.pair import BROAD_A_V, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.criteria.thresholds import find_rate
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 
@@ -108,14 +108,9 @@ def list_rates(material, pair):
 
     Empty of a material whose modulus does not depend on the rate, or that is judged by its dwell.
     """
-    if not material.depends_on_rate or np.isfinite(material.dwell):
-        return []
-    found = []
-    for last, threshold in enumerate(map(float, texts.find_limits(pair, "modulus_threshold"))):
-        hertz = find_rate(material.plane_strain, threshold, pair.frequency.values, bool(last))
-        words = {0.0: "at no frequency", np.inf: "at every frequency"}
-        found.append(words.get(hertz, f"below {number(hertz, 2)} Hz"))
-    return list(dict.fromkeys(found))
+    words = {0.0: "at no frequency", np.inf: "at every frequency"}
+    _, *limits = find_rate(material, pair) or (None,)
+    return list(dict.fromkeys(words.get(x, f"below {number(x, 2)} Hz") for x in limits))
 
 
 def find_largest_unknown(pair):

@@ -19,9 +19,9 @@ from report import interactive, pages, surface_figures
 from report.table_rows import describe_pair, describe_surface, explain
 from stickiness import __version__, datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.contact_law import describe_contact_law
 from stickiness.criteria.pair import NOT_JUDGED, SIGNS, WORDS
 from stickiness.criteria.thresholds import CONTACT_AREA
+from stickiness.criteria.verdict import describe_contact_law
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.statistics import COVERS
@@ -99,10 +99,8 @@ def describe_law(pair, entry):
         [float(x) for x in (find_value(pair, name), *find_limits(pair, name))]
         for name in ("remaining", "pull_off")
     )
-    given = solid.modulus, solid.work_of_adhesion, solid.range
-    found = describe_contact_law(*given, *limited, float(pair.energy_ratio.max()))
-    word = WORDS[int(pair.verdict)]
-    return {"material": entry["label"], "verdict": word, "law": solid.law, **found}
+    word, ratio = WORDS[int(pair.verdict)], float(pair.energy_ratio.max())
+    return {"material": entry["label"], **describe_contact_law(word, solid, *limited, ratio)}
 
 
 def describe_verdict(pair, entry):

@@ -1,23 +1,23 @@
 """The verdict, the share, the probability, the margin and the threshold of a pair agree."""
 
 import re
+from itertools import product
 
 import numpy as np
 import pytest
-import xarray as xr
+from helpers.analysed import A_V, fix_a_v, wall
 
 from common.materials import read_material
 from common.verdicts import find_limits, find_value
 from criteria import pair_roughness, verdicts
-from criteria.pair_roughness import ENDS
+from criteria.thresholds import find_thresholds
 from report.table_rows import describe_pair
-from stickiness.criteria.a_v_table import SurfaceAv
-from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, WORDS
+from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, SIGNS, WORDS
 from stickiness.criteria.registry import REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.spectrum import SelfAffine, Tabulated
+from stickiness.solids import HALF_SPACE
+from stickiness.units import si
 
-A_V = SurfaceAv(np.array([1e-12, 1.0]), np.full((2, 2), 3.0), 0.1)
 LIMITED = ("remaining", "pull_off", "margin", "modulus_threshold")
 FILM = {"youngs_modulus": "1 GPa", "poisson_ratio": 0.4, "thickness": "20 um"}
 SERIES = {"equilibrium": "20 kPa", "terms": [["0.1 MPa", "1 s"], ["10 MPa", "1 ms"]]}
@@ -45,37 +45,31 @@ def make_material(rng):
 
 def make_wall(rng, draws):
     """Analysed surface, with draws if it was measured."""
-    q0, h = 2 * np.pi / 10 ** rng.uniform(-4, -2), 10 ** rng.uniform(-7.5, -5)
-    q = np.geomspace(q0, 1e3 * q0, 30)
-    both = [SelfAffine(hurst=0.8, q0=q0, q1=q[-1], h_rms=f * h) for f in (0.8, 1.2)]
-    both = [Tabulated(q, one.psd(q)) for one in both]
-    names = ("h_rms", "rms_slope", "rms_curvature")
-    data = {name: ("end", [getattr(one, name) for one in both]) for name in names}
-    data["elastic_energy"] = "end", [one.elastic_energy() for one in both]
-    data["psd"] = ("end", "wave_number"), [one.psd(q) for one in both]
-    if draws:
-        factor = np.exp(0.2 * rng.normal(size=draws))
-        energy = np.sqrt(np.prod(data["elastic_energy"][1]))
-        drawn = {"h_rms": h * factor, "elastic_energy": factor**2 * energy}
-        drawn["q0"] = q0 * np.exp(0.1 * rng.normal(size=draws))
-        data |= {f"{name}_draws": ("draw", values) for name, values in drawn.items()}
-    found = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
-    return found.assign(q0=q0, q1=q[-1], hurst=0.8, axis_ratio=rng.choice([1.0, 3.0]))
+    longest, h_rms = 10 ** rng.uniform(-4, -2), 10 ** rng.uniform(-7.5, -5)
+    spread = {"draws": draws, "apart": 1.5, "scatter": 0.2}
+    more = {"longest": longest, "shortest": 1e-3 * longest, "axis_ratio": rng.choice([1.0, 3.0])}
+    return wall(0.8 * h_rms, **spread, **more)
 
 
 @pytest.fixture(scope="module")
 def judged():
-    """Entries of materials, and verdicts on surfaces."""
+    """Entries of materials, verdicts on surfaces, and thresholds on two of these."""
     rng = np.random.default_rng(5)
     entries = {str(i): make_material(rng) for i in range(30)}
     walls = {name: make_wall(rng, 60 * (name < "given")) for name in ("a", "b", "c", "given", "x")}
     solids = {name: read_material(entry) for name, entry in entries.items()}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+        fix_a_v(patch)
         patch.setattr(pair_roughness, "find_end_a_v", lambda *given: A_V)
         for axis in ("MODULUS", "ROUGHNESS", "DWELL"):  # of curves, which take most of the time
             patch.setattr(verdicts, f"{axis}_FACTORS", np.ones(1))
-        return entries, verdicts.find_verdicts(solids, walls, walls, np.geomspace(1e-4, 1e4, 5))
+        found = verdicts.find_verdicts(solids, walls, walls, np.geomspace(1e-4, 1e4, 5))
+        some = dict(list(entries.items())[:15])
+        thresholds = [
+            find_thresholds(found.sel(surface=[on], material=list(some)), walls[on], walls, some)
+            for on in ("a", "given")
+        ]
+        return entries, found, thresholds
 
 
 @pytest.mark.slow
@@ -122,6 +116,33 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
 
 
 @pytest.mark.slow
+def test_pairs_are_on_the_same_side_of_all_thresholds_as_their_shares(judged):
+    words, outside = set(), []
+    for found, material in product(judged[2], judged[2][0].material.values):
+        pair, solid = found.sel(material=material).squeeze(), read_material(judged[0][material])
+        low, high = (float(limit) >= DEFAULT_SHARE for limit in find_limits(pair))
+        words.add((low, high))
+        (value, least, most), (_, slowest, fastest), (_, thinnest, thickest) = (
+            [float(pair[f"{asked}_threshold{end}"]) for end in SIGNS]
+            for asked in ("rms_height", "rate", "thickness")
+        )
+        height = float(np.sqrt(pair.pair_h_rms.prod()))
+        assert least <= value <= most
+        assert (least > height, most > height) == (low, high)
+        assert np.isnan(fastest) == (not solid.depends_on_rate or np.isfinite(solid.dwell))
+        assert np.isnan(fastest) or (slowest > 1, fastest > 1) == (low, high)
+        assert np.isnan(thickest) == (solid.solid == HALF_SPACE)
+        if solid.solid != HALF_SPACE:
+            thickness = solid.solid.thickness
+            # Between its limits a layer on a film may stick where thicker ones do not.
+            assert low >= (thickest < thickness)
+            assert high <= (thinnest < thickness)
+            outside.append(not thinnest < thickness < thickest)
+    assert len(words) == 3
+    assert sum(outside) > 3
+
+
+@pytest.mark.slow
 def test_texts_do_not_contradict_the_verdict(judged):
     for name, entry in judged[0].items():
         for surface in judged[1].surface.values:
@@ -143,7 +164,6 @@ def test_texts_do_not_contradict_the_verdict(judged):
 
 def read_shown(text):
     """Pa of a modulus as shown, such as "E = 0.2 MPa"."""
-    number, prefix = re.fullmatch(r"E = (.+) (\w?)Pa", text).groups()
     digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-    number = re.sub("^10(?=[⁻⁰¹²³⁴-⁹])", "1 × 10", number).translate(digits).replace(" × 10", "e")
-    return float(number) * {"": 1, "k": 1e3, "M": 1e6, "G": 1e9}[prefix]
+    number = re.sub("^10(?=[⁻⁰¹²³⁴-⁹])", "1 × 10", text.removeprefix("E = "))
+    return si(number.translate(digits).replace(" × 10", "e"), "Pa")

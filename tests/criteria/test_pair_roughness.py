@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from helpers.analysed import LONGEST, wall
+from helpers.analysed import A_V, LONGEST, fix_a_v, wall
 
 from common.materials import read_material
 from common.templates import make_environment
@@ -13,23 +13,15 @@ from common.verdicts import find_limits
 from criteria import verdicts
 from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine, find_spectra
 from report.table_rows import describe_pair
-from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import WORDS
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE, MODULUS_FACTORS, find_film_response
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine
 
-A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 TAPE = {"label": "tape", "youngs_modulus": "0.1 MPa", "poisson_ratio": 0.5}
 TAPE |= {"work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm", "source": "made up"}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
-
-
-@pytest.fixture(autouse=True)
-def fixed_a_v(monkeypatch):
-    """Of a_V nothing here depends, and theory takes its time."""
-    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
 
 
 def joined(material, surface, second=None):
@@ -199,7 +191,9 @@ def test_a_direction_widens_limits():
 
 def judged(materials, surfaces, frequencies=(1.0,)):
     solids = {name: read_material(entry) for name, entry in materials.items()}
-    return verdicts.find_verdicts(solids, surfaces, surfaces, np.array(frequencies))
+    with pytest.MonkeyPatch.context() as patch:
+        fix_a_v(patch)
+        return verdicts.find_verdicts(solids, surfaces, surfaces, np.array(frequencies))
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from common import materials
+from criteria.pair_roughness import meet
 from criteria.verdicts import judge_draws
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import Prony
@@ -45,10 +46,10 @@ def test_errors_of_the_spectrum_pass_to_the_margin():
     # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
-    found = judge_draws(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy))
+    found = judge_draws(meet(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy)))
     assert found["error_of_spectrum"] == pytest.approx(0.2, rel=0.05)
     h, q0 = 1e-6 * np.exp(0.1 * rng.normal(size=4000)), 1e5 * np.exp(0.2 * rng.normal(size=4000))
-    found = judge_draws(MATERIAL, Roughness(h, q0, 1e-7 * SAME))
+    found = judge_draws(meet(MATERIAL, Roughness(h, q0, 1e-7 * SAME)))
     assert found["error_of_spectrum"] < 1e-3
 
 
@@ -58,16 +59,16 @@ def test_draws_know_preload_and_dissipation():
     length, slope = solid.work_of_adhesion / solid.modulus, 0.3
     draws = Roughness(1e-6 * same, 1e5 * same, 1e-7 * same, rms_slope=slope * same)
     one = Roughness(1e-6, 1e5, 1e-7, rms_slope=slope)
-    touched = judge_draws(solid, draws)
+    touched = judge_draws(meet(solid, draws))
     value = one.tension(length, solid.range) * solid.modulus
     assert np.median(touched["pull_off"]) == pytest.approx(value, rel=0.05)
     strength = solid.work_of_adhesion / solid.range
-    pressed = judge_draws(dataclasses.replace(solid, pressed=solid.modulus), draws)
+    pressed = judge_draws(meet(dataclasses.replace(solid, pressed=solid.modulus), draws))
     assert touched["pull_off"].max() < 0.01 * strength < pressed["pull_off"].max()
     rested = dataclasses.replace(solid, dwell=10.0, broken_at=1.0)
     factor, length = rested.separation_factor[0], rested.work_of_adhesion / rested.modulus
     assert factor > 1.5
-    found = np.median(judge_draws(rested, draws)["remaining"])
+    found = np.median(judge_draws(meet(rested, draws))["remaining"])
     # Its limits span three decades, so that the median of a few hundred draws errs.
     assert found == pytest.approx(factor * one.share(length, rested.range), rel=0.2)
 
@@ -80,7 +81,7 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
     Half of the draws stick at the threshold, all or none of them well beyond the model's error.
     """
     solid = material_at(factor)
-    found = judge_draws(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
+    found = judge_draws(meet(solid, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME)))
     assert found["error_of_spectrum"] == pytest.approx(0, abs=1e-12)
     assert found["share_error_of_spectrum"] == pytest.approx(0, abs=1e-12)
     # What sticks is what keeps the wanted share.

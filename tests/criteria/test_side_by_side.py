@@ -3,19 +3,16 @@
 import json
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import pytest
-from helpers.analysed import wall
+from helpers.analysed import fix_a_v, wall
 from helpers.pages import Page, make_job
 
 from common.verdicts import SHARES, find_limits, find_value
-from criteria import judge, verdicts
+from criteria import judge
 from stickiness import datasets
-from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.registry import REMAINING
 
-A_V = SurfaceAv(np.array([1e-9, 1.0]), np.array([[4.0, 4.0]]), 0.1)
 COMMON = {"work_of_adhesion": "50 mJ/m^2", "range": "0.3 nm"}
 FILM = {"youngs_modulus": "4 GPa", "poisson_ratio": 0.4, "thickness": "50 um"}
 MATERIALS = {
@@ -35,7 +32,7 @@ def written(monkeypatch, tmp_path):
         )
         for name, h_rms in SURFACES.items()
     }
-    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+    fix_a_v(monkeypatch)
     monkeypatch.setattr(judge, "read_surfaces", lambda *_: surfaces)
     names = {"dataset": "nc", "table": "md", "page": "html", "csv": "csv", "workbook": "xlsx"}
     outputs = {name: str(tmp_path / f"v.{ending}") for name, ending in names.items()}

@@ -5,20 +5,28 @@ import json
 import numpy as np
 import xarray as xr
 
+from criteria import verdicts
 from criteria.pair_roughness import ENDS
+from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine, Tabulated
 
 LONGEST = 2e-4  # of the made-up wall [m]
+A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 
 
-def wall(h_rms=1e-6, draws=0, **more):
-    """Analysed surface whose rough end has twice the rms height of the smooth one."""
-    spectra = [
-        SelfAffine(hurst=0.8, q0=2 * np.pi / LONGEST, q1=1e8, h_rms=factor * h_rms)
-        for factor in (1, 2)
-    ]
-    q = np.geomspace(spectra[0].q0, spectra[0].q1, 200)
-    spectra = [Tabulated(q, spectrum.psd(q)) for spectrum in spectra]
+def fix_a_v(monkeypatch):
+    """Take `A_V` for all surfaces: little depends on it, and theory takes its time."""
+    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+
+
+def wall(h_rms=1e-6, draws=0, apart=2.0, scatter=0.0, longest=LONGEST, shortest=6e-8, **more):
+    """Analysed surface whose rough end is so many times as high as the smooth one.
+
+    Heights of the draws scatter about the smooth end, with this standard deviation in logarithms.
+    """
+    q = np.geomspace(2 * np.pi / longest, 2 * np.pi / shortest, 200)
+    shape = SelfAffine(hurst=0.8, q0=q[0], q1=q[-1], h_rms=h_rms).psd(q)
+    spectra = [Tabulated(q, factor**2 * shape) for factor in (1, apart)]
     data = {
         name: ("end", [getattr(spectrum, name) for spectrum in spectra])
         for name in ("h_rms", "rms_slope", "rms_curvature")
@@ -26,8 +34,9 @@ def wall(h_rms=1e-6, draws=0, **more):
     data["elastic_energy"] = "end", [spectrum.elastic_energy() for spectrum in spectra]
     data["psd"] = ("end", "wave_number"), [spectrum.psd(q) for spectrum in spectra]
     if draws:
-        for name in ("h_rms", "elastic_energy"):
-            data[f"{name}_draws"] = "draw", np.full(draws, data[name][1][0])
+        factors = np.exp(scatter * np.random.default_rng(1).normal(size=draws))
+        for name, power in (("h_rms", 1), ("elastic_energy", 2)):
+            data[f"{name}_draws"] = "draw", data[name][1][0] * factors**power
         data["q0_draws"] = "draw", np.full(draws, q[0])
     data |= {"q0": q[0], "q1": q[-1], "hurst": 0.8, **more}
     made = {"label": "wall", "kind": "self_affine"}

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
 
 from stickiness.criteria.a_v_table import RANGES
 from stickiness.criteria.pair import BROAD_A_V, Pair
@@ -28,10 +28,10 @@ CONTACT_AREA = 0.05  #: share of the nominal area
 # 16 to 256, cells of two waves and more). On thin bonded layers theory has as little as half of it.
 AREA_ERROR, AREA_ERROR_LAYER, AREAS = 0.15, 0.45, (0.005, 0.35)
 ROUGHEST, DEEPEST = 1e3, 25.0  # searched, over the heights, and over 1/q of the longest waves
-_PER_DECADE, _FINER, _TIMES = 5, 5, 10  # points of the first search, of finer ones; searches
+_PER_DECADE, _PRECISION = 5, 1e-8  # points of the search, and relative, between two of them
 _FREQUENCIES = 1e-12, 1e12  # [Hz], of a Prony series
 
-Remain = Callable[[Pair], NDArray]
+Remain = Callable[[Pair], NDArray]  # shares (n, end, limit), see `remain_at_ends`
 
 
 class Threshold(NamedTuple):
@@ -103,8 +103,7 @@ def thresholds(
         rms_height=find_rms_height(pair, pair.h_rms),
         thickness=find_thickness(pair, solid, spectra),
         pressure=find_pressure(spectra, solid, pair, contact_area),
-        rate=storage
-        and Threshold(*(find_rate(storage, x, _FREQUENCIES, x == modulus.high) for x in modulus)),
+        rate=storage and find_rate(storage, sorted(modulus), _FREQUENCIES),
     )
 
 
@@ -116,11 +115,10 @@ def remain_at_ends(pair: Pair) -> NDArray:
 def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Threshold:
     """Find the rms height [m] below which the wanted share remains; `h_rms` is what `pair` has.
 
-    `pair` has arrays of the ends of what is known of a surface, or of draws, and `remain` makes
-    shares (x, end, limit) of it.
+    `pair` has arrays of the ends of what is known of a surface, or of draws.
     """
     ends = pair.range / RANGES[-1], ROUGHEST * h_rms
-    return _search(lambda x: remain(pair.scaled(x / h_rms)), *ends, pair.wanted_share)
+    return find_threshold(lambda x: remain(pair.scaled(x / h_rms)), *ends, pair.wanted_share)
 
 
 def find_thickness(
@@ -130,77 +128,62 @@ def find_thickness(
 
     `spectra` are of the ends; draws change as both do on average. Others as of `find_rms_height`.
     """
+    h_rms, q0 = np.atleast_1d(pair.h_rms, pair.q0)
 
     def put_on(thickness: NDArray) -> NDArray:
         layers = [solid, *(replace(solid, thickness=d) for d in thickness[:, 0])]
         energy = np.array([[one.elastic_energy(layer) for one in spectra] for layer in layers])
-        if np.size(pair.h_rms) > len(spectra):
+        if h_rms.size > len(spectra):
             energy = np.exp(np.log(energy).mean(axis=1, keepdims=True))
-        soft = np.array([np.atleast_1d(layer.factor(pair.q0)) for layer in layers])
-        changed = {
-            "elastic_energy": pair.elastic_energy * energy[1:] / energy[0],
-            "relative_compliance": pair.relative_compliance * soft[1:] / soft[0],
-            "layer_strain": [np.atleast_1d(x.strain(pair.h_rms, pair.q0)) for x in layers[1:]],
-        }
-        return remain(replace(pair, **{name: np.array(x) for name, x in changed.items()}))
+        soft = np.array([layer.factor(q0) for layer in layers])
+        changed = replace(
+            pair,
+            elastic_energy=pair.elastic_energy * energy[1:] / energy[0],
+            relative_compliance=pair.relative_compliance * soft[1:] / soft[0],
+            layer_strain=np.array([layer.strain(h_rms, q0) for layer in layers[1:]]),
+        )
+        return remain(changed)
 
-    ends = DEEPEST / spectra[0].band[0], np.min(pair.h_rms)
-    return None if solid == HALF_SPACE else _search(put_on, *ends, pair.wanted_share)
-
-
-def _search(
-    remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float
-) -> Threshold:
-    """Find the geometric mean of the thresholds of all ends, and their farthest limits."""
-
-    @cache  # the first places are the same for all limits
-    def kept(places: tuple[float, ...]) -> NDArray:
-        return remain(np.array(places)[:, None])
-
-    def find(end: int, limit: int) -> float:
-        def share(x: NDArray) -> NDArray:
-            return kept(tuple(x))[:, end, limit]
-
-        return find_crossing(share, start, stop, wanted, last=limit == 2)
-
-    ends = range(kept((start,)).shape[1])
-    found = np.array([[find(end, limit) for limit in range(3)] for end in ends])
-    with np.errstate(invalid="ignore"):  # none at one end, any at the other
-        value = float(np.prod(found[:, 1]) ** (1 / len(ends)))
-    return Threshold(value, float(found.min()), float(found.max()))
+    ends = DEEPEST / spectra[0].band[0], h_rms.min()
+    return None if solid == HALF_SPACE else find_threshold(put_on, *ends, pair.wanted_share)
 
 
-def find_crossing(
-    share: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float, last: bool
-) -> float:
-    """Find where a share first, or at `last`, falls below the wanted one from `start` to `stop`.
+def find_rate(storage: Modulus, moduli: ArrayLike, frequencies: ArrayLike) -> Threshold:
+    """Find the frequency [Hz] up to which a storage modulus stays below others: low, value, high.
 
-    0 or infinity if that is beyond the start or the stop. The share is large at the start.
-    """
-    x = np.geomspace(start, stop, 2 + int(_PER_DECADE * abs(np.log10(stop / start))))
-    for finer in range(_TIMES):
-        enough = share(x[1:-1] if finer else x) >= wanted
-        if finer:  # between a place that has enough and one that has not
-            enough = np.concatenate([[True], enough, [False]])
-        before, after = np.append(True, enough), np.append(enough, False)
-        count = np.flatnonzero(before)[-1] if last else np.argmin(after)
-        if count in (0, x.size):
-            return 0.0 if (count == 0) == (start < stop) else np.inf
-        x = np.geomspace(x[count - 1], x[count], _FINER)
-    return float(np.sqrt(x[0] * x[-1]))
-
-
-def find_rate(
-    storage: Modulus, modulus: float, frequencies: ArrayLike, last: bool = False
-) -> float:
-    """Find the frequency [Hz] up to which a storage modulus stays below another one.
-
-    0 or infinity if at none or all of those between the first and the last of `frequencies`. A
-    table with a peak may fall below again: see `find_crossing` for `last`.
+    It is searched between the first and the last of `frequencies`, within a table.
     """
     known = getattr(storage, "frequencies", frequencies)
     start, stop = np.clip((known[0], known[-1]), frequencies[0], frequencies[-1])
-    return find_crossing(lambda f: modulus / storage.storage(f), start, stop, 1.0, last)
+    return find_threshold(lambda f: moduli / storage.storage(f)[..., None], start, stop, 1.0)
+
+
+def find_threshold(
+    remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float
+) -> Threshold:
+    """Find where shares fall below the wanted one from `start`, where they are large, to `stop`.
+
+    0 or infinity if that is beyond the start or the stop. `remain` makes shares (n, end, limit) of
+    values (n, 1). A threshold is the geometric mean over the ends, with the farthest limits.
+    """
+
+    def excess(x: float, *place: int) -> float:
+        return remain(np.array([[x]]))[0, *place] - wanted
+
+    x = np.geomspace(start, stop, 2 + int(_PER_DECADE * abs(np.log10(stop / start))))
+    enough = remain(x[:, None]) >= wanted
+    found = np.empty(enough.shape[1:])
+    for end, limit in np.ndindex(found.shape):
+        kept = enough[:, end, limit]
+        count = np.flatnonzero([True, *kept])[-1] if limit == 2 else np.argmin([*kept, False])
+        if count in (0, x.size):
+            found[end, limit] = 0.0 if (count == 0) == (start < stop) else np.inf
+        else:
+            around, xtol = x[count - 1 : count + 1], _PRECISION * x[count]
+            found[end, limit] = brentq(excess, *around, (end, limit), xtol)
+    with np.errstate(invalid="ignore"):  # none at one end, any at the other
+        value = float(np.prod(found[:, 1]) ** (1 / len(found)))
+    return Threshold(value, float(found.min()), float(found.max()))
 
 
 def find_pressure(
@@ -209,8 +192,8 @@ def find_pressure(
     """Find the mean pressure [Pa] at an area of contact of both ends, without adhesion."""
     q0, unlike = float(np.mean(pair.q0)), float(np.mean(pair.anisotropy_error_factor))
     error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
-    areas = area * np.array([1.0, (1 - error) * (1 - AREA_ERROR_LAYER * harder), 1 + error])
+    areas = area * np.array([(1 - error) * (1 - AREA_ERROR_LAYER * harder), 1.0, 1 + error])
     theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
     found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
-    value = float(np.exp(np.log(found[:, 0]).mean()))
-    return Threshold(value, float(found[:, 1].min()), float(found[:, 2].max()))
+    value = float(np.exp(np.log(found[:, 1]).mean()))
+    return Threshold(value, float(found[:, 0].min()), float(found[:, 2].max()))

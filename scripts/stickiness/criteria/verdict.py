@@ -12,7 +12,6 @@ from numpy.typing import ArrayLike
 from stickiness import __version__
 from stickiness.arguments import number, positive
 from stickiness.criteria.a_v_table import RANGES, surface_a_v
-from stickiness.criteria.contact_law import describe_contact_law
 from stickiness.criteria.pair import LIMITED, MOST_STRAIN, REGIMES, WORDS, Pair, decide, judge
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
@@ -56,14 +55,11 @@ class StickinessVerdict:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the effective attraction for DEM and FE models, in SI units and ready for JSON."""
-        pair = self.pair
-        found = describe_contact_law(
-            *(pair.modulus, pair.work_of_adhesion, pair.range),
-            (self.remaining, *self.remaining_limits),
-            (self.pull_off, *self.pull_off_limits),
-            pair.adhesion_length / pair.elastic_energy,
-        )
-        return {"version": __version__, "verdict": self.word, "law": pair.law, **found}
+        remaining = self.remaining, *self.remaining_limits
+        pull_off = self.pull_off, *self.pull_off_limits
+        ratio = self.pair.adhesion_length / self.pair.elastic_energy
+        found = describe_contact_law(self.word, self.pair, remaining, pull_off, ratio)
+        return {"version": __version__, **found}
 
     def __str__(self) -> str:
         pair = self.pair
@@ -236,6 +232,33 @@ def verdict(
         doubts=tuple(map(str, doubts)),
         spectrum=spectrum,
     )
+
+
+def describe_contact_law(
+    word: str, given: Any, remaining: ArrayLike, pull_off: ArrayLike, energy_ratio: float
+) -> dict[str, Any]:
+    """Return a verdict and the effective attraction of a smooth surface, for DEM and FE models.
+
+    `given` has properties of a `Pair`; `remaining` and `pull_off` are (value, low, high). What is
+    not known is left out: all but the low limit of the pull-off where `energy_ratio`, the work of
+    adhesion over the energy of full contact, is large.
+    """
+    stress = np.array(pull_off, dtype=float)
+    if energy_ratio > PULL_OFF_UNKNOWN:
+        stress[[0, 2]] = np.nan
+    found = {
+        "modulus": ("Pa", [given.modulus]),
+        "work_of_adhesion": ("J/m^2", [given.work_of_adhesion]),
+        "range": ("m", [given.range]),
+        "effective_work_of_adhesion": ("J/m^2", given.work_of_adhesion * np.array(remaining)),
+        "pull_off_stress": ("Pa", stress),
+    }
+    ends = "value", "low", "high"
+    return {"verdict": word, "law": given.law} | {
+        name: {end: float(x) for end, x in zip(ends, values, strict=False) if np.isfinite(x)}
+        | {"unit": unit}
+        for name, (unit, values) in found.items()
+    }
 
 
 def describe_surface(

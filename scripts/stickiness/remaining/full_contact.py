@@ -61,7 +61,6 @@ def full_contact_energy(
     if edges != "given":
         heights = periodise(detrend(heights, "plane"), edges)
     plane = power_spectrum(heights, *map(float, steps))
-    stiffness = np.zeros_like(plane.q)
-    stiffness[plane.q > 0] = solid.stiffness(plane.q[plane.q > 0])
-    stored = np.sum(plane.psd * plane.multiplicity * stiffness) * np.prod(plane.steps) / 2
-    return modulus * float(stored)
+    stiffness = solid.stiffness(plane.q.ravel()[1:])  # of all but the mean
+    stored = (plane.psd * plane.multiplicity).ravel()[1:] @ stiffness
+    return modulus * float(stored * np.prod(plane.steps)) / 2

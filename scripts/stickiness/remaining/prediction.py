@@ -262,28 +262,24 @@ class Roughness:
         names = ("h_rms", "q0", "elastic_energy", "relative_compliance")
         positive(**{name: getattr(self, name) for name in names}, range=range)
         *known, films = (getattr(self, field.name) for field in fields(Roughness))
-        known = [np.nan if value is None else value for value in known]
-        start = np.nan if adhesion_length is None else adhesion_length
-        at = np.broadcast_arrays(*known, start, range, sign, separation_factor, share)
+        known = [np.nan if value is None else value for value in (*known, adhesion_length)]
+        at = np.broadcast_arrays(*known, range, sign, separation_factor, share)
         energy, share, shape = at[2], at[-1], at[0].shape
         at, most = [values.ravel() for values in at], 0.0
-        if adhesion_length is None:
-            films = None
-        if films is not None:
-            most = np.max(films[..., 0, :], axis=-1)
-            table = films.shape[-2:]
+        bends = films is not None and adhesion_length is not None
+        if bends:
+            most, table = films[..., 0, :].max(axis=-1), films.shape[-2:]
             films = np.broadcast_to(films, (*shape, *table)).reshape(-1, *table)
 
         def excess(log_length, i):
             *known, start, range, sign, factor, share = (values[i] for values in at)
-            rough = Roughness(*known, None if films is None else films[i])
-            rough = rough.at_modulus(start / np.exp(log_length))
-            return np.asarray(rough.share(np.exp(log_length), range, sign, factor)) - share
+            length, rough = np.exp(log_length), Roughness(*known, films[i] if bends else None)
+            return rough.at_modulus(start / length).share(length, range, sign, factor) - share
 
         bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share)) + most
         # Limits say at the length given what the share there says, even if they do not rise.
-        given = bracket[0] if adhesion_length is None else np.log(start)
-        given, place = np.clip(given, *bracket), np.arange(share.size).reshape(shape)
+        given = np.clip(np.fmax(np.log(known[-1]), bracket[0]), *bracket)
+        place = np.arange(share.size).reshape(shape)
         remains = excess(given, place) >= 0
         bracket = np.where(remains, bracket[0], given), np.where(remains, given, bracket[1])
         found = elementwise.find_root(excess, bracket, args=(place,))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stickiness import thresholds, verdict
-from stickiness.criteria.thresholds import find_crossing, find_rate
+from stickiness.criteria.thresholds import find_rate, find_threshold
 from stickiness.persson import Persson
 from stickiness.solids import Film, Layer
 from stickiness.solids.moduli import Prony, Table
@@ -87,10 +87,10 @@ def test_no_thickness_or_rate_sticks_or_every_one_does():
     layer = replace(LAYER, thickness=soft.thickness.high)
     assert layer.strain(1e-6, 1.2e5) == pytest.approx(0.3, rel=1e-3)
     assert table.storage(between.rate.value) == pytest.approx(between.modulus.value, rel=1e-4)
-    assert [find_rate(table, e, (1e-3, 1e3)) for e in (0.0, 9e4, 2e7)] == [0.0, 0.0, np.inf]
+    assert find_rate(table, (0.0, 9e4, 2e7), (1e-3, 1e3)) == (0.0, 0.0, np.inf)
     peak = Table((0.01, 1.0, 100.0), (1e4, 1e6, 1e4))
-    found = [find_rate(peak, 1e5, (1e-3, 1e3), last) for last in (False, True)]
-    assert found == [pytest.approx(0.1, rel=1e-4), np.inf]
+    found = find_rate(peak, (1e5,) * 3, (1e-3, 1e3))
+    assert found == (pytest.approx(0.1, rel=1e-4), pytest.approx(0.1, rel=1e-4), np.inf)
 
 
 def test_several_crossings_widen_the_limits():
@@ -99,14 +99,17 @@ def test_several_crossings_widen_the_limits():
     def share(x):
         return 0.15 + 0.1 * np.sin(np.log(x)) - 0.02 * np.log(x)
 
-    first, last = (find_crossing(share, 1e-2, 1e5, 0.1, last) for last in (False, True))
-    for x in (first, last):
+    def limits(x):
+        return share(x)[..., None] * np.ones(3)
+
+    value, first, last = find_threshold(limits, 1e-2, 1e5, 0.1)
+    for x in (value, first, last):
         assert share(x) == pytest.approx(0.1, abs=1e-6)
     assert share(first * 0.99) > 0.1 > share(first * 1.01)
     assert np.all(share(np.geomspace(last * 1.001, 1e5, 500)) < 0.1)
     assert first < last / 3
-    beyond = [find_crossing(share, 1e5, 1e-2, wanted, last=False) for wanted in (0.5, -1.0)]
-    assert beyond == [np.inf, 0.0]
+    beyond = [find_threshold(limits, 1e5, 1e-2, wanted) for wanted in (0.5, -1.0)]
+    assert beyond == [(np.inf,) * 3, (0.0,) * 3]
 
 
 def test_pressure_of_an_area_of_contact():
