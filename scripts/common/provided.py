@@ -21,6 +21,7 @@ def choose_mine(pairs):
 
 
 def choose_pictured(materials):
-    """The material whose pull-off is pictured: the user's first one, or else the softest."""
+    """The material whose pull-off is pictured: a user's one, deep if there is, or the softest."""
+    mine = [name for name in materials if name not in MATERIALS]
     softest = min(materials, key=lambda name: read_material(materials[name]).modulus)
-    return next((name for name in materials if name not in MATERIALS), softest)
+    return min(mine, key=lambda name: "thickness" in materials[name], default=softest)

@@ -44,10 +44,12 @@ def ask(material, judged, surface, second):
     rough, spectra = conform(material, surface, second), find_spectra(surface, second)
     draws = read_draws(rough, material)
     pair, remain = meet(material, read_ends(rough)), questions.remain_at_ends
+    h_rms = float(rough.h_rms[-1])
     if draws is not None:
         pair, remain = draws, lambda at: remain_of_draws(at)[:, None]
+        h_rms = float(np.sqrt(rough.h_rms.prod()))
     return (
-        questions.find_rms_height(pair, float(np.sqrt(rough.h_rms.prod())), remain),
+        questions.find_rms_height(pair, h_rms, remain),
         questions.find_thickness(pair, material.solid, spectra, remain),
         find_rate(material, judged),
         questions.find_pressure(spectra, material.solid, pair),

@@ -28,7 +28,6 @@ DRAWS, SEED = 200, 1
 REFERENCE_HURST = 0.8  # of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
-SHORTEST_WAVE = 0.3e-9  # [m]; the distance of atoms, where any roughness ends
 IGNORED = "judged all the same (plausibility: ignore)"
 PICTURE_POINTS = 400  # along a side of the picture of the heights
 
@@ -167,7 +166,7 @@ def analyse(entry):
         doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
         extend_to = None
     drawn = stitching.draw(
-        spectrum, DRAWS, SEED, extend_to=extend_to, continue_to=2 * np.pi / SHORTEST_WAVE
+        spectrum, DRAWS, SEED, extend_to=extend_to, continue_to=2 * np.pi / stitching.SHORTEST_WAVE
     )
     doubts += [doubt for one in heights for doubt in one.doubts]
     withheld = [] if entry.get("plausibility") == "ignore" else doubts

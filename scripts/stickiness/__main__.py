@@ -18,7 +18,7 @@ TEXTS = tomllib.loads(Path(__file__).with_name("command.toml").read_text(encodin
 MATERIAL, SURFACE = TEXTS["material"], TEXTS["surface"]  # options by key of the configuration
 OPTIONS = {key: option for key, (option, _) in (MATERIAL | SURFACE).items()}
 # A key where an error speaks of it, and what separates it from its value.
-BEFORE = r"^|: |\b(?:give|give its|leave|raise|or|and|as|by) |(?<!\w)(?=\w+: [a-z])"
+BEFORE = r"^|[:;] |\(|\b(?:correct|give|give its|leave|raise|or|and|as|by) |(?<!\w)(?=\w+: [a-z])"
 KEY = re.compile(rf"(?m)({BEFORE})({'|'.join(OPTIONS)})\b( =|:)?")
 
 

@@ -72,7 +72,7 @@ def load(path: str | Path) -> dict[str, Any]:
     except yaml.YAMLError as error:
         mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", error)
         line = f" line {mark.line + 1}" if mark else ""
-        if mark and "\t" in text.splitlines()[mark.line]:
+        if mark and "\t" in "".join(text.splitlines()[mark.line : mark.line + 1]):
             problem = "it holds a tab: indent with blanks"
         raise ConfigError(f"{path}:{line}: not valid YAML: {problem}") from None
     if not isinstance(content, dict):

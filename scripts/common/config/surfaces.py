@@ -95,6 +95,11 @@ class SurfaceTexture(f.Labelled):
         if any(wide >= (self.lambda_c or 8e-3) for wide in _listed(self.RSm)):
             yield f"RSm = {self.RSm!r} must be below lambda_c, at most 8 mm"
         rq = _listed(self.Rq) or [texture.RQ_OVER_RA * ra for ra in _listed(self.Ra)]
+        widest = max(_listed(self.RSm), default=math.inf)
+        if 2 * math.pi * rq[0] > plausibility.LARGEST_SLOPE * widest:
+            yield f"RSm = {self.RSm!r} is too narrow for such heights: no surface is as steep"
+        if (self.shortest_wavelength or 0) >= min(_listed(self.RSm), default=math.inf) / 2:
+            yield f"shortest_wavelength = {self.shortest_wavelength!r} must be below half of RSm"
         low, high = texture.RZ_OVER_RQ
         if self.Rz is not None and not low * rq[0] <= self.Rz <= high * rq[-1]:
             yield (

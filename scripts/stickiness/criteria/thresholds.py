@@ -164,7 +164,7 @@ def find_threshold(
     """Find where shares fall below the wanted one from `start`, where they are large, to `stop`.
 
     0 or infinity if that is beyond the start or the stop. `remain` makes shares (n, end, limit) of
-    values (n, 1). A threshold is the geometric mean over the ends, with the farthest limits.
+    values (n, 1). The value is at the last end, the rough one, as in verdicts; limits are farthest.
     """
 
     def excess(x: float, *place: int) -> float:
@@ -181,19 +181,21 @@ def find_threshold(
         else:
             around, xtol = x[count - 1 : count + 1], _PRECISION * x[count]
             found[end, limit] = brentq(excess, *around, (end, limit), xtol)
-    with np.errstate(invalid="ignore"):  # none at one end, any at the other
-        value = float(np.prod(found[:, 1]) ** (1 / len(found)))
-    return Threshold(value, float(found.min()), float(found.max()))
+    return Threshold(float(found[-1, 1]), float(found.min()), float(found.max()))
 
 
 def find_pressure(
     spectra: list[Spectrum], solid: Solid, pair: Pair, area: float = CONTACT_AREA
 ) -> Threshold:
-    """Find the mean pressure [Pa] at an area of contact of both ends, without adhesion."""
+    """Find the mean pressure [Pa] at an area of contact, without adhesion.
+
+    The value is at the last of the `spectra`, the rough one, or with draws between the ends.
+    """
     q0, unlike = float(np.mean(pair.q0)), float(np.mean(pair.anisotropy_error_factor))
     error, harder = min(AREA_ERROR * unlike, 0.9), max(1 - float(solid.factor(q0)), 0.0)
     areas = area * np.array([(1 - error) * (1 - AREA_ERROR_LAYER * harder), 1.0, 1 + error])
     theories = [Persson(one, correction="wang2017", solid=solid) for one in spectra]
     found = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
-    value = float(np.exp(np.log(found[:, 1]).mean()))
+    drawn = np.size(pair.h_rms) > len(spectra)
+    value = float(np.exp(np.log(found[:, 1]).mean()) if drawn else found[-1, 1])
     return Threshold(value, float(found[:, 0].min()), float(found[:, 2].max()))

@@ -22,6 +22,9 @@ from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
 from stickiness.traction_laws import EXPONENTIAL
 
+MOST_UNRESOLVED = 0.5  #: energy of waves finer than those of heights over theirs; a warning above
+_DRAWS = 20  # of spectra that agree with heights
+
 
 @dataclass(frozen=True)
 class StickinessVerdict:
@@ -164,7 +167,8 @@ def verdict(
     -----
     PlausibilityWarning
         If the rms slope exceeds 1, if a value is none that real pairs have in SI units, such as a
-        modulus in MPa or a length of 2 for 2 mm, or if heights have spikes or the like.
+        modulus in MPa or a length of 2 for 2 mm, if heights have spikes or the like, or if waves
+        that heights do not resolve decide. A spectrum has the waves that it is given.
 
     Examples
     --------
@@ -292,7 +296,7 @@ def describe_surface(
 def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, float]:
     """Spectrum of measured heights, its longest waves and its ratio of correlation lengths."""
     # A verdict on a spectrum needs no reader of measured files.
-    from stickiness.measured import instrument_spectrum
+    from stickiness.measured import instrument_spectrum, stitching
     from stickiness.measured.plausibility import doubt_heights
     from stickiness.measured.topography import Topography
 
@@ -312,7 +316,15 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
     measured = instrument_spectrum.analyse(
         Topography(heights, dx, dy, "heights").detrended("plane")
     )
-    for doubt in doubt_heights(heights, measured.fit):
+    doubts = [*doubt_heights(heights, measured.fit)]
+    finest = 2 * np.pi / stitching.SHORTEST_WAVE
+    beyond = np.median(stitching.draw(measured, _DRAWS, 0, continue_to=finest).unresolved)
+    if not doubts and beyond > MOST_UNRESOLVED:
+        doubts = [
+            "finer waves than those resolved decide: if the fitted law goes on to 0.3 nm, full "
+            f"contact takes {1 + beyond:.2g} times the energy, and less remains than is said"
+        ]
+    for doubt in doubts:
         warnings.warn(f"heights: {doubt}", PlausibilityWarning, stacklevel=2)
     ratio = find_ratio(np.nan_to_num(measured.anisotropy), measured.fit.hurst)
     return measured.spectrum(), measured.fit.q_rolloff or measured.lowest, ratio

@@ -6,7 +6,7 @@ run along y; such a matrix is transposed on reading.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
@@ -178,22 +178,11 @@ def read(
     if spikes not in ("mask", "keep"):
         raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
     raw = readers.read(path, format, variable, channel)
-    kind = readers.format_of(path, format)
     source, heights = raw.source, raw.heights
     _ask_for_units(raw, length or pixel_size, height_unit, position_unit)
-    contradictions = []
-    # Where a format leaves no choice of the unit, its reader gives metres, as nobody says them.
-    if raw.unit == "m" and height_unit not in (None, "m") and kind == readers.INSTRUMENT:
-        contradictions.append(f"height_unit = {height_unit!r} is not used: the file has its unit")
-        height_unit = None
     if missing_value is not None:
         heights = np.where(heights == missing_value, np.nan, heights)
     x, steps = None, _places(raw, length, pixel_size, position_unit)
-    if raw.places is not None and raw.place_unit is not None and (length or pixel_size):
-        in_file = _places(raw, None, None, None)
-        if not np.allclose(in_file, steps, rtol=_SAME_SIZE, atol=0):
-            ratio = np.max(steps) / np.max(in_file)
-            contradictions.append(f"the size given is used, {ratio:.3g} times the size in the file")
     if heights.ndim == 1:
         order = np.argsort(steps, kind="stable")
         x, heights = steps[order], heights[order]
@@ -219,7 +208,11 @@ def read(
         steps = (float(even[1] - even[0]),)
         if np.ptp(gaps) > 1e-3 * steps[0]:
             filled = np.interp(even, x, filled)
-    scale = _scale(source, "height_unit", height_unit, raw.unit)
+    # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
+    in_metres = raw.unit == "m" and readers.format_of(path, format) == readers.INSTRUMENT
+    unit = None if in_metres else height_unit
+    contradictions = tuple(_contradict(raw, length or pixel_size, steps, height_unit, in_metres))
+    scale = _scale(source, "height_unit", unit, raw.unit)
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
@@ -232,7 +225,7 @@ def read(
         "as_read": heights * scale if dropped or masked else None,
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
         "others": raw.others,
-        "contradictions": tuple(f"{source}: {said}" for said in contradictions),
+        "contradictions": contradictions,
     }
     if x is not None:
         return Profile(filled, *steps, source, float(gaps.max()), **known)
@@ -265,6 +258,17 @@ def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
         unknown, keys = zip(*wanted, strict=True)
         said = f"the file does not tell {' or '.join(unknown)}; give {' and '.join(keys)}"
         raise ValueError(f"{raw.source}: {said}")
+
+
+def _contradict(raw: Raw, size, steps, height_unit, in_metres: bool) -> Iterator[str]:
+    """Say where the file tells otherwise than the caller, and which of them is taken."""
+    if in_metres and height_unit is not None and metres(f"1 {height_unit}", "height_unit") != 1:
+        yield f"{raw.source}: the heights are in m; height_unit = {height_unit!r} is not used"
+    known = raw.heights.ndim == 2 and raw.places is not None and raw.place_unit is not None
+    if size is not None and known:
+        ratio = np.max(np.divide(steps, _places(raw, None, None, None)))
+        if not np.isclose(ratio, 1, rtol=_SAME_SIZE):
+            yield f"{raw.source}: the size given is used, {ratio:.3g} times the size in the file"
 
 
 def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:

@@ -157,9 +157,11 @@ class Layer(_Compliant):
         for rigid, although its bending relieves the layer of long waves.
         """
         k = np.asarray(q0) * self.thickness
+        least = np.divide(h_rms, self.thickness)
+        if self.backing == "slip":
+            return plain(least + 0 * k)
         flow = k**2 * 4 / 3 * (1 - self.poisson) ** 2  # over compression, in incompressible layers
-        flow = 0.0 if self.backing == "slip" else flow / (flow + 1 - 2 * self.poisson)
-        return plain(np.divide(h_rms, self.thickness) * np.maximum(1.0, 3 * flow / k))
+        return plain(least * np.maximum(1.0, 3 * flow / (flow + 1 - 2 * self.poisson) / k))
 
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""

@@ -193,6 +193,17 @@ def test_channels_of_heights(name, unit, is_height, holds):
 # Errors name file, value and remedy in one line
 
 
+def test_what_is_said_otherwise_than_in_the_file(tmp_path, counts):
+    path = bcr(tmp_path / "a.bcr", counts)
+    in_file = topography.read(path)
+    assert in_file.contradictions == ()
+    given = topography.read(path, length=[2 * side for side in in_file.size])
+    assert given.contradictions == (
+        f"{given.source}: the size given is used, 2 times the size in the file",
+    )
+    assert given.size == pytest.approx([2 * side for side in in_file.size])
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
