@@ -85,7 +85,7 @@ class StickinessVerdict:
             "few surfaces with a direction were simulated\n"
         )
         more = f", separation factor {self.separation_factor:.3g}"
-        return "".join(f"improbable: {doubt}\n" for doubt in self.doubts) + (
+        return "".join(f"warning: {doubt}\n" for doubt in self.doubts) + (
             f"{self.word}: {self.remaining:.2g} of the work of adhesion remains "
             f"({low:.2g} to {high:.2g}); {pair.wanted_share:g} is wanted\n"
             f"pull-off stress: {pull_off}\n"
