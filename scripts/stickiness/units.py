@@ -97,6 +97,11 @@ def _meant(value: str, units: str) -> str | None:
     if match is None:
         return None
     number, written = match.groups()
-    spellings = {known.lower().replace("^", ""): known for known in units.split()}
+    # A power that is written is meant: N/m2 is no N/m.
+    spellings = {
+        known.lower().replace("^", ""): known
+        for known in units.split()
+        if ("2" in known) == ("2" in written)
+    }
     close = difflib.get_close_matches(written.lower().replace("^", ""), spellings, n=1, cutoff=0.6)
     return f"did you mean '{number} {spellings[close[0]]}'?" if close else None

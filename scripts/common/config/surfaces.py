@@ -233,7 +233,8 @@ def _file_problems(measurement, made):
         return
     if not Path(file).is_file():
         if not made:
-            yield f"file = {file!r}: no such file; give a path from the working directory"
+            found = "a folder" if Path(file).is_dir() else "no such file"
+            yield f"file = {file!r}: {found}; give a path from the working directory"
         return
     if advice := readers.find_packing(file):
         yield f"file = {file!r}: {advice}"
