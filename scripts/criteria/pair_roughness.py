@@ -12,7 +12,7 @@ import xarray as xr
 
 from stickiness.criteria.a_v_table import LOAD, surface_a_v
 from stickiness.criteria.pair import Pair
-from stickiness.remaining.prediction import MODULUS_FACTORS, Roughness, find_film_response
+from stickiness.remaining.prediction import FILM_FACTORS, Roughness, find_film_response
 from stickiness.remaining.prediction import find_anisotropy_error_factor as find_error_factor
 from stickiness.solids import HALF_SPACE, Film
 from stickiness.spectrum import combine as add_roughness
@@ -71,7 +71,7 @@ def describe(surface):
         **{bound: pair[name] for name, bound in BOUNDS.items() if name in pair},
         stiffening=xr.ones_like(pair.elastic_energy),
         relative_compliance=1.0,
-        film_response=(("end", "response", "factor"), np.zeros((2, 2, len(MODULUS_FACTORS)))),
+        film_response=(("end", "response", "factor"), np.zeros((2, 2, len(FILM_FACTORS)))),
         anisotropy_error_factor=find_error_factor(float(surface.get("axis_ratio", 1.0))),
     )
 

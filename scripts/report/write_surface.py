@@ -22,6 +22,7 @@ from stickiness.adhesive import edge_zone
 from stickiness.criteria.pair import NOT_JUDGED, SIGNS, WORDS
 from stickiness.criteria.thresholds import CONTACT_AREA
 from stickiness.criteria.verdict import describe_contact_law
+from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.statistics import COVERS
@@ -60,6 +61,7 @@ def main(job):
         labels=job.params.labels,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         contact_area=CONTACT_AREA,
+        most_unresolved=MOST_UNRESOLVED,
         verdicts=[
             describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
             for name in names

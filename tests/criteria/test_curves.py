@@ -10,8 +10,7 @@ from common.materials import read_material
 from common.verdicts import find_limits
 from criteria.verdicts import DWELL_FACTORS, MODULUS_FACTORS, ROUGHNESS_FACTORS, judge_pairs
 from stickiness.remaining import predict
-from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.remaining.prediction import MODULUS_FACTORS as FILM_FACTORS
+from stickiness.remaining.prediction import DEFAULT_SHARE, FILM_FACTORS
 from stickiness.spectrum import SelfAffine
 
 HEIGHTS, Q0 = np.array([1e-6, 1.5e-6]), 6e4

@@ -15,7 +15,7 @@ from criteria.pair_roughness import ENDS, TOO_DIFFERENT, combine, find_spectra
 from report.table_rows import describe_pair
 from stickiness.criteria.pair import WORDS
 from stickiness.remaining import predict
-from stickiness.remaining.prediction import DEFAULT_SHARE, MODULUS_FACTORS, find_film_response
+from stickiness.remaining.prediction import DEFAULT_SHARE, FILM_FACTORS, find_film_response
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine
 
@@ -139,7 +139,7 @@ def test_the_response_on_a_film_ends_at_the_rigid_base_and_at_the_bent_plate():
     bent = plate * spectrum.integrate(lambda q: q**4, *spectrum.band) / 2
     hard = 1e-6 * bent, 1e6 / (2 * plate * q0**3)
     assert (at[0][-1], at[1][-1]) == pytest.approx(hard, rel=1e-3)
-    at_one = MODULUS_FACTORS.size // 2
+    at_one = FILM_FACTORS.size // 2
     assert (energy[at_one], compliance[at_one]) == pytest.approx((1, 1), rel=1e-12)
     assert find_film_response(spectrum, base, q0) is None
 

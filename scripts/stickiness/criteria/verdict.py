@@ -22,7 +22,6 @@ from stickiness.spectrum.direction import find_ratio
 from stickiness.spectrum.interface import Spectrum
 from stickiness.traction_laws import EXPONENTIAL
 
-MOST_UNRESOLVED = 0.5  #: energy of waves finer than those of heights over theirs; a warning above
 _DRAWS = 20  # of spectra that agree with heights
 
 
@@ -319,7 +318,7 @@ def analyse_heights(heights: ArrayLike, length: Any) -> tuple[Spectrum, float, f
     doubts = [*doubt_heights(heights, measured.fit)]
     finest = 2 * np.pi / stitching.SHORTEST_WAVE
     beyond = np.median(stitching.draw(measured, _DRAWS, 0, continue_to=finest).unresolved)
-    if not doubts and beyond > MOST_UNRESOLVED:
+    if not doubts and beyond > stitching.MOST_UNRESOLVED:
         doubts = [
             "finer waves than those resolved decide: if the fitted law goes on to 0.3 nm, full "
             f"contact takes {1 + beyond:.2g} times the energy, and less remains than is said"

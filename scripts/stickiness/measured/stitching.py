@@ -28,6 +28,9 @@ from stickiness.spectrum.direction import expm1_over
 
 RINGS = 20  #: per decade
 SHORTEST_WAVE = 0.3e-9  #: [m]; the distance of atoms, where any roughness ends
+MOST_UNRESOLVED = (
+    0.5  #: energy of unresolved waves over that of the others, above which they decide
+)
 REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 

@@ -47,7 +47,7 @@ LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
 # of full contact is off by less than 1e-3 of itself.
-MODULUS_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
+FILM_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
 # `find_anisotropy_error_factor`.
 UNLIKE, UNLIKE_RATIO = 2.0, 4.0
@@ -97,7 +97,7 @@ class Roughness:
         """Return the same with E* times a factor: the film under a layer keeps its stiffness."""
         if self.film_response is None:
             return self
-        logs = np.log(MODULUS_FACTORS)
+        logs = np.log(FILM_FACTORS)
         place = np.asarray(np.log(factor) - logs[0]) / (logs[1] - logs[0])
         place, logs = np.broadcast_arrays(place[..., None, None], self.film_response)
         place = place[..., :1]
@@ -291,12 +291,12 @@ class Roughness:
 def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray | None:
     """Logarithms of elastic energy over E* and of S at `q0`, over both as they are.
 
-    For factors on the modulus of a layer whose film stays as it is, ``(2, MODULUS_FACTORS)``; None
+    For factors on the modulus of a layer whose film stays as it is, ``(2, FILM_FACTORS)``; None
     without a film.
     """
     if not isinstance(solid, Layer) or not isinstance(film := solid.backing, Film):
         return None
-    ratios = film.modulus_ratio / np.append(1.0, MODULUS_FACTORS)
+    ratios = film.modulus_ratio / np.append(1.0, FILM_FACTORS)
     layers = [replace(solid, backing=replace(film, modulus_ratio=float(r))) for r in ratios]
     found = np.log([(spectrum.elastic_energy(layer), layer.factor(q0)) for layer in layers]).T
     return found[:, 1:] - found[:, :1]
