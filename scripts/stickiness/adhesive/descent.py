@@ -14,7 +14,7 @@ import numpy as np
 
 from stickiness.adhesive.problem import balanced, largest, lowered, spans, sum_blocks
 
-_REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
+REFRESH = 1e-4  # fall of the residual after which the elastic pressure is recomputed
 _MAX_SHORTENINGS = 30
 # Stiffness of a law, over a mean of the half-space's, from which on it preconditions.
 _STIFF_POINT = 3.0
@@ -33,8 +33,8 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
     last_soft, iteration, soft = 0, 0, True
     while True:
         known = rough and state.residual <= tol
-        if not fresh and not known and state.residual <= max(tol, _REFRESH * reference):
-            state = _refreshed(problem, state)
+        if not fresh and not known and state.residual <= max(tol, REFRESH * reference):
+            state = refreshed(problem, state)
             fresh, reference = True, state.residual
             conjugate.forget()
         done = state.residual <= tol or iteration >= max_iterations
@@ -52,12 +52,12 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
         else:
             conjugate.forget()
     if not fresh and not rough:
-        state = _refreshed(problem, state)
+        state = refreshed(problem, state)
     state.iterations, state.last_run = iteration, iteration - last_soft
     return state
 
 
-def _refreshed(problem, state):
+def refreshed(problem, state):
     """State without the rounding of single precision."""
     gap, mean = state.gap, float(state.gap.mean())
     if problem.mean_gap is not None and mean != problem.mean_gap:

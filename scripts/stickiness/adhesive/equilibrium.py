@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from stickiness.adhesive.descent import descend
+from stickiness.adhesive.descent import REFRESH, descend, refreshed
 from stickiness.adhesive.problem import FrozenTraction, balanced, lowered
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.repulsive import solver
@@ -88,11 +88,17 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
     law, state = problem.law, problem.state(gap)
     inside = state.gap <= law.range
     aim, spent = None, 0
+    refreshed_at = state.residual  # where the elastic pressure was last exact
     while True:
         frozen = replace(problem, law=FrozenTraction(law.maugis_stress * inside, law.range))
         if aim is None:
             residual = frozen.state(state.gap, state.elastic).residual
             aim = max(tol, _FROZEN_REDUCTION * residual)
+        # The increments of all rounds add up. Their rounding would exceed so small a residual, and
+        # without contact or load nothing but rounding would then move the surfaces apart.
+        if aim < REFRESH * refreshed_at:
+            state = refreshed(frozen, state)
+            refreshed_at = state.residual
         final = aim <= tol
         left = max_iterations - spent
         state = descend(frozen, state.gap, aim, left, observe, state.elastic, rough=not final)

@@ -331,6 +331,23 @@ def test_extremes_end_in_a_state_or_a_clear_error(kind, eps, la):
         assert np.isfinite([a.mean_pressure, a.energy, a.enthalpy]).all()
 
 
+@pytest.mark.parametrize("kind", [Maugis, Exponential])
+@pytest.mark.parametrize("length_over_range", [1e-6, 1e-8])
+@pytest.mark.parametrize("seed", range(4))
+def test_last_bits_of_the_heights_do_not_part_surfaces_without_a_load(
+    kind, length_over_range, seed
+):
+    """Without contact nothing but a weak attraction holds them, and no load pushes them back."""
+    law = law_of(kind, 1e-3, length_over_range)
+    rounding = 1e-15 * np.random.default_rng(seed).standard_normal((24, 24))
+    state = adhesive.solve(rough(24) * (1 + rounding), 1.0, law, pressure=0.0, start="separation")
+    # The highest point touches, or hangs within the range; nothing else does.
+    touching = rough(24).max() - rough(24).mean()
+    assert state.gap.min() <= law.range
+    assert state.mean_gap == pytest.approx(touching, rel=1e-3)
+    assert state.iterations < 300
+
+
 def test_a_range_that_the_grid_loses_is_refused():
     """Beyond the shares that `edge_zone.is_lost` quotes of what adhesion takes from the load."""
     length, finest, mean_gap = 0.02 * HEIGHT, 256, 0.5 * HEIGHT
