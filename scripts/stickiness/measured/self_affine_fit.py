@@ -20,6 +20,10 @@ from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
 FINE = 200  #: narrow rings per decade: C varies by 4 % across one, its mean by 7e-5
 ROLLOFF_AIC = 10.0  #: gain in AIC below which the simpler model is kept
 COARSE = 10  #: rings per decade for the misfit
+# A ring is empty below this share of the sum of C over all modes, the mean square of the heights.
+# Levelled heights keep the rounding of those as read, in which an offset or a tilt may exceed the
+# roughness a thousandfold: no mode can gather more of it than (1000 * 2e-16)^2.
+_ROUNDING = 1e-24
 _ALTERNATIONS = 20
 _SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
 
@@ -78,22 +82,31 @@ def fit_rings(
 ) -> SelfAffineFit:
     """Fit a self-affine spectrum to narrow rings; AIC decides on a plateau if `rolloff` is None.
 
-    Without `demand` two rings are enough, and such as vanish are left out.
+    Without `demand` two rings are enough, and empty ones, which rounding may fill, are left out.
     """
     if not 0 < q_min < q_max:
         raise ValueError(f"need 0 < q_min < q_max, got q_min = {q_min:.6g}, q_max = {q_max:.6g}")
+    rounding = _ROUNDING * float(rings.dof @ rings.psd)
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     rings = rings.between(q_min * (1 - 1e-9), q_max * (1 + 1e-9))
     if not demand:
-        rings = RadialPSD(*(x[rings.psd > 0] for x in (rings.q, rings.psd, rings.dof)))
+        filled = rings.psd > rounding
+        rings = RadialPSD(rings.q[filled], rings.psd[filled], rings.dof[filled])
     wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
     if len(rings) < 2 or (demand and (wide < 5 or rings.dof.sum() < 20)):
         raise ValueError(
             f"too few modes between q_min = {q_min:.6g} and q_max = {q_max:.6g} for a fit: "
             f"{rings.dof.sum():.0f} independent ones in {wide} rings, need 20 in 5"
         )
-    if not np.all(rings.psd > 0):
+    # Empty rings below a roll-off or beyond the last wave tell the likelihood that C is small. If
+    # they hold most of the modes from the first wave to the strongest, single waves stand alone and
+    # there is no spectrum to fit. Only rounding decides which of them vanish exactly.
+    filled = rings.psd > rounding
+    rising = slice(int(np.argmax(filled)), int(np.argmax(rings.psd)) + 1)
+    alone = rings.dof[rising] @ filled[rising] < rings.dof[rising].sum() / 2
+    if alone or np.count_nonzero(filled) < 2:
         raise ValueError(f"the spectrum vanishes at q = {rings.q[np.argmin(rings.psd)]:.6g}")
+    rings = replace(rings, psd=np.where(rings.psd > 0, rings.psd, rounding))
     # ln q about the middle of the data, where exponent and level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)

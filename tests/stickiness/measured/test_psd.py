@@ -1,5 +1,7 @@
 """Power spectral density of heights and the self-affine fit to it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import special
@@ -216,3 +218,25 @@ def test_range_without_enough_modes_is_refused(arguments, message):
         fit_self_affine(power_spectrum(heights, 1 / 128), **arguments)
     with pytest.raises(ValueError, match="spectrum vanishes"):
         fit_self_affine(power_spectrum(0 * heights, 1 / 128))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("rounding", [0.0, 1e-16, 1e-14])
+def test_rounding_is_no_spectrum_whatever_its_last_bits(seed, rounding):
+    """Rings that hold only rounding count as empty: of one wave all but one are."""
+    noise = rounding * np.random.default_rng(seed).standard_normal((128, 128))
+    wave = np.sin(np.arange(128) * np.pi / 8)[:, None] + noise
+    with pytest.raises(ValueError, match="the spectrum vanishes"):
+        fit_rings(radial_average(power_spectrum(wave, np.pi / 64), FINE), 1.0, 16.0)
+
+
+def test_a_few_empty_rings_give_one_fit_whether_they_vanish_or_not():
+    spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=32.0, h_rms=1.0)
+    heights = surface.synthesise(spectrum, n=128, length=2 * np.pi, seed=1)
+    rings = radial_average(power_spectrum(heights, np.pi / 64), FINE)
+    filled = np.where(rings.q < 3, 0.0, rings.psd)
+    noise = 1e-30 * rings.psd.max()
+    exact = fit_rings(replace(rings, psd=filled), 1.0, 16.0)
+    rounded = fit_rings(replace(rings, psd=filled + noise), 1.0, 16.0)
+    assert rounded.hurst == pytest.approx(exact.hurst, rel=1e-6)
+    assert rounded.c0 == pytest.approx(exact.c0, rel=1e-6)
