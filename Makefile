@@ -11,7 +11,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-com
 COMPILE := $(BIN)/python -m compileall -qq -j$(CORES) -x '/tests?/' $(VENV)/lib || true
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test test-quick coverage lint format dag benchmark docs pictures
+.PHONY: install reproduce draft test test-quick test-processors coverage lint format dag benchmark docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -29,6 +29,9 @@ test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
 
 test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
 	$(PYTEST) -m "not slow and not workflow and not peers"
+
+test-processors: $(VENV)/.dev  ## tests of what rounding may move, with the arithmetic of other processors
+	$(BIN)/python tests/helpers/run_processors.py -n $(CORES) --dist worksteal
 
 coverage: $(VENV)/.dev  ## statements and branches of the library that its quick tests reach
 	OMP_NUM_THREADS=1 $(BIN)/python -m coverage run -m pytest tests/stickiness \

@@ -175,6 +175,7 @@ def test_a_wrong_file_is_refused_with_its_name_and_what_helps(tmp_path, name):
     assert [word for word in words if word not in message] == []
 
 
+@pytest.mark.processors
 @pytest.mark.parametrize("name", WITHHELD)
 def test_an_implausible_measurement_is_not_judged(tmp_path, name):
     content, entry, words = WITHHELD[name]

@@ -11,6 +11,8 @@ from common.model_surfaces import cell_size, model_spectrum
 from stickiness import surface
 from stickiness.accuracy import model_choice
 
+pytestmark = pytest.mark.processors
+
 ROOT = Path(__file__).parents[3]
 SURFACE = {"hurst": 0.8, "magnification": 32}
 HEAD = ",".join(model_choice.COLUMNS)

@@ -16,6 +16,8 @@ from stickiness.accuracy.settings import (
     joint_error,
 )
 
+pytestmark = pytest.mark.processors
+
 PRESET = {"pixels_per_wavelength": 8, "tolerance": 1e-8, "seeds": 5, "coarse_seeds": 40}
 
 

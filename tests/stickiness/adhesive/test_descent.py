@@ -11,6 +11,8 @@ from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.adhesive.solver import Scaled
 from stickiness.solids import HALF_SPACE
 
+pytestmark = pytest.mark.processors
+
 
 @pytest.mark.parametrize("shape", [(64, 48), (63, 48), (2, 64)])
 def test_the_preconditioner_nearly_inverts_the_stiffness(shape):

@@ -10,7 +10,7 @@ from stickiness import adhesive, dmt, repulsive
 from stickiness.adhesive import Exponential, LennardJones, Maugis, VanDerWaals
 
 # Some of the laws under test are too short of range for these grids, on purpose.
-pytestmark = pytest.mark.filterwarnings("ignore:a pixel of")
+pytestmark = [pytest.mark.processors, pytest.mark.filterwarnings("ignore:a pixel of")]
 LAWS = (Exponential, Maugis, LennardJones, VanDerWaals)
 SIDES = (1.0, 1.0)
 SLOPE = 0.1  # q0 h_rms of the rough surfaces

@@ -10,6 +10,8 @@ from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
 from stickiness.criteria import equivalent_sphere
 
+pytestmark = pytest.mark.processors
+
 RADIUS = 1.0
 
 

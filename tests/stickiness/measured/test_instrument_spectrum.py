@@ -12,6 +12,8 @@ from stickiness.measured.instrument_spectrum import Limits, find_bend, tip_cutof
 from stickiness.measured.topography import Profile, Topography
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 # Where an instrument stops seeing
 
 

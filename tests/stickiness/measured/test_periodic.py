@@ -7,6 +7,8 @@ from stickiness import surface
 from stickiness.measured import periodic
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 
 @pytest.fixture
 def heights():

@@ -11,6 +11,8 @@ from stickiness import surface
 from stickiness.measured import instrument_spectrum, plausibility, topography
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 
 def rough(hurst=0.8, n=128):
     spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=n / 2, h_rms=1.0)

@@ -10,6 +10,8 @@ from stickiness.measured.psd import merge_rings, profile_spectrum, radial_averag
 from stickiness.measured.self_affine_fit import FINE
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 
 @pytest.mark.parametrize("window", ["none", "hann"])
 @pytest.mark.parametrize("n", [128, 129])

@@ -13,6 +13,8 @@ from stickiness.measured.psd import merge_rings, power_spectrum, radial_average
 from stickiness.measured.self_affine_fit import FINE, fit_rings
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 TAU = 2 * np.pi
 WINDOWS = ["none", "hann", "hann_radial"]
 

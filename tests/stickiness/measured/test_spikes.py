@@ -7,6 +7,8 @@ from stickiness import surface
 from stickiness.measured.levelling import find_spikes
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 
 def rough(hurst=0.8, n=128, seed=1):
     spectrum = SelfAffine(hurst=hurst, q0=1.0, q1=n / 4, h_rms=1.0)

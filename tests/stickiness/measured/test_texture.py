@@ -8,6 +8,8 @@ from real_surfaces import analyse_surface
 from stickiness.measured import texture
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.processors
+
 CUTOFF, FILTER, STEP = 0.8e-3, 2.5e-6, 1e-6
 POINTS = int(7 * CUTOFF / STEP)
 

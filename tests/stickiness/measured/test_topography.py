@@ -8,6 +8,8 @@ import xarray as xr
 
 from stickiness.measured import levelling, readers, topography
 
+pytestmark = pytest.mark.processors
+
 VOID = 32767
 HEADER = "# Channel: Z\n# Width: 10.00 µm\n# Height: 25 µm\n# Value units: nm\n"
 METRES = {"length": "1 um", "height_unit": "m"}

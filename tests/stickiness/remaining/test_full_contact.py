@@ -10,6 +10,8 @@ from stickiness.solids import HALF_SPACE, Film, Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import realised_spectrum, synthesise
 
+pytestmark = pytest.mark.processors
+
 ROUGH = SelfAffine(hurst=0.8, q0=1.0, q1=30.0, h_rms=0.01)
 
 

@@ -10,6 +10,8 @@ from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine, combine
 from stickiness.surface import realised_spectrum, synthesise
 
+pytestmark = pytest.mark.processors
+
 TOUGH = {"adhesion_length": 1.0, "range": 1e-3}
 
 

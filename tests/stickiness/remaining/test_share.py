@@ -25,6 +25,8 @@ from stickiness.remaining.share import (
 from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS, PREDICTED
 
+pytestmark = pytest.mark.processors
+
 TABLE = "config/remaining.csv"
 
 

@@ -10,6 +10,8 @@ from scipy import integrate
 from stickiness import repulsive
 from stickiness.repulsive import active_set, free_edges, half_space, projected_gradients
 
+pytestmark = pytest.mark.processors
+
 PATCH = (12, 10)
 SIDES = (1.0, 1.5)
 

@@ -12,6 +12,8 @@ from stickiness.repulsive.active_set import Problem, _Grid
 from stickiness.repulsive.preconditioner import Preconditioner
 from stickiness.solids import HALF_SPACE, Layer
 
+pytestmark = pytest.mark.processors
+
 Q0 = 2 * np.pi
 
 

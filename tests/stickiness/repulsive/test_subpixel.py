@@ -8,6 +8,8 @@ from scipy.optimize import brentq
 from stickiness import adhesive, dmt, repulsive, spectrum, surface
 from stickiness.repulsive import subpixel
 
+pytestmark = pytest.mark.processors
+
 
 def wave(direction, load, phase=0.0, n=128):
     """Solve a plane wave at a share of the load of full contact; also return its closed form."""

@@ -8,6 +8,8 @@ from stickiness import surface
 from stickiness.measured.psd import power_spectrum
 from stickiness.spectrum import SelfAffine, kinds
 
+pytestmark = pytest.mark.processors
+
 L = 2 * np.pi  # so that wave numbers are lattice indices
 GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 16.0, "h_rms": 1.0}
 

@@ -7,6 +7,8 @@ from scipy import integrate
 
 from stickiness.spectrum import SelfAffine, Shells, Tabulated, kinds
 
+pytestmark = pytest.mark.processors
+
 
 def by_quadrature(s, a, b, power, breaks=()):
     """2 pi int q^(1 + power) C dq over ln q, split where C has kinks."""

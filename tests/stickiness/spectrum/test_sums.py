@@ -7,6 +7,8 @@ from stickiness import surface
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine, Tabulated, combine
 
+pytestmark = pytest.mark.processors
+
 L = 2 * np.pi
 ONE = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
 OTHER = SelfAffine(hurst=0.5, q0=2.0, q1=500.0, C0=0.3, q_rolloff=6.0)
