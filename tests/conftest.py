@@ -1,5 +1,11 @@
 """Profiles of property tests: ``pytest --hypothesis-profile=deep tests/stickiness/core``."""
 
+import atexit
+import os
+import shutil
+import tempfile
+from pathlib import Path
+
 from hypothesis import HealthCheck, settings
 
 # The same examples every time and few of them: a test that fails now and then helps nobody.
@@ -15,3 +21,16 @@ settings.register_profile(
     "deep", settings.get_profile("quick"), derandomize=False, max_examples=300
 )
 settings.load_profile("quick")
+
+# Snakemake keeps sources in the user's cache, also in runs that tests start. An account without a
+# home, or with one that cannot be written, gets a cache for the length of the tests.
+_HOME = os.path.expanduser("~")
+_CACHE = Path(os.environ.get("XDG_CACHE_HOME") or Path(_HOME, ".cache"))
+try:
+    _CACHE.mkdir(parents=True, exist_ok=True)
+    _WRITABLE = os.access(_CACHE, os.W_OK)
+except OSError:
+    _WRITABLE = False
+if not _WRITABLE:
+    os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
+    atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)

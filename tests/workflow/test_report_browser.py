@@ -103,7 +103,7 @@ def probed(page, folder, width=1280, change=None):
     copy.write_text(f"{body}<script>{PROBE}</script>{end}{rest}", encoding="utf-8")
     command = [CHROMIUM, *FLAGS, f"--user-data-dir={folder / 'profile'}", copy.as_uri()]
     command += [f"--window-size={width},2000", "--dump-dom"]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=600, check=False)
     console = [line for line in done.stderr.splitlines() if "CONSOLE" in line]
     dom = done.stdout
     told = re.search(r'<pre id="told">(.*?)</pre>', dom, re.S)
