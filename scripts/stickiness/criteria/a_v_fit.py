@@ -81,7 +81,7 @@ def fit_a_v(
         )
     if pressure.ndim and pressure.shape != eps.shape:
         raise ValueError(f"pressure must have the shape {eps.shape} of eps, got {pressure.shape}")
-    low, high = map(float, window)
+    low, high = (float(limit) for limit in window)
     if not 0 <= low < high:
         raise ValueError(f"window must be two increasing limits of eps/h_rms, got {window!r}")
 
@@ -91,8 +91,9 @@ def fit_a_v(
     n = int(np.count_nonzero(inside))
     if n < 2:
         raise ValueError(f"window {window!r} must hold at least two of eps/h_rms, holds {n}")
+    # The law is y = a_V x: least squares through the origin.
     x = (1.5 * pressure / (q0 * h_rms) * ratio ** (2 / 3))[inside]
     y = area[inside]
-    (value,), *_ = np.linalg.lstsq(x[:, None], y)
+    value = np.linalg.lstsq(x[:, None], y)[0][0]
     variance = np.sum((y - value * x) ** 2) / (n - 1) * (1 / np.sum(x**2))
     return AvFit(float(value), float(np.sqrt(variance)), (low, high))

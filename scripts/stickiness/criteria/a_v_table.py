@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import get_args
+from typing import NamedTuple, get_args
 
 import numpy as np
 import xarray as xr
@@ -33,8 +33,12 @@ RANGES = np.geomspace(1e-14, 10, 61)  #: over h_rms, where theory's a_V is evalu
 THEORY_ERROR = 0.25
 _CUBIC = ("a_v", "a_v_limit", "edge_range", "edge_a_v")
 _LINEAR = ("theory_below", "theory_above", "theory_below_limit", "theory_above_limit")
-_NUMBERS = ("smallest_magnification", "largest_magnification")
-_NUMBERS += ("quadrature_error", "extrapolation_error")
+_NUMBERS = (
+    "smallest_magnification",
+    "largest_magnification",
+    "quadrature_error",
+    "extrapolation_error",
+)
 NEEDED = (*_CUBIC, *_LINEAR, *_NUMBERS, "simulation_ratio", "simulation_error", "simulation_trend")
 _AXES = ("hurst", "magnification", "pressure", "range")
 
@@ -60,9 +64,10 @@ def edge_range(ranges: ArrayLike, infinite: ArrayLike, finite: ArrayLike) -> flo
     last = int(apart[-1])
     if last == len(logs) - 1:
         return float(ranges[-1])
-    share = logs[last] / (logs[last] - logs[last + 1])
-    steps = np.log(ranges[last : last + 2])
-    return float(np.exp(steps[0] + share * (steps[1] - steps[0])))
+    # Between two ranges the ratio is a power law.
+    fraction = logs[last] / (logs[last] - logs[last + 1])
+    start, end = np.log(ranges[last : last + 2])
+    return float(np.exp(start + fraction * (end - start)))
 
 
 @dataclass(frozen=True)
@@ -77,11 +82,12 @@ class SurfaceAv:
 
     def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
         """Value, low and high limit at ranges over h_rms, interpolated in logarithms."""
-        at, ranges = np.log(range_over_h_rms), np.log(self.ranges)
-        every = np.exp([np.interp(at, ranges, np.log(a_v)) for a_v in self.theory])
-        low = every.min(axis=0) * max(1 - self.relative_error, 0.01)
-        high = every.max(axis=0) * (1 + self.relative_error)
-        return plain(every[0]), plain(low), plain(high)
+        log_range = np.log(range_over_h_rms)
+        log_ranges = np.log(self.ranges)
+        estimates = np.exp([np.interp(log_range, log_ranges, np.log(a_v)) for a_v in self.theory])
+        low = estimates.min(axis=0) * max(1 - self.relative_error, 0.01)
+        high = estimates.max(axis=0) * (1 + self.relative_error)
+        return plain(estimates[0]), plain(low), plain(high)
 
 
 def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
@@ -90,17 +96,30 @@ def surface_a_v(spectrum: Spectrum, known: dict[str, float]) -> SurfaceAv:
     `known` has q0 and the moments. Below the edge range, where the variants part, they are held
     constant, and Pastewka and Robbins' estimate is the edge law.
     """
-    moments = (known[name] for name in ("q0", "h_rms", "rms_slope", "rms_curvature"))
-    edge_a_v = float(pastewka_robbins_a_v(*moments))
-    h_rms, theory = spectrum.h_rms, Persson(spectrum)
+    # By theory.
+    theory = Persson(spectrum)
+    h_rms = spectrum.h_rms
     load = LOAD * float(known["q0"]) * h_rms
-    areas = [theory.with_variant(name).gap_cumulative(RANGES * h_rms, load) for name in VARIANTS]
-    resolved = [local_a_v(area, LOAD, RANGES) for area in areas]
-    edge = edge_range(RANGES, *resolved)
-    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(resolved[0])))
-    a_v = [np.where(edge > RANGES, at_edge, a) for a in resolved]
-    a_v.append(np.where(edge > RANGES, edge_a_v, a_v[0]))
-    return SurfaceAv(RANGES, np.array(a_v), THEORY_ERROR)
+    by_variant = []
+    for variant in VARIANTS:
+        area = theory.with_variant(variant).gap_cumulative(RANGES * h_rms, load)
+        by_variant.append(local_a_v(area, LOAD, RANGES))
+    quoted, other = by_variant
+
+    # Next to the edges of contact.
+    edge = edge_range(RANGES, infinite=quoted, finite=other)
+    is_edge = edge > RANGES
+    at_edge = np.exp(np.interp(np.log(edge), np.log(RANGES), np.log(quoted)))
+    edge_law = pastewka_robbins_a_v(
+        q0=known["q0"],
+        h_rms=known["h_rms"],
+        rms_slope=known["rms_slope"],
+        rms_curvature=known["rms_curvature"],
+    )
+    quoted = np.where(is_edge, at_edge, quoted)
+    other = np.where(is_edge, at_edge, other)
+    by_edge_law = np.where(is_edge, float(edge_law), quoted)
+    return SurfaceAv(RANGES, np.array([quoted, other, by_edge_law]), THEORY_ERROR)
 
 
 @dataclass(frozen=True)
@@ -124,6 +143,20 @@ class AvEstimate:
     edge: NDArray  #: where the range is below the edge range, so that a_V no longer depends on it
 
 
+class _Theory(NamedTuple):
+    """a_V by theory at `n` points; see `AvEstimate`."""
+
+    log_a_v: NDArray
+    below: NDArray
+    above: NDArray
+    edge: NDArray
+
+    def put(self, chosen: NDArray, values: _Theory) -> None:
+        """Put in the values of some points."""
+        for column, part in zip(self, values, strict=True):
+            column[chosen] = part
+
+
 class AvTable:
     """Interpolates the file ``fits/a_v_table.nc``, with the variables `NEEDED`, in logarithms.
 
@@ -138,7 +171,7 @@ class AvTable:
         self._ratio = _hold(np.log(table.simulation_ratio))
         self._ratio_error = _hold(table.simulation_error)
         self._trend = _hold(table.simulation_trend)
-        self._known = {name: float(table[name]) for name in _NUMBERS}
+        self._numbers = {name: float(table[name]) for name in _NUMBERS}
         self._simulated = float(table.simulated_range.min())
 
     def a_v_at(self, hurst, pressure, range_over_h_rms, magnification=np.inf) -> AvEstimate:
@@ -146,62 +179,98 @@ class AvTable:
 
         The pressure is the mean one over E* q0 h_rms, the magnification q1/q0.
         """
-        given = (hurst, magnification, pressure, range_over_h_rms)
-        given = np.broadcast_arrays(*(np.asarray(x, dtype=float) for x in given))
-        for name, values in zip(_AXES, given, strict=True):
+        h, zeta, p, eps = np.broadcast_arrays(
+            np.asarray(hurst, dtype=float),
+            np.asarray(magnification, dtype=float),
+            np.asarray(pressure, dtype=float),
+            np.asarray(range_over_h_rms, dtype=float),
+        )
+        shape = h.shape
+        for name, values in zip(_AXES, (h, zeta, p, eps), strict=True):
             self._check(name, values)
-        h, zeta, p, eps = (x.ravel() for x in given)
-        at, broad = np.array([h, np.log(zeta), np.log(p), np.log(eps)]), np.isinf(zeta)
-        # ln a_V, reach of the other theories below and above, and whether below the edge range
-        found = np.zeros((4, h.size))
+        h = h.ravel()
+        zeta = zeta.ravel()
+        log_p = np.log(p.ravel())
+        log_eps = np.log(eps.ravel())
+
+        # By theory; spectra without an end have tables of their own.
+        theory = _Theory(np.zeros(h.size), np.zeros(h.size), np.zeros(h.size), np.zeros(h.size))
+        broad = np.isinf(zeta)
+        finite = ~broad
         if broad.any():
-            found[:3, broad] = self._look_up(*at[[0, 2, 3]][:, broad], ending="_limit")
-        if not broad.all():
-            found[:, ~broad] = self._look_up_finite(*at[:, ~broad])
-        logs, below, above, edge = found
-        where = at[2:].T
-        trend = self._trend(where[:, 1:])
-        ends = self._known["smallest_magnification"], self._known["largest_magnification"]
-        least, most = np.log2(ends)
-        held = np.clip(np.log2(zeta), least, most) - most
-        value = np.exp(logs + self._ratio(where) + trend * held)
+            position = np.stack([h[broad], log_p[broad], log_eps[broad]], axis=-1)
+            theory.put(broad, self._look_up(position, ending="_limit"))
+        if finite.any():
+            log_zeta = np.log(zeta[finite])
+            theory.put(
+                finite, self._look_up_finite(h[finite], log_zeta, log_p[finite], log_eps[finite])
+            )
+
+        # By simulation over theory.
+        load_and_range = np.stack([log_p, log_eps], axis=-1)
+        trend = self._trend(log_eps[:, None])
+        least = np.log2(self._numbers["smallest_magnification"])
+        most = np.log2(self._numbers["largest_magnification"])
+        doublings = np.clip(np.log2(zeta), least, most) - most
+        value = np.exp(theory.log_a_v + self._ratio(load_and_range) + trend * doublings)
         # The ratio has a limit, because simulation and theory both converge. Its trend does not
         # level off where it was simulated; it is taken to go on for half as many doublings.
         unseen = np.clip(np.log2(zeta) - most, 0, (most - least) / 2)
-        simulation = np.hypot(self._ratio_error(where), trend * unseen)
+        simulation = np.hypot(self._ratio_error(load_and_range), trend * unseen)
         # Below the simulated ranges theory and simulation follow the same power laws, self-affine
         # scaling and then the 3/2 law of the gap next to edges. Their ratio therefore has no trend,
         # but from one simulated decade to the next its drift changes size, and at small loads sign:
         # a step a decade.
-        decades = np.clip(np.log10(self._simulated / eps), 0, None)
-        simulation = np.hypot(simulation, self._known["extrapolation_error"] * np.sqrt(decades))
-        others = (NORMAL_90 * simulation) ** 2 + self._known["quadrature_error"] ** 2
-        low = value * np.exp(-np.sqrt(below**2 + others))
-        high = value * np.exp(np.sqrt(above**2 + others))
-        parts = value, low, high, below, above, simulation, edge.astype(bool)
-        return AvEstimate(*(part.reshape(given[0].shape)[()] for part in parts))
+        decades = np.clip(np.log10(self._simulated / eps.ravel()), 0, None)
+        drift = self._numbers["extrapolation_error"] * np.sqrt(decades)
+        simulation = np.hypot(simulation, drift)
 
-    def _look_up(self, *at, ending=""):
-        names = ("a_v", "theory_below", "theory_above")
-        return [self._theory[f"{name}{ending}"](np.stack(at, axis=-1)) for name in names]
+        other_errors = (NORMAL_90 * simulation) ** 2 + self._numbers["quadrature_error"] ** 2
+        low = value * np.exp(-np.sqrt(theory.below**2 + other_errors))
+        high = value * np.exp(np.sqrt(theory.above**2 + other_errors))
+        return AvEstimate(
+            value=value.reshape(shape)[()],
+            low=low.reshape(shape)[()],
+            high=high.reshape(shape)[()],
+            theory_below=theory.below.reshape(shape)[()],
+            theory_above=theory.above.reshape(shape)[()],
+            simulation=simulation.reshape(shape)[()],
+            edge=theory.edge.astype(bool).reshape(shape)[()],
+        )
 
-    def _look_up_finite(self, h, log_zeta, log_p, log_eps):
+    def _look_up(self, position: NDArray, ending: str = "") -> _Theory:
+        """Theory at points `(n, axis)` of a table."""
+        return _Theory(
+            log_a_v=self._theory[f"a_v{ending}"](position),
+            below=self._theory[f"theory_below{ending}"](position),
+            above=self._theory[f"theory_above{ending}"](position),
+            edge=np.zeros(len(position)),
+        )
+
+    def _look_up_finite(self, h, log_zeta, log_p, log_eps) -> _Theory:
+        """Theory at finite magnifications, held constant below the edge range."""
         log_edge = self._theory["edge_range"](np.stack([h, log_zeta, log_p], axis=-1))
         edge = log_eps < log_edge
-        held = np.clip(np.where(edge, log_edge, log_eps), None, np.log(self.bounds["range"][1]))
-        logs, below, above = self._look_up(h, log_zeta, log_p, held)
+        log_resolved = np.clip(
+            np.where(edge, log_edge, log_eps), None, np.log(self.bounds["range"][1])
+        )
+        theory = self._look_up(np.stack([h, log_zeta, log_p, log_resolved], axis=-1))
         # The variants part here by definition; another estimate of what edges give takes over.
-        other = self._theory["edge_a_v"](np.stack([h, log_zeta], axis=-1)) - logs
-        below = np.where(edge, np.maximum(-other, 0), below)
-        above = np.where(edge, np.maximum(other, 0), above)
-        return logs, below, above, edge
+        log_ratio = self._theory["edge_a_v"](np.stack([h, log_zeta], axis=-1)) - theory.log_a_v
+        return _Theory(
+            log_a_v=theory.log_a_v,
+            below=np.where(edge, np.maximum(-log_ratio, 0), theory.below),
+            above=np.where(edge, np.maximum(log_ratio, 0), theory.above),
+            edge=edge,
+        )
 
     def _check(self, name: str, values: NDArray) -> None:
         low, high = self.bounds[name]
         inside = (values >= low * (1 - 1e-9)) & (values <= high * (1 + 1e-9))
         infinite = ""
         if name == "magnification":
-            infinite, inside = " or infinite", inside | np.isposinf(values)
+            infinite = " or infinite"
+            inside = inside | np.isposinf(values)
         if not inside.all():
             raise ValueError(
                 f"{name} must lie between {low:g} and {high:g}{infinite}, where a_V is "
@@ -224,5 +293,6 @@ def _hold(table: xr.DataArray) -> Callable[[NDArray], NDArray]:
     """Linear between simulated loads and ranges, or ranges alone, held constant beyond them."""
     names = {"simulated_pressure": "pressure", "simulated_range": "range"}
     interpolator = _interpolate(table.rename({n: x for n, x in names.items() if n in table.dims}))
-    low, high = (np.array([end(x) for x in interpolator.grid]) for end in (np.min, np.max))
-    return lambda at: interpolator(np.clip(at, low, high))
+    low = np.array([np.min(axis) for axis in interpolator.grid])
+    high = np.array([np.max(axis) for axis in interpolator.grid])
+    return lambda position: interpolator(np.clip(position, low, high))

@@ -25,11 +25,14 @@ KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h
 
 WEAK = 0.2  #: strength tau up to which adhesion is weak
 STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was compared with simulation
-TOUGH, TOUGH_WITHIN = 2.0, 0.1  # see `tough`
+TOUGH = 2.0  # strength, and relative distance from JKR, see `tough`
+TOUGH_WITHIN = 0.1
 SMALLEST_SIMULATED = 0.13  #: attractive over contact area from which on it was
 # Factors, up or down, within which simulation agrees with the model; beyond what was simulated a
 # guess that allows for edges with scattered B and for contacts that are no spheres.
-ERROR_WEAK, ERROR_STRONG, ERROR_BEYOND = 1.3, 1.4, 2.0
+ERROR_WEAK = 1.3
+ERROR_STRONG = 1.4
+ERROR_BEYOND = 2.0
 
 
 @dataclass(frozen=True)
@@ -62,7 +65,13 @@ def attraction(h_rms, q0, rms_slope, adhesion_length, range, a_v, kappa_rep=KAPP
     area = dmt / strength_over_pressure
     tau = edge_strength(area, strength_over_pressure)
     change = effect(area, tau)
-    return EdgeAttraction(plain(dmt * change), error_factor(area, tau), change, plain(area), tau)
+    return EdgeAttraction(
+        ratio=plain(dmt * change),
+        error_factor=error_factor(area, tau),
+        effect=change,
+        attractive_over_contact=plain(area),
+        strength=tau,
+    )
 
 
 @takes_positive
@@ -76,9 +85,10 @@ def edge_strength(attractive_over_contact: ArrayLike, traction: ArrayLike) -> fl
 @takes_positive
 def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Factor, up or down, within which `effect` holds for rough contacts."""
-    wide, known = attractive_over_contact >= SMALLEST_SIMULATED, strength <= STRONGEST_SIMULATED
-    within = np.where(strength <= WEAK, ERROR_WEAK, ERROR_STRONG)
-    return plain(np.where(wide & known, within, ERROR_BEYOND))
+    is_wide = attractive_over_contact >= SMALLEST_SIMULATED
+    is_simulated = is_wide & (strength <= STRONGEST_SIMULATED)
+    error = np.where(strength <= WEAK, ERROR_WEAK, ERROR_STRONG)
+    return plain(np.where(is_simulated, error, ERROR_BEYOND))
 
 
 @takes_positive
@@ -97,7 +107,7 @@ def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | N
 
     # The zone of a crack alone, pi range/(4 traction) wide, is wider than the true one.
     narrowest = 0.1 * np.minimum(widest, np.sqrt(reach / traction))
-    bracket = np.log(narrowest), np.log(widest) + 1e-12
+    bracket = (np.log(narrowest), np.log(widest) + 1e-12)
     angle = np.exp(elementwise.find_root(excess, bracket, args=(traction, reach)).x)
     return plain(2 * (angle / np.cos(angle) ** 2 + np.tan(angle)) / (np.pi * t))
 
@@ -108,7 +118,8 @@ def weak_effect(attractive_over_contact: ArrayLike) -> float | NDArray:
 
     It tends to 1 at large t and to ``(4/pi) t^(-1/2)`` at small t.
     """
-    t, root = attractive_over_contact, np.sqrt(attractive_over_contact)
+    t = attractive_over_contact
+    root = np.sqrt(t)
     return plain(2 * ((1 + t) * np.arctan(root) + root) / (np.pi * t))
 
 
@@ -120,14 +131,16 @@ def weak_effect_at_approach(attractive_over_contact: ArrayLike) -> float | NDArr
     at the radius r of an open edge takes ``(2/pi) arccos(a/r)`` of itself off the load, by
     reciprocity with the flat punch.
     """
-    t, root = attractive_over_contact, np.sqrt(attractive_over_contact)
+    t = attractive_over_contact
+    root = np.sqrt(t)
     return plain(2 * ((1 + t) * np.arctan(root) - root) / (np.pi * t))
 
 
 @takes_positive
 def tough_effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """`effect` at large strength: JKR, ``(4/pi) sqrt(pi/(4 t tau))`` for small t."""
-    t, tau = attractive_over_contact, strength
+    t = attractive_over_contact
+    tau = strength
     # sqrt(8 pi w a^3) over sigma_0 pi a^2 t, in the units and with the traction of `effect`.
     reach = _hertz_gap(np.arctan(np.sqrt(t)))
     return plain(np.sqrt(3 * reach / (tau * np.sqrt(t))) / t)
@@ -139,9 +152,10 @@ def tough(attractive_over_contact: ArrayLike, strength: ArrayLike) -> bool | NDA
     Small zones reach that at tau = 1.93. Wide ones cross the limit at small strength, where they
     have nothing of it, and approach it later.
     """
-    t, tau = np.asarray(attractive_over_contact), np.asarray(strength)
-    over = np.asarray(effect(t, tau)) / tough_effect(t, tau)
-    return plain((tau >= TOUGH) & (np.abs(over - 1) <= TOUGH_WITHIN))
+    t = np.asarray(attractive_over_contact)
+    tau = np.asarray(strength)
+    over_tough = np.asarray(effect(t, tau)) / tough_effect(t, tau)
+    return plain((tau >= TOUGH) & (np.abs(over_tough - 1) <= TOUGH_WITHIN))
 
 
 @takes_positive
@@ -153,16 +167,16 @@ def adhesion_length_threshold(
     h, q0, slope, range, a_v = surface
 
     def excess(log_length, h, q0, slope, range, a_v):
-        found = attraction(h, q0, slope, np.exp(log_length), range, a_v)
-        return np.log(found.ratio)
+        return np.log(attraction(h, q0, slope, np.exp(log_length), range, a_v).ratio)
 
     # What either limit has for the threshold, and the larger of both is near.
     unit = attraction(h, q0, slope, range, range, a_v)
-    t, tau = unit.attractive_over_contact, unit.strength
+    t = unit.attractive_over_contact
+    tau = unit.strength
     dmt = traction_ratio(h, q0, range, range, a_v)
     weak = range / (dmt * weak_effect(t))
     tough = range / (dmt * tough_effect(t, tau)) ** 2
-    bracket = np.log(0.5 * weak), np.log(4 * (weak + tough))
+    bracket = (np.log(0.5 * weak), np.log(4 * (weak + tough)))
     return plain(np.exp(elementwise.find_root(excess, bracket, args=surface).x))
 
 

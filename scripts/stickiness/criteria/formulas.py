@@ -334,13 +334,13 @@ def _log_maximum(width: float) -> float:
     The fraction is log-concave, and the slope 2 - E[z | x - width < z < x] changes sign between
     x = 2 and x = 2 + width: one maximum, bracketed.
     """
-    found = scipy.optimize.minimize_scalar(
+    minimum = scipy.optimize.minimize_scalar(
         lambda x: -2 * x - np.log(_bearing_fraction(x, width)),
         bounds=(2.0, 2.0 + width),
         method="bounded",
         options={"xatol": 1e-9},
     )
-    return -float(found.fun)
+    return -float(minimum.fun)
 
 
 def persson_tosatti(elastic_energy: ArrayLike | Spectrum, adhesion_length: ArrayLike) -> Verdict:

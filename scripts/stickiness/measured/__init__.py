@@ -1,14 +1,15 @@
 """Measured topographies, from the file to a spectrum with its errors.
 
-`read` gives the heights of a file, `analyse` their spectrum, `draw` its moments with their errors,
-`periodise` and `band_limited` heights that the solvers take.
+`read` gives the heights of a file, `from_array` cleans those of an array, `analyse` makes their
+spectrum and `draw` its moments with their errors. `periodise` and `band_limited` make heights that
+the solvers take.
 """
 
 from importlib import import_module
 
 # Loaded when they are first used: checks of the configuration need one light module alone.
 _PLACES = {
-    **dict.fromkeys(("Profile", "Topography", "jacksboro", "read"), "topography"),
+    **dict.fromkeys(("Profile", "Topography", "from_array", "jacksboro", "read"), "topography"),
     **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
     **dict.fromkeys(("Draws", "draw"), "stitching"),
     **dict.fromkeys(("band_limited", "periodise"), "periodic"),

@@ -30,13 +30,6 @@ BLUR_EXPONENT = 5.0  #: C ~ q^-s falls faster than any self-affine surface does 
 NOISE_EXPONENT = 1.5  #: and slower than any (s = 2 at H = 0)
 LOWEST_HURST = -0.4  #: of a profile; at -1/2 the transform of q^(-2(H+1)) no longer exists
 
-_BEND_RINGS = 20  # per decade
-_WIDTH = np.log(10) / 4  # of the interval for the local exponent
-_SCATTER = 0.05  # of ln C beyond sampling, so that rings of many modes do not decide alone
-_ROOM = 10**0.5  # smallest ratio of a bend to the lowest wave number
-_ROUNDING = 1e-13  # relative range of heights below which they are all the same
-_ROUNDS = 20  # of fits to a profile
-
 
 @dataclass(frozen=True)
 class Cutoff:
@@ -113,38 +106,55 @@ def analyse(
     """
     limits = Limits() if limits is None else limits
     values = numbers("heights", heights.heights)
-    if values.size and np.ptp(values) <= _ROUNDING * np.max(np.abs(values)):
+    if values.size and np.ptp(values) <= 1e-13 * np.max(np.abs(values)):  # equal to rounding
         raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
     is_map = isinstance(heights, Topography)
-    transform = psd.power_spectrum if is_map else psd.profile_spectrum
-    modes = transform(values, *heights.steps, taper=taper)
-    narrow = fine = radial_average(modes, FINE)
-    nyquist, lowest = modes.q_nyquist, min(modes.steps)
-    if not is_map:
-        narrow = replace(fine, psd=fine.psd / fine.q)  # proportional to C
+    if is_map:
+        modes = psd.power_spectrum(values, heights.dx, heights.dy, taper=taper)
+        line = radial_average(modes, FINE)
+        narrow = line
+        nyquist = modes.q_nyquist
+    else:
+        modes = psd.profile_spectrum(values, heights.dx, taper=taper)
+        line = radial_average(modes, FINE)
+        narrow = replace(line, psd=line.psd / line.q)  # proportional to C
         # Unevenly spaced points resolve no wave shorter than twice their largest gap.
-        nyquist = min(nyquist, np.pi / max(heights.largest_gap, heights.dx))
+        nyquist = min(modes.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
+    lowest = min(modes.steps)
+
+    # The interval of the fit.
     q_min = (LOWEST_MODES if modes.blur else 1) * max(modes.steps)
     if limits.fit_from is not None:
         q_min = 2 * np.pi / limits.fit_from
     if demand:
         cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
     else:
-        q_min, cutoff = lowest, Cutoff(nyquist, "two steps of the grid")
+        q_min = lowest
+        cutoff = Cutoff(nyquist, "two steps of the grid")
+
+    # The fit, and the rings that are shown and integrated.
     if is_map:
         fit = fit_rings(narrow, q_min, cutoff.q, demand=demand)
         rings = radial_average(modes, RINGS)
         area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
-        anisotropy = modes.anisotropy(fit.q_min, fit.q_max)[0]
+        anisotropy, _ = modes.anisotropy(fit.q_min, fit.q_max)
     else:
-        narrow, fit = isotropic(fine, q_min, cutoff.q, demand=demand)
-        rings = RadialPSD(*merge_rings(narrow, narrow.psd, RINGS))
-        area, anisotropy = ring_areas(rings.q, lowest), np.nan
-    cutoff = replace(cutoff, q=fit.q_max)
+        narrow, fit = isotropic(line, q_min, cutoff.q, demand=demand)
+        q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
+        rings = RadialPSD(q, mean, dof)
+        area = ring_areas(q, lowest)
+        anisotropy = np.nan
     # Exact waves have rings without power between them.
     used = rings.psd > 0
-    rings, area = RadialPSD(rings.q[used], rings.psd[used], rings.dof[used]), area[used]
-    return MeasuredSpectrum(rings, area, narrow, fit, cutoff, lowest, anisotropy)
+    return MeasuredSpectrum(
+        rings=RadialPSD(rings.q[used], rings.psd[used], rings.dof[used]),
+        area=area[used],
+        narrow=narrow,
+        fit=fit,
+        cutoff=replace(cutoff, q=fit.q_max),
+        lowest=lowest,
+        anisotropy=anisotropy,
+    )
 
 
 def ring_areas(q: NDArray, lowest: float) -> NDArray:
@@ -160,7 +170,7 @@ def isotropic(
     """Rings of C behind narrow ones of a profile's C1, and the self-affine fit between two q."""
     rings = replace(line, psd=line.psd * (1 / line.q))
     fit = fit_rings(rings, q_min, q_max, rolloff, demand)
-    for _ in range(_ROUNDS):
+    for _ in range(20):
         before = fit
         if demand and not fit.hurst > LOWEST_HURST:
             raise ValueError(
@@ -195,14 +205,18 @@ def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
     """Lowest of the cutoffs that are given, detected or general."""
     if limits.fit_to is not None:
         return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)")
-    found = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
+    candidates = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
     if limits.resolution is not None:
-        found.append(Cutoff(2 * np.pi / limits.resolution, "resolution of the instrument"))
-    if limits.tip_radius is not None and (blunt := tip_cutoff(heights, steps, limits.tip_radius)):
-        found.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
-    if limits.detect and (bend := find_bend(rings, q_min, q_nyquist)):
-        found.append(bend)
-    lowest = min(found, key=lambda cutoff: cutoff.q)
+        candidates.append(Cutoff(2 * np.pi / limits.resolution, "resolution of the instrument"))
+    if limits.tip_radius is not None:
+        blunt = tip_cutoff(heights, steps, limits.tip_radius)
+        if blunt is not None:
+            candidates.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
+    if limits.detect:
+        bend = find_bend(rings, q_min, q_nyquist)
+        if bend is not None:
+            candidates.append(bend)
+    lowest = min(candidates, key=lambda cutoff: cutoff.q)
     if not lowest.q > q_min:
         end = f"at wavelengths of {2 * np.pi / lowest.q:.3g} m" if lowest.q else "everywhere"
         raise ValueError(
@@ -219,7 +233,9 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
     # A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
     # which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
     # 2022, doi:10.1016/j.apsadv.2021.100190). The wavelength is the length of the stencil.
-    heights, limit, found = np.asarray(heights, dtype=float), TIP_FACTOR / radius, []
+    heights = np.asarray(heights, dtype=float)
+    limit = TIP_FACTOR / radius
+    wavelengths = []  # of every axis that shows the tip
     for axis, step in enumerate(steps):
         h = np.moveaxis(heights, axis, 0)
         distances = np.unique(np.geomspace(1, len(h) // 4, 30).astype(int))
@@ -227,14 +243,17 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
         curvatures = np.array(sharpest) / (distances * step) ** 2
         below = np.flatnonzero(curvatures < limit)
         if not len(below):
-            found.append(np.inf)
+            wavelengths.append(np.inf)
         elif below[0] > 0:
             # The curve falls as a power between the two distances.
-            sharp, blunt = curvatures[below[0] - 1], max(curvatures[below[0]], limit * 1e-9)
-            near, far = distances[below[0] - 1], distances[below[0]]
+            after = below[0]
+            sharp = curvatures[after - 1]
+            blunt = max(curvatures[after], limit * 1e-9)
+            near = distances[after - 1]
+            far = distances[after]
             share = np.log(sharp / limit) / np.log(sharp / blunt)
-            found.append(float(2 * (near * (far / near) ** share) * step))
-    return max(found, default=None)
+            wavelengths.append(float(2 * (near * (far / near) ** share) * step))
+    return max(wavelengths, default=None)
 
 
 def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None:
@@ -242,26 +261,36 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None
     rings = rings.between(q_min, q_nyquist)
     if not len(rings):
         return None
-    q, mean, dof = merge_rings(rings, rings.psd, _BEND_RINGS)
+    q, mean, dof = merge_rings(rings, rings.psd, bins_per_decade=20)
     inside = mean > 0
-    x, y, dof = np.log(q[inside]), np.log(mean[inside]), dof[inside]
-    y = y - special.digamma(dof) + np.log(dof)
-    weight = 1 / (special.polygamma(1, dof) + _SCATTER**2)
-    found = []  # wave numbers and local exponents s of C ~ q^-s
+    x = np.log(q[inside])
+    dof = dof[inside]
+    y = np.log(mean[inside]) - special.digamma(dof) + np.log(dof)
+    # A scatter of ln C beyond sampling, so that rings of many modes do not decide alone.
+    weight = 1 / (special.polygamma(1, dof) + 0.05**2)
+
+    # Local exponents s of C ~ q^-s, by regression over a quarter of a decade.
+    width = np.log(10) / 4
+    centres = []
+    exponents = []
     for centre in x:
-        near = np.abs(x - centre) <= _WIDTH / 2
-        if np.count_nonzero(near) < 4 or np.ptp(x[near]) < _WIDTH * 0.7:
+        near = np.abs(x - centre) <= width / 2
+        if np.count_nonzero(near) < 4 or np.ptp(x[near]) < width * 0.7:
             continue
-        w, dx = weight[near], x[near] - np.average(x[near], weights=weight[near])
-        found.append((np.exp(centre), -np.sum(w * dx * y[near]) / np.sum(w * dx**2)))
-    q, slope = np.array(found).reshape(-1, 2).T
+        w = weight[near]
+        dx = x[near] - np.average(x[near], weights=w)
+        centres.append(np.exp(centre))
+        exponents.append(-np.sum(w * dx * y[near]) / np.sum(w * dx**2))
+    q = np.array(centres)
+    slope = np.array(exponents)
+
     # From the Nyquist wave number downwards, noise and below it blur: everything from the last
     # exponent on that is not noise's, and likewise from blur's.
     noise = _start_of_last_run(slope < NOISE_EXPONENT)
     blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
     for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
-        # A bend close to `q_min` is ignored; the surface may be smooth.
-        if 0 < start < end and q[start - 1] > q_min * _ROOM:
+        # A bend within half a decade of `q_min` is ignored; the surface may be smooth.
+        if 0 < start < end and q[start - 1] > q_min * 10**0.5:
             falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
             reason = f"{kind} of the instrument ({falls})"
             return Cutoff(float(q[start - 1]), reason, detected=True)

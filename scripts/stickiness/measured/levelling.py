@@ -28,10 +28,6 @@ Missing = Literal["fill", "crop", "refuse"]
 Rim = int | Literal["detect"]
 Spikes = Literal["mask", "keep"]
 
-_DEGREES = {"mean": 0, "plane": 1, "quadratic": 2}
-_CONNECTS = 1 / 3  # share of the distance of a spike from which points count to its group
-_ROWS = 256  # worked on at a time
-
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
     """Subtract the mean, plane or quadratic surface that fits a map or profile best."""
@@ -54,19 +50,20 @@ def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
 def rms_of_known(heights: NDArray, kind: Detrend = "plane") -> float:
     """Root mean square of the finite points of a map or profile about the trend that fits them."""
     heights = heights if heights.ndim == 2 else heights[:, None]
-    known = np.isfinite(heights)
+    is_finite = np.isfinite(heights)
     (px, py), powers = _polynomials(heights.shape, kind)
-    design = np.array([np.outer(px[:, i], py[:, j])[known] for i, j in powers.T])
-    values = heights[known]
+    design = np.array([np.outer(px[:, i], py[:, j])[is_finite] for i, j in powers.T])
+    values = heights[is_finite]
     trend = np.linalg.lstsq(design @ design.T, design @ values, rcond=None)[0]
     return float(np.sqrt(np.mean((values - trend @ design) ** 2)))
 
 
 def _polynomials(shape: tuple[int, ...], kind: Detrend) -> tuple[list[NDArray], NDArray]:
     """Legendre polynomials along every axis, and their powers (2, m) up to the total degree."""
-    if kind not in _DEGREES:
-        raise ValueError(f"detrend must be one of {sorted(_DEGREES)}, got {kind!r}")
-    degree = _DEGREES[kind]
+    degrees = {"mean": 0, "plane": 1, "quadratic": 2}
+    if kind not in degrees:
+        raise ValueError(f"detrend must be one of {sorted(degrees)}, got {kind!r}")
+    degree = degrees[kind]
     axes = [np.linspace(-1, 1, n) if n > 1 else np.zeros(1) for n in shape]
     powers = [(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]
     return [np.polynomial.legendre.legvander(t, degree) for t in axes], np.array(powers).T
@@ -86,14 +83,17 @@ def outstanding_rim(heights: NDArray) -> int:
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
         # 0 within, 1 the last of the rim, 2 beyond; so a step has 2 to the rim, 4 beyond it.
         zone = 2 - _widen(hole, rim - 1).astype(int) - _widen(hole, rim)
-        pairs = [np.delete(zone, 0, a) * np.delete(zone, -1, a) for a in range(heights.ndim)]
-        to_rim, beyond = (
-            np.concatenate([step[pair == kind] for step, pair in zip(steps, pairs, strict=True)])
-            for kind in (2, 4)
-        )
-        if to_rim.size and beyond.size:
-            elsewhere = np.sqrt(np.mean(beyond**2))
-            if np.sqrt(np.mean(to_rim**2)) > OUTSTANDING * elsewhere > 0:
+        to_rim = []
+        beyond = []
+        for axis, step in enumerate(steps):
+            pair = np.delete(zone, 0, axis) * np.delete(zone, -1, axis)
+            to_rim.append(step[pair == 2])
+            beyond.append(step[pair == 4])
+        steps_to_rim = np.concatenate(to_rim)
+        steps_beyond = np.concatenate(beyond)
+        if steps_to_rim.size and steps_beyond.size:
+            elsewhere = np.sqrt(np.mean(steps_beyond**2))
+            if np.sqrt(np.mean(steps_to_rim**2)) > OUTSTANDING * elsewhere > 0:
                 return rim
     return 0
 
@@ -135,21 +135,26 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
     if known.ndim == 1:
         return complete_rectangle(known[None, :], source)[1:]
     # For every row the largest rectangle under the histogram of known points that end in it.
-    best, height = (0, slice(0), slice(0)), np.zeros(known.shape[1], dtype=int)
+    largest = 0
+    rows = slice(0)
+    columns = slice(0)
+    heights = np.zeros(known.shape[1], dtype=int)
     for row, line in enumerate(known):
-        height = np.where(line, height + 1, 0)
-        open_: list[tuple[int, int]] = []  # (start, height), increasing
-        for column, tall in enumerate([*height.tolist(), 0]):
+        heights = np.where(line, heights + 1, 0)
+        # Bars that may still extend to the right: (start, height), of increasing height.
+        open_bars: list[tuple[int, int]] = []
+        for column, height in enumerate([*heights.tolist(), 0]):
             start = column
-            while open_ and open_[-1][1] >= tall:
-                start, ended = open_.pop()
-                if ended * (column - start) > best[0]:
+            while open_bars and open_bars[-1][1] >= height:
+                start, ended = open_bars.pop()
+                if ended * (column - start) > largest:
+                    largest = ended * (column - start)
                     rows = slice(row + 1 - ended, row + 1)
-                    best = ended * (column - start), rows, slice(start, column)
-            open_.append((start, tall))
-    if not best[0]:
+                    columns = slice(start, column)
+            open_bars.append((start, height))
+    if not largest:
         raise ValueError(f"{source}: every point is missing")
-    return best[1], best[2]
+    return rows, columns
 
 
 def find_spikes(heights: NDArray) -> NDArray:
@@ -163,18 +168,18 @@ def find_spikes(heights: NDArray) -> NDArray:
             along = np.expand_dims(np.arange(n), [i for i in range(level.ndim) if i != axis])
             level = level - np.median(steps) * along
     distance = _neighbour_distance(level)
-    known = distance[np.isfinite(distance)]
-    if not known.size or not known.max() > 0:
+    finite = distance[np.isfinite(distance)]
+    if not finite.size or not finite.max() > 0:
         return np.zeros(level.shape, dtype=bool)
-    typical = np.quantile(known, TYPICAL, method="lower")
+    typical = np.quantile(finite, TYPICAL, method="lower")
     # Coarse steps of an instrument's converter: many points equal their neighbours.
-    typical = max(typical, known[known > 0].min())
+    typical = max(typical, finite[finite > 0].min())
     distance = np.nan_to_num(distance, nan=0.0, posinf=0.0)
     spikes = distance > OUTLYING * typical
     if level.ndim == 2 and spikes.any():
-        # Points of a scratch or fibre one point wide are as far off, but not alone. By a lower
-        # limit, or a scratch of varying depth would fall to pieces as small as spikes.
-        marked = distance > _CONNECTS * OUTLYING * typical
+        # Points of a scratch or fibre one point wide are as far off, but not alone. By a third of
+        # the limit, or a scratch of varying depth would fall to pieces as small as spikes.
+        marked = distance > 1 / 3 * OUTLYING * typical
         groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))  # touch by side or corner
         spikes &= (np.bincount(groups.ravel()) <= MOST_TOUCHING)[groups]
     return spikes
@@ -186,14 +191,16 @@ def _neighbour_distance(heights: NDArray) -> NDArray:
     So points of an edge, a corner or a ridge two points wide are close to each other, and up to
     three spikes may touch. On a line it is the second closest of four.
     """
-    reach, rank = (2, 2) if heights.ndim == 1 else (1, 3)
+    is_line = heights.ndim == 1
+    reach = 2 if is_line else 1
+    rank = 2 if is_line else 3
     padded = np.pad(heights, reach, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (2 * reach + 1,) * heights.ndim)
-    found = np.empty(heights.shape)
-    for start in range(0, len(heights), _ROWS):
-        rows = slice(start, start + _ROWS)
+    ranked = np.empty(heights.shape)
+    for start in range(0, len(heights), 256):  # rows that are worked on at a time
+        rows = slice(start, start + 256)
         here = heights[rows]
         distance = np.abs(around[rows].reshape(*here.shape, -1) - here[..., None])
         # The point itself is the closest; NaN comes last.
-        found[rows] = np.partition(distance, rank, axis=-1)[..., rank]
-    return found
+        ranked[rows] = np.partition(distance, rank, axis=-1)[..., rank]
+    return ranked

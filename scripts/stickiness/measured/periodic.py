@@ -19,9 +19,6 @@ from stickiness.spectrum.kinds import Shells
 
 Periodisation = Literal["taper", "mirror", "smooth", "given"]
 
-RIM = 0.125  #: of a side over which a taper falls to zero, at either end
-SHELLS = 200  #: per decade
-
 
 def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
     """Return levelled heights that are periodic without a jump.
@@ -31,9 +28,10 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
     heights : (nx, ny) array
         Levelled heights, in any unit.
     kind : {"taper", "mirror", "smooth", "given"}
-        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim
-        (`RIM`). "mirror": the heights and their mirror images. "smooth": the heights less the
-        smoothest map that has the same steps between opposite sides. "given": no change.
+        "taper": the heights about their mean, times a taper that is 1 except in a cosine rim over
+        an eighth of a side at either end. "mirror": the heights and their mirror images.
+        "smooth": the heights less the smoothest map that has the same steps between opposite
+        sides. "given": no change.
 
     Returns
     -------
@@ -56,17 +54,22 @@ def periodise(heights: ArrayLike, kind: Periodisation) -> NDArray:
         return heights - _steps_between_sides(heights)
     if kind != "taper":
         raise ValueError(f"kind must be 'taper', 'mirror', 'smooth' or 'given', got {kind!r}")
-    centres = ((np.arange(n) + 0.5) / n for n in heights.shape)
-    depths = (np.minimum(np.minimum(x, 1 - x) / RIM, 1.0) for x in centres)
-    wx, wy = (np.sin(np.pi / 2 * depth) ** 2 for depth in depths)
-    taper = wx[:, None] * wy
+    taper = _taper_side(heights.shape[0])[:, None] * _taper_side(heights.shape[1])
     return taper * (heights - np.sum(taper * heights) / taper.sum())
+
+
+def _taper_side(points: int) -> NDArray:
+    """Taper along one side, which falls to zero over an eighth of it at either end."""
+    position = (np.arange(points) + 0.5) / points
+    depth = np.minimum(np.minimum(position, 1 - position) / 0.125, 1.0)
+    return np.sin(np.pi / 2 * depth) ** 2
 
 
 def _steps_between_sides(heights: NDArray) -> NDArray:
     """Map of zero mean whose periodic Laplacian vanishes but for the steps across the border."""
     steps = np.zeros_like(heights)
-    across, along = heights[-1] - heights[0], heights[:, -1] - heights[:, 0]
+    across = heights[-1] - heights[0]
+    along = heights[:, -1] - heights[:, 0]
     steps[0] += across
     steps[-1] -= across
     steps[:, 0] += along
@@ -108,28 +111,33 @@ def band_limited(
     if not 0 < q_max < nyquist * (1 + 1e-9):
         raise ValueError(f"q_max must be in 0 < q <= {nyquist:.6g} (Nyquist), got {q_max!r}")
     modes = fft.fft2(heights) / heights.size
-    index = [np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape]
-    qx, qy = (2 * np.pi * i / side for i, side in zip(index, sides, strict=True))
+    # Indices of the modes along both axes, and those of waves up to `q_max`.
+    i, j = (np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape)
+    qx = 2 * np.pi * i / sides[0]
+    qy = 2 * np.pi * j / sides[1]
     modes[np.hypot(qx[:, None], qy) > q_max] = 0.0
-    least = [int(np.ceil(side * q_max / (2 * np.pi) * pixels / 4)) for side in sides]
-    shape = tuple(4 * fft.next_fast_len(n, real=True) for n in least)
-    keep = [np.flatnonzero(np.abs(i) < m / 2) for i, m in zip(index, shape, strict=True)]
-    fine = np.zeros(shape, dtype=complex)
-    where = np.ix_(*(i[k] % m for i, k, m in zip(index, keep, shape, strict=True)))
-    fine[where] = modes[np.ix_(*keep)]
+    # A grid that resolves these, and the modes at their places on it.
+    quarters = [int(np.ceil(side * q_max / (2 * np.pi) * pixels / 4)) for side in sides]
+    mx, my = (4 * fft.next_fast_len(quarter, real=True) for quarter in quarters)
+    keep_x = np.flatnonzero(np.abs(i) < mx / 2)
+    keep_y = np.flatnonzero(np.abs(j) < my / 2)
+    fine = np.zeros((mx, my), dtype=complex)
+    fine[np.ix_(i[keep_x] % mx, j[keep_y] % my)] = modes[np.ix_(keep_x, keep_y)]
     return fft.ifft2(fine).real * fine.size
 
 
 def shells(heights: ArrayLike, sides: tuple[float, float]) -> Shells:
-    """Spectrum of periodic heights (nx, ny) on a period of any sides, in narrow shells."""
+    """Spectrum of periodic heights (nx, ny) on a period of any sides, in 200 shells per decade."""
     heights = np.asarray(heights, dtype=float)
-    steps = (side / n for side, n in zip(sides, heights.shape, strict=True))
-    plane = power_spectrum(heights, *steps)
+    dx = sides[0] / heights.shape[0]
+    dy = sides[1] / heights.shape[1]
+    plane = power_spectrum(heights, dx, dy)
     dqx, dqy = plane.steps
     variance = (plane.psd * plane.multiplicity * dqx * dqy).ravel()[1:]
     q = plane.q.ravel()[1:]
-    index = np.rint(np.log10(q / q.min()) * SHELLS).astype(int)
+    index = np.rint(np.log10(q / q.min()) * 200).astype(int)
     total = np.bincount(index, weights=variance)
-    full = total > 1e-24 * total.sum()  # the rest is rounding
-    square = np.bincount(index, weights=variance * q**2)[full] / total[full]
-    return Shells(np.sqrt(square), total[full])
+    has_waves = total > 1e-24 * total.sum()  # the rest is rounding
+    total = total[has_waves]
+    mean_q2 = np.bincount(index, weights=variance * q**2)[has_waves] / total
+    return Shells(np.sqrt(mean_q2), total)

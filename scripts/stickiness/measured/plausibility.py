@@ -21,14 +21,13 @@ from stickiness.statistics import COVERS
 # as the values next to it. Up to 6 times were seen, at 1 % of the points (elevations in metres).
 PLATEAUS = ((0.002, 20.0), (0.03, 5.0))
 FEWEST_LEVELS = 16  #: different heights; a converter of four bits
-FLATTEST, STEEPEST = 1e-7, 20.0  # rms slope between neighbours
+FLATTEST = 1e-7  # rms slope between neighbours
+STEEPEST = 20.0
 LARGEST_MISFIT = 1.0  #: relative; a spectrum off its law by more than a factor e
 # By which H may exceed 1 beyond its error. Of 20 surfaces each, 256 x 256, made with H = 0.9 or 1
 # and blurred by up to 1.5 or 0.7 points, 0 to 17 exceed it by more than 0, 0 to 2 by more than
 # 0.1; of those made with H = 0.8 and blurred by 2 points 2 do, by 3 points all.
 HURST_BIAS = 0.1
-
-_NEXT = 3  # values on either side of a plateau's that it is compared with
 
 
 def doubt_values(values: NDArray) -> Iterator[str]:
@@ -39,8 +38,9 @@ def doubt_values(values: NDArray) -> Iterator[str]:
     levels, counts = np.unique(values[np.isfinite(values)], return_counts=True)
     if len(levels) > 1:
         top = int(np.argmax(counts))
-        beside = np.delete(counts[max(top - _NEXT, 0) : top + _NEXT + 1], min(top, _NEXT))
-        share, times = counts[top] / counts.sum(), counts[top] / beside.max()
+        beside = np.delete(counts[max(top - 3, 0) : top + 4], min(top, 3))
+        share = counts[top] / counts.sum()
+        times = counts[top] / beside.max()
         if any(share >= least and times >= most for least, most in PLATEAUS):
             yield (
                 f"{share:.2g} of the points have the one value {levels[top]:g}, as where nothing "
@@ -91,17 +91,17 @@ def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:
 def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
     """Doubts about a spectrum by its self-affine fit; H counts within its error of 90 %."""
     error = COVERS * fit.hurst_se
-    found = f"the spectrum has H = {fit.hurst:.2f} ± {error:.2f}, outside 0 < H <= 1"
+    exponent = f"the spectrum has H = {fit.hurst:.2f} ± {error:.2f}, outside 0 < H <= 1"
     if fit.hurst + error <= 0:
         yield (
-            f"{found}: noise, spikes or lost points whiten it, or the scan is coarser than the "
+            f"{exponent}: noise, spikes or lost points whiten it, or the scan is coarser than the "
             "roll-off; look at the heights, scan with smaller steps, or limit the fit by "
             "resolution or fit_to to waves that the instrument resolves"
         )
     if fit.hurst - error > 1 + HURST_BIAS:
         yield (
-            f"{found}: it falls as blur does; limit the fit by resolution or fit_to to waves that "
-            "the instrument resolves, or level by detrend: quadratic"
+            f"{exponent}: it falls as blur does; limit the fit by resolution or fit_to to waves "
+            "that the instrument resolves, or level by detrend: quadratic"
         )
     if fit.misfit > LARGEST_MISFIT:
         yield (

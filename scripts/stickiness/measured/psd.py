@@ -10,7 +10,7 @@ unit; C then has that unit to the fourth.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -54,7 +54,7 @@ class PowerSpectrum(Modes):
         modes = np.bincount(ring, weights=weight)
         mean = np.bincount(ring, weights=weight * self.psd[inside]) / np.maximum(modes, 1)
         mean[mean == 0] = np.inf  # rings without power, whose modes are alike
-        phi = np.arctan2(*np.broadcast_arrays(self.qy[None, :], self.qx[:, None]))[inside]
+        phi = np.arctan2(self.qy[None, :], self.qx[:, None])[inside]
         # The ring's mean is taken off: its modes are not spread evenly over the directions.
         excess = weight * (self.psd[inside] / mean[ring] - 1)
         harmonic = 2 * np.sum(excess * np.exp(2j * phi)) / weight.sum()
@@ -100,18 +100,20 @@ def power_spectrum(
     heights = grid("heights", heights)
     if min(heights.shape) < 4:
         raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
-    dx, dy = number("dx", dx), number("dy", dx if dy is None else dy)
+    dx = number("dx", dx)
+    dy = dx if dy is None else number("dy", dy)
     nx, ny = heights.shape
     # In units of the sides, from the middle of the area (SurfaceTopography's tapers: from pixel
     # n//2), so that a mirrored map has the same rings.
-    x, y = ((np.arange(n) + 0.5) / n - 0.5 for n in heights.shape)
+    x = (np.arange(nx) + 0.5) / nx - 0.5
+    y = (np.arange(ny) + 0.5) / ny - 0.5
     if taper == "none":
         w = np.ones((1, 1))
     elif taper == "hann":
         w = np.cos(np.pi * x[:, None]) ** 2 * np.cos(np.pi * y) ** 2
     elif taper == "hann_radial":
-        sides = nx * dx, ny * dy  # isotropic, but it uses less of the data
-        r = np.hypot(x[:, None] * sides[0], y * sides[1]) / min(sides)
+        # Isotropic, but it uses less of the data.
+        r = np.hypot(x[:, None] * (nx * dx), y * (ny * dy)) / min(nx * dx, ny * dy)
         w = np.where(r < 0.5, np.cos(np.pi * r) ** 2, 0.0)
     else:
         raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
@@ -119,9 +121,14 @@ def power_spectrum(
     multiplicity[0] = 1.0  # columns that hold both members of each conjugate pair
     if ny % 2 == 0:
         multiplicity[-1] = 1.0
-    qx, qy = 2 * np.pi * fft.fftfreq(nx, dx), 2 * np.pi * fft.rfftfreq(ny, dy)
+    qx = 2 * np.pi * fft.fftfreq(nx, dx)
+    qy = 2 * np.pi * fft.rfftfreq(ny, dy)
+    transform = _transform(heights, w, cell=(2 * np.pi) ** 2 / (nx * dx * ny * dy))
     return PowerSpectrum(
-        **_transform(heights, w, cell=(2 * np.pi) ** 2 / (nx * dx * ny * dy)),
+        psd=transform.psd,
+        variance=transform.variance,
+        independence=transform.independence,
+        blur=transform.blur,
         multiplicity=multiplicity,
         q=np.hypot(qx[:, None], qy),
         q_nyquist=float(min(np.abs(qx).max(), qy.max())),
@@ -138,19 +145,38 @@ def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Mo
         raise ValueError(
             f"heights of a profile must be 1D, finite and at least 16, got {heights.shape}"
         )
-    dx, n = number("dx", dx), len(heights)
+    dx = number("dx", dx)
+    n = len(heights)
     if taper not in ("none", "hann", "hann_radial"):
         raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
     w = np.ones(1) if taper == "none" else np.sin(np.pi * (np.arange(n) + 0.5) / n) ** 2
     dq = 2 * np.pi / (n * dx)
-    found = _transform(heights, w, dq)
-    found["psd"] = found["psd"][1:]
-    q = dq * np.arange(1, len(found["psd"]) + 1)
+    transform = _transform(heights, w, dq)
+    psd = transform.psd[1:]
+    q = dq * np.arange(1, len(psd) + 1)
     step = float(q[0])
-    return Modes(**found, multiplicity=2.0, q=q, steps=(step,), q_nyquist=step * n / 2)
+    return Modes(
+        psd=psd,
+        variance=transform.variance,
+        independence=transform.independence,
+        blur=transform.blur,
+        multiplicity=2.0,
+        q=q,
+        steps=(step,),
+        q_nyquist=step * n / 2,
+    )
 
 
-def _transform(heights: NDArray, w: NDArray, cell: float) -> dict:
+class _Transform(NamedTuple):
+    """What a map and a profile have in common, by the names of `Modes`."""
+
+    psd: NDArray
+    variance: float
+    independence: float
+    blur: float
+
+
+def _transform(heights: NDArray, w: NDArray, cell: float) -> _Transform:
     """Spectrum of heights with a taper w, on cells of the lattice of q of this size."""
     power = np.mean(w**2)
     # Less the mean weighted by the taper: else a constant would leak into the lowest modes.
@@ -159,12 +185,12 @@ def _transform(heights: NDArray, w: NDArray, cell: float) -> dict:
         variance = float(np.mean(tapered**2) / power)
     if not np.isfinite(variance / cell):
         raise ValueError("heights leave the range of floats: take a larger unit of length")
-    return {
-        "psd": np.abs(fft.rfftn(tapered) / heights.size) ** 2 / (power * cell),
-        "variance": variance,
-        "independence": float(power**2 / np.mean(w**4)),
-        "blur": 2.0 if w.size > 1 else 0.0,
-    }
+    return _Transform(
+        psd=np.abs(fft.rfftn(tapered) / heights.size) ** 2 / (power * cell),
+        variance=variance,
+        independence=float(power**2 / np.mean(w**4)),
+        blur=2.0 if w.size > 1 else 0.0,
+    )
 
 
 def radial_average(spectrum: Modes, bins_per_decade: float = 10) -> RadialPSD:
@@ -173,7 +199,8 @@ def radial_average(spectrum: Modes, bins_per_decade: float = 10) -> RadialPSD:
     q = spectrum.q
     waves = q > 0
     weight = np.broadcast_to(spectrum.multiplicity, q.shape)[waves]
-    q, psd = q[waves], spectrum.psd[waves]
+    q = q[waves]
+    psd = spectrum.psd[waves]
     # Half a ring of offset keeps the lowest modes, all of one |q|, clear of a ring's edge, where
     # rounding would decide.
     ring = np.floor(np.log10(q / q.min()) * bins_per_decade + 0.5).astype(int)
@@ -189,7 +216,8 @@ def _average_by_ring(ring, weight, q, values) -> tuple[NDArray, NDArray, NDArray
     keep = total > 0
     total = total[keep]
     log_q = np.bincount(ring, weights=weight * np.log(q))[keep] / total
-    return np.exp(log_q), np.bincount(ring, weights=weight * values)[keep] / total, total
+    mean = np.bincount(ring, weights=weight * values)[keep] / total
+    return np.exp(log_q), mean, total
 
 
 def wide_rings(rings: RadialPSD, bins_per_decade: float) -> NDArray:

@@ -23,33 +23,12 @@ from stickiness.units import si
 Length = str | float  # "10 um", or metres
 
 INSTRUMENT = "instrument"
-_FORMATS = ("netcdf", "numpy", "text")  # not by SurfaceTopography
-_SUFFIXES = {
-    **dict.fromkeys((".nc", ".nc4", ".cdf"), "netcdf"),
-    **dict.fromkeys((".npz", ".npy"), "numpy"),
-    **dict.fromkeys((".hfm", ".sdf", ".nms"), INSTRUMENT),  # text, but no matrix of heights
-}
-_X_NAMES = ("x", "lon", "longitude", "easting")
-_Y_NAMES = ("y", "lat", "latitude", "northing")
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 _EXCEL = (
     "the file is an Excel workbook: save its sheet of heights as text (CSV), without other columns"
 )
-_PACKED = "the file is compressed ({}): unpack it, and give the file inside"
-_UNREADABLE = {  # first bytes of what no reader takes
-    b"\xd0\xcf\x11\xe0": _EXCEL,  # of an old version
-    b"\x1f\x8b": _PACKED.format("gzip"),
-    b"\x1f\x9d": _PACKED.format("compress"),
-    b"BZh": _PACKED.format("bzip2"),
-    b"\xfd7zXZ\0": _PACKED.format("xz"),
-    b"7z\xbc\xaf\x27\x1c": _PACKED.format("7z"),
-}
-_LONGEST = 200  # characters of SurfaceTopography's words
-_FEWEST_POINTS = 16  # rows of three numbers, from which they are a list of points and no matrix
 _SLACK = 0.01  # of a step, by which positions may be off the grid
-_ONE_STEP = 1.5  # times the shortest distance of positions, below which they are one step apart
 _MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points
-_ALTERNATE = 5.0  # step to the next column over that to the next but one, if commas split numbers
 
 # Channels that hold something else, some of them in metres, unless they say height.
 _NO_HEIGHTS = re.compile(
@@ -58,8 +37,6 @@ _NO_HEIGHTS = re.compile(
     re.IGNORECASE,
 )
 _HEIGHTS = re.compile(r"height|topo", re.IGNORECASE)
-_COMMENT = ("#", "%", "//")
-_MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
 # How a row begins: with a number, or with missing points before one.
 _NUMERIC = re.compile(r"(?:(?:-{1,3}|\*{1,3})?[\s;,]+)*(?:-?nan\b|[-+]?\.?\d)", re.IGNORECASE)
 _FIELD = re.compile(r"^\W*(width|height|value unit|lateral unit)s?\s*[:=]\s*(.+?)\s*$", re.I)
@@ -128,16 +105,32 @@ def find_packing(path: str | Path) -> str:
             return "the file is incomplete, its end is missing: copy it again"
         with zipfile.ZipFile(path) as archive:
             return _EXCEL if "xl/workbook.xml" in archive.namelist() else ""
-    return next((advice for start, advice in _UNREADABLE.items() if head.startswith(start)), "")
+    if head.startswith(b"\xd0\xcf\x11\xe0"):  # of an old version
+        return _EXCEL
+    packings = {
+        b"\x1f\x8b": "gzip",
+        b"\x1f\x9d": "compress",
+        b"BZh": "bzip2",
+        b"\xfd7zXZ\0": "xz",
+        b"7z\xbc\xaf\x27\x1c": "7z",
+    }
+    for start, packing in packings.items():
+        if head.startswith(start):
+            return f"the file is compressed ({packing}): unpack it, and give the file inside"
+    return ""
 
 
 def format_of(path: str | Path, fmt: str | None = None) -> str:
     """Return which reader a file needs: "netcdf", "numpy", "text" or "instrument"."""
     if fmt is not None:
-        return fmt if fmt in _FORMATS else INSTRUMENT
+        return fmt if fmt in ("netcdf", "numpy", "text") else INSTRUMENT
     suffix = Path(path).suffix.lower()
-    if suffix in _SUFFIXES:
-        return _SUFFIXES[suffix]
+    if suffix in (".nc", ".nc4", ".cdf"):
+        return "netcdf"
+    if suffix in (".npz", ".npy"):
+        return "numpy"
+    if suffix in (".hfm", ".sdf", ".nms"):  # text, but no matrix of heights
+        return INSTRUMENT
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
     if not head.startswith(_UTF16) and b"\0" in head:
@@ -160,7 +153,9 @@ def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
             return _read_instrument(path, None if fmt == INSTRUMENT else fmt, channel)
         if kind == "text":
             return _read_text(path)
-        return (_read_netcdf if kind == "netcdf" else _read_numpy)(path, variable)
+        if kind == "netcdf":
+            return _read_netcdf(path, variable)
+        return _read_numpy(path, variable)
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 
@@ -176,17 +171,30 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
     data = dataset[name].astype(float)
     if data.ndim == 2:
         first, second = (str(dim).lower() for dim in data.dims)
-        if not (first in _X_NAMES or second in _Y_NAMES):
+        first_is_x = first in ("x", "lon", "longitude", "easting")
+        second_is_y = second in ("y", "lat", "latitude", "northing")
+        if not (first_is_x or second_is_y):
             data = data.transpose()
-    places, unit, along = None, None, [dataset.get(dim) for dim in data.dims]
-    if all(c is not None and "units" in c.attrs for c in along):
+    places = None
+    place_unit = None
+    coordinates = [dataset.get(dim) for dim in data.dims]
+    if all(c is not None and "units" in c.attrs for c in coordinates):
         if data.ndim == 1:
-            places, unit = along[0].values.astype(float), along[0].units
+            places = coordinates[0].values.astype(float)
+            place_unit = coordinates[0].units
         else:
-            steps = [_find_step(coordinate) for coordinate in along]
-            places, unit = (None, None) if None in steps else (np.array(steps), "m")
-    source, values = f"{path}: {name}", np.array(data.values)
-    return Raw(values, source, data.attrs.get("units"), others, places, unit)
+            steps = [_find_step(coordinate) for coordinate in coordinates]
+            if None not in steps:
+                places = np.array(steps)
+                place_unit = "m"
+    return Raw(
+        heights=np.array(data.values),
+        source=f"{path}: {name}",
+        unit=data.attrs.get("units"),
+        others=others,
+        places=places,
+        place_unit=place_unit,
+    )
 
 
 def _choose(
@@ -200,11 +208,14 @@ def _choose(
             raise ValueError(f"{what} {wanted!r} is neither a map (2D) nor a profile (1D)")
         return wanted, ()
     usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
-    found = [name for name in usable if arrays[name].ndim == 2] or usable
-    if len(found) != 1:
-        said = f"needs one two-dimensional {what}, or one profile, found {sorted(found)}"
-        raise ValueError(f"{said}; name one as variable")
-    return found[0], tuple(name for name in usable if name != found[0])
+    eligible = [name for name in usable if arrays[name].ndim == 2] or usable
+    if len(eligible) != 1:
+        raise ValueError(
+            f"needs one two-dimensional {what}, or one profile, found {sorted(eligible)}; name "
+            "one as variable"
+        )
+    chosen = eligible[0]
+    return chosen, tuple(name for name in usable if name != chosen)
 
 
 def _find_step(coordinate) -> float | None:
@@ -245,38 +256,50 @@ def _read_text(path: Path) -> Raw:
             "instrument if it is an instrument's file"
         )
     for line in header:
-        said = f"its header says {line!r}, which"
         if _OF_INSTRUMENTS.search(line):
-            raise ValueError(f"{said} the text reader does not take; give format: instrument")
-        if _FACTOR.search(line) and re.search(r"\d", line) and not _OF_NO_HEIGHTS.search(line):
             raise ValueError(
-                f"{said} is not read; apply it to the heights and remove the line, or try format: "
+                f"its header says {line!r}, which the text reader does not take; give format: "
                 "instrument"
             )
+        if _FACTOR.search(line) and re.search(r"\d", line) and not _OF_NO_HEIGHTS.search(line):
+            raise ValueError(
+                f"its header says {line!r}, which is not read; apply it to the heights and remove "
+                "the line, or try format: instrument"
+            )
     fields = {match[1].lower(): match[2] for match in map(_FIELD.match, header) if match}
-    heights, places, place_unit = _read_rows(rows).T, None, fields.get("lateral unit")
+    heights = _read_rows(rows).T
+    places = None
+    place_unit = fields.get("lateral unit")
     columns, count = heights.shape
     shapes = [heights.shape]  # (columns, rows) that the header may mean
-    if columns == 3 and count >= _FEWEST_POINTS:
+    if columns == 3 and count >= 16:  # fewer rows of three numbers are a matrix
         heights, places = _map_points(heights)
         shapes.insert(0, heights.shape)
     elif columns == 1 or (columns == 2 and count > 2):
         # Headers of profiles count points along x, or rows of the table.
         shapes.append((count, 1))
-        heights, places = heights[-1], heights[0] if columns == 2 else None
+        places = heights[0] if columns == 2 else None
+        heights = heights[-1]
     elif "width" in fields:
         size = [fields[name] for name in ("width", "height") if name in fields]
         size = size if len(size) == 2 else size[0]  # without a height the pixels are square
         size = sides(size, heights.shape, "Width, Height in the header")
-        places, place_unit = np.divide(size, heights.shape), "m"
+        places = np.divide(size, heights.shape)
+        place_unit = "m"
+    _check_counts(header, shapes)
+    return Raw(heights, str(path), fields.get("value unit"), (), places, place_unit)
+
+
+def _check_counts(header: list[str], shapes: list[tuple[int, ...]]) -> None:
+    """Check the columns and rows that a header names against the shapes that they may mean."""
     for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
-        for line, match in ((line, pattern.search(line)) for line in header):
+        for line in header:
+            match = pattern.search(line)
             if match and int(match[1]) not in (shape[axis] for shape in shapes):
                 raise ValueError(
                     f"{shapes[0][axis]} {name}, but its header says {line!r}; is the file "
                     "complete, and do decimal commas or separators split its numbers?"
                 )
-    return Raw(heights, str(path), fields.get("value unit"), (), places, place_unit)
 
 
 def _split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
@@ -289,7 +312,8 @@ def _split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
     rows: list[tuple[int, str]] = []
     for number, line in enumerate(text.splitlines(), start=1):
         stripped = line.strip(" \r\n")
-        if stripped.startswith(_COMMENT) or not (rows or _NUMERIC.match(stripped)):
+        is_comment = stripped.startswith(("#", "%", "//"))
+        if is_comment or not (rows or _NUMERIC.match(stripped)):
             header.append(stripped)
         elif stripped.strip():
             rows.append((number, stripped))
@@ -302,20 +326,23 @@ def _read_rows(rows: list[tuple[int, str]]) -> NDArray:
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
     if separator is None and re.search(r",\s|^[^ ]*,[^ ]*$", first):
         separator = ","
+    missing = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
     values: list[list[float]] = []
     for number, line in rows:
         fields = (line if separator == "," else line.replace(",", ".")).split(separator)
         if separator and len(fields) > 1 and not fields[-1].strip():
             fields.pop()  # a separator after the last number
         try:
-            row = [np.nan if f.strip().lower() in _MISSING else float(f) for f in fields]
+            row = [np.nan if f.strip().lower() in missing else float(f) for f in fields]
         except ValueError as error:
             raise ValueError(
                 f"line {number}: {error}; mark missing points by NaN and comment lines by #"
             ) from None
         if values and len(row) != len(values[0]):
-            said = f"line {number}: {len(row)} numbers where the first row has {len(values[0])}"
-            raise ValueError(f"{said}; every row needs as many")
+            raise ValueError(
+                f"line {number}: {len(row)} numbers where the first row has {len(values[0])}; "
+                "every row needs as many"
+            )
         values.append(row)
     matrix = np.array(values)
     # Do columns by turns hold whole numbers and their decimals: close to the next but one?
@@ -323,7 +350,7 @@ def _read_rows(rows: list[tuple[int, str]]) -> NDArray:
     if separator == "," and "." not in first and pairs:
         beside = np.nanmedian(np.abs(np.diff(matrix, axis=1)))
         whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
-        if beside > _ALTERNATE * whole:
+        if beside > 5 * whole:
             raise ValueError(
                 f"{matrix.shape[1]} columns without a decimal point that alternate: "
                 "decimal commas, which its separating commas hide; separate by tabs or "
@@ -335,7 +362,8 @@ def _read_rows(rows: list[tuple[int, str]]) -> NDArray:
 def _map_points(points: NDArray) -> tuple[NDArray, NDArray]:
     """Heights (nx, ny) of points (3, n) in any order, NaN where there is none, and grid steps."""
     points = points[:, np.isfinite(points[:2]).all(axis=0)]
-    (i, dx), (j, dy) = (_index(points[axis], "xy"[axis]) for axis in (0, 1))
+    i, dx = _index(points[0], "x")
+    j, dy = _index(points[1], "y")
     heights = np.full((int(i.max()) + 1, int(j.max()) + 1), np.nan)
     if points.shape[1] < (1 - _MOST_EMPTY) * heights.size:
         raise ValueError(
@@ -357,7 +385,7 @@ def _index(positions: NDArray, name: str) -> tuple[NDArray, float]:
     gaps = gaps[gaps > _SLACK * gaps.max()]  # positions that differ by rounding only
     # Gaps of rounded positions differ: one step is the mean of the short ones, and then what
     # fits the whole side.
-    step = gaps[gaps < _ONE_STEP * gaps.min()].mean()
+    step = gaps[gaps < 1.5 * gaps.min()].mean()
     step = float((levels[-1] - levels[0]) / np.rint(gaps / step).sum())
     index = (positions - levels[0]) / step
     if np.abs(index - np.rint(index)).max() > 10 * _SLACK:
@@ -374,8 +402,8 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
         warnings.simplefilter("ignore")  # of what SurfaceTopography imports
         from SurfaceTopography import IO
     if fmt is not None and fmt not in IO.lookup_reader_by_format:
-        known = ", ".join(sorted(IO.lookup_reader_by_format))
-        raise ValueError(f"SurfaceTopography has no format {fmt!r}; it knows {known}")
+        formats = ", ".join(sorted(IO.lookup_reader_by_format))
+        raise ValueError(f"SurfaceTopography has no format {fmt!r}; it knows {formats}")
     reader = _call(path, lambda: IO.open_topography(str(path), format=fmt))
     channels, info = _call(path, lambda: (reader.channels, reader.default_channel))
     usable = [c for c in channels if holds_heights(c)]
@@ -392,15 +420,18 @@ def _read_instrument(path: Path, fmt: str | None, channel: str | int | None) -> 
     if not holds_heights(info):
         raise ValueError(f"{info.name} holds no heights; channels that do: {heights_in or 'none'}")
     # If the file does not hold the size, the caller must give it; until then it is in pixels.
-    known = info.physical_sizes is not None
-    size = {} if known else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
+    has_size = info.physical_sizes is not None
+    size = {} if has_size else {"physical_sizes": tuple(float(n) for n in info.nb_grid_pts)}
     data = _call(path, lambda: reader.topography(channel_index=info.index, **size))
     # Points that could not be measured come masked.
     heights = np.array(np.ma.filled(np.ma.asarray(data.heights(), dtype=float), np.nan), float)
-    unit, places, place_unit = data.unit, None, "m"
-    if known and unit and heights.ndim == 1:
-        places, place_unit = np.asarray(data.positions(), dtype=float), unit
-    elif known and unit:
+    unit = data.unit
+    places = None
+    place_unit = "m"
+    if has_size and unit and heights.ndim == 1:
+        places = np.asarray(data.positions(), dtype=float)
+        place_unit = unit
+    elif has_size and unit:
         scale = metres(f"1 {unit}", f"{info.name}: unit of length in the file")
         places = np.array(data.physical_sizes, dtype=float) * scale / heights.shape
     others = [str(c.channel_id) for c in usable if channel is None and c.index != info.index]
@@ -429,7 +460,7 @@ def _find_damage(path: Path, error: Exception) -> str:
     """What is wrong with a file that SurfaceTopography cannot read, and what helps."""
     from SurfaceTopography import IO
 
-    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())[:_LONGEST]
+    words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())[:200]
     if isinstance(error, IO.CorruptFile):
         return f"the file is incomplete or damaged ({words}): copy it again"
     reason = f"{type(error).__name__}: {words}".removesuffix(": ")

@@ -10,6 +10,7 @@ beyond sampling, by the scatter of the rings (Paule & Mandel 1982, doi:10.6028/j
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,8 +25,28 @@ COARSE = 10  #: rings per decade for the misfit
 # Levelled heights keep the rounding of those as read, in which an offset or a tilt may exceed the
 # roughness a thousandfold: no mode can gather more of it than (1000 * 2e-16)^2.
 _ROUNDING = 1e-24
-_ALTERNATIONS = 20
-_SLOPES = (-1e3, 1e3)  # bracket of the exponent s in C ~ q^-s; wide, plateaus are tried anywhere
+
+
+class PowerLaw(NamedTuple):
+    """ln C = level - exponent x of x = ln q, and constant below a corner."""
+
+    level: float
+    exponent: float
+    corner: float = -np.inf  #: none
+
+    @property
+    def parameters(self) -> int:
+        """Number of the parameters."""
+        return 3 if self.is_bent else 2
+
+    @property
+    def is_bent(self) -> bool:
+        """Whether it has a corner."""
+        return self.corner > -np.inf
+
+    def at(self, x: NDArray) -> NDArray:
+        """C at ln q = x."""
+        return np.exp(self.level - self.exponent * np.maximum(x, self.corner))
 
 
 @dataclass(frozen=True)
@@ -90,8 +111,8 @@ def fit_rings(
     # The slack keeps modes exactly on a limit, whatever the rounding of |q|.
     rings = rings.between(q_min * (1 - 1e-9), q_max * (1 + 1e-9))
     if not demand:
-        filled = rings.psd > rounding
-        rings = RadialPSD(rings.q[filled], rings.psd[filled], rings.dof[filled])
+        has_power = rings.psd > rounding
+        rings = RadialPSD(rings.q[has_power], rings.psd[has_power], rings.dof[has_power])
     wide = len(merge_rings(rings, rings.psd, COARSE)[0]) if len(rings) else 0
     if len(rings) < 2 or (demand and (wide < 5 or rings.dof.sum() < 20)):
         raise ValueError(
@@ -110,78 +131,97 @@ def fit_rings(
     # ln q about the middle of the data, where exponent and level are least correlated.
     scale = float(np.exp(np.average(np.log(rings.q), weights=rings.dof)))
     x = np.log(rings.q / scale)
-    parameters, misfit = weighted_fit(x, rings)
-    # A plateau may end above four modes, a tenth of a decade below the top.
+    law, misfit = weighted_fit(x, rings)
+
+    # A plateau is kept if it explains the data much better. It may end above four modes, a tenth of
+    # a decade below the top.
     room = x[(np.cumsum(rings.dof) > 4) & (x < x[-1] - np.log(10) / 10)]
     if rolloff and len(room) < 2:
         raise ValueError("rolloff=True needs a wider range of q: lower q_min or raise q_max")
     if rolloff is not False and len(room) > 1:
         bent, bent_misfit = weighted_fit(x, rings, (room[0], room[-1]))
         limited = limit_weight(rings, bent_misfit)
-        gain = 2 * (deviance(x, limited, *parameters) - deviance(x, limited, *bent)) - 2
+        gain = 2 * (deviance(x, limited, law) - deviance(x, limited, bent)) - 2
         if rolloff or gain > ROLLOFF_AIC:
-            parameters, misfit = bent, bent_misfit
-    a, s, *corner = parameters
-    # In the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
-    log_q = np.maximum(x, *corner) if corner else x
-    slopes = [np.ones_like(x), -2 * (log_q + np.log(scale)), *(-s * (x < c) for c in corner)]
+            law = bent
+            misfit = bent_misfit
+
+    # Covariance in the unit of the data: ln C = ln c0 - 2 (H + 1) max(ln q, ln q_r).
+    log_q = np.maximum(x, law.corner) + np.log(scale)
+    slopes = [np.ones_like(x), -2 * log_q]
+    if law.is_bent:
+        slopes.append(-law.exponent * (x < law.corner))
     design = np.array(slopes)
     information = (design * limit_weight(rings, misfit).dof) @ design.T
     return SelfAffineFit(
-        hurst=s / 2 - 1,
-        c0=float(np.exp(a + s * np.log(scale))),
+        hurst=law.exponent / 2 - 1,
+        c0=float(np.exp(law.level + law.exponent * np.log(scale))),
         log_covariance=np.linalg.inv(information),
         q_min=float(rings.q[0]),
         q_max=float(rings.q[-1]),
-        q_rolloff=scale * float(np.exp(corner[0])) if corner else None,
+        q_rolloff=scale * float(np.exp(law.corner)) if law.is_bent else None,
         misfit=misfit,
         rings=rings,
     )
 
 
-def fit_power_law(x: NDArray, rings: RadialPSD) -> tuple[float, float]:
-    """Maximise the likelihood of ln C = a - s x: (a, s). The likelihood has one maximum."""
+def fit_power_law(x: NDArray, rings: RadialPSD) -> PowerLaw:
+    """Maximise the likelihood of a law without a corner. The likelihood has one maximum."""
     weight = rings.dof / rings.dof.sum()
     centre = float(weight @ x)
     log_psd = np.log(rings.psd)
 
-    def moments(s: float) -> tuple[float, float]:
-        exponent = log_psd + s * (x - centre)
-        level = exponent.max()
-        share = weight * np.exp(exponent - level)
-        return float(np.log(share.sum()) + level), float(share @ (x - centre) / share.sum())
+    def flatten(exponent: float) -> tuple[NDArray, float]:
+        """C without the power law, over its largest value, and the logarithm of that value."""
+        log_flat = log_psd + exponent * (x - centre)
+        highest = log_flat.max()
+        return weight * np.exp(log_flat - highest), highest
 
-    s = optimize.brentq(lambda s: moments(s)[1], *_SLOPES, xtol=1e-12)
-    return moments(s)[0] + s * centre, s
+    def tilt(exponent: float) -> float:
+        """Centre of the flattened C, which the best exponent leaves where it is."""
+        flat, _ = flatten(exponent)
+        return float(flat @ (x - centre) / flat.sum())
+
+    # The bracket is wide, because plateaus are tried anywhere.
+    exponent = optimize.brentq(tilt, -1e3, 1e3, xtol=1e-12)
+    flat, highest = flatten(exponent)
+    return PowerLaw(float(np.log(flat.sum()) + highest) + exponent * centre, exponent)
 
 
-def fit_rolloff(x, rings, room) -> tuple[float, float, float]:
-    """Maximise the likelihood of ln C = a - s max(x, c), c within `room`: (a, s, c)."""
+def fit_rolloff(x: NDArray, rings: RadialPSD, room: tuple[float, float]) -> PowerLaw:
+    """Maximise the likelihood of a law with a corner within `room`."""
 
-    def cost(c):
-        return deviance(x, rings, *fit_power_law(np.maximum(x, c), rings), c)
+    def fit_with(corner: float) -> PowerLaw:
+        return fit_power_law(np.maximum(x, corner), rings)._replace(corner=corner)
+
+    def cost(corner: float) -> float:
+        return deviance(x, rings, fit_with(corner))
 
     # The likelihood has kinks and several maxima in c: scan, then refine.
-    grid = np.linspace(*room, 40)
-    best = int(np.argmin([cost(c) for c in grid]))
-    bounds = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    c = float(optimize.minimize_scalar(cost, bounds=bounds, method="bounded").x)
-    return *fit_power_law(np.maximum(x, c), rings), c
+    start, stop = room
+    grid = np.linspace(start, stop, 40)
+    best = int(np.argmin([cost(corner) for corner in grid]))
+    bounds = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
+    return fit_with(float(optimize.minimize_scalar(cost, bounds=bounds, method="bounded").x))
 
 
-def weighted_fit(x, rings, room=None) -> tuple[tuple[float, ...], float]:
+def weighted_fit(
+    x: NDArray, rings: RadialPSD, room: tuple[float, float] | None = None
+) -> tuple[PowerLaw, float]:
     """Alternate between a fit with limited weights, bent within a `room`, and their misfit."""
 
-    def fit(limited):
+    def fit(limited: RadialPSD) -> PowerLaw:
         return fit_power_law(x, limited) if room is None else fit_rolloff(x, limited, room)
 
-    parameters, misfit = fit(rings), 0.0
-    for _ in range(_ALTERNATIONS):
-        before, misfit = misfit, rms_misfit(rings, power_law(x, *parameters), len(parameters))
+    law = fit(rings)
+    misfit = 0.0
+    for _ in range(20):
+        before = misfit
+        misfit = rms_misfit(rings, law.at(x), law.parameters)
         if abs(misfit - before) <= 0.01 * misfit:  # far below the error of the misfit
             break
-        parameters = fit(limit_weight(rings, misfit))
-    return parameters, misfit
+        law = fit(limit_weight(rings, misfit))
+    return law, misfit
 
 
 def rms_misfit(rings: RadialPSD, model: NDArray, parameters: int) -> float:
@@ -205,12 +245,7 @@ def limit_weight(rings: RadialPSD, misfit: float) -> RadialPSD:
     return replace(rings, dof=rings.dof / (1 + wide * misfit**2))
 
 
-def power_law(x: NDArray, a: float, s: float, c: float = -np.inf) -> NDArray:
-    """C at ln q = x: exp(a - s x), and constant below x = c."""
-    return np.exp(a - s * np.maximum(x, c))
-
-
-def deviance(x: NDArray, rings: RadialPSD, a: float, s: float, c: float = -np.inf) -> float:
+def deviance(x: NDArray, rings: RadialPSD, law: PowerLaw) -> float:
     """Negative logarithm of the likelihood, up to a constant."""
-    ratio = rings.psd / power_law(x, a, s, c)
+    ratio = rings.psd / law.at(x)
     return float(rings.dof @ (ratio - np.log(ratio)))

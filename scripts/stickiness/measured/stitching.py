@@ -16,21 +16,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy import special
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
 from stickiness.measured.psd import RadialPSD
-from stickiness.measured.self_affine_fit import fit_rings
+from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
 from stickiness.spectrum.direction import expm1_over
 
 RINGS = 20  #: per decade
 SHORTEST_WAVE = 0.3e-9  #: [m]; the distance of atoms, where any roughness ends
-MOST_UNRESOLVED = (
-    0.5  #: energy of unresolved waves over that of the others, above which they decide
-)
+#: Energy of unresolved waves over that of the others, above which they decide.
+MOST_UNRESOLVED = 0.5
 REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
@@ -54,21 +54,25 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
     tau2 = _variance_between(logs, variances)
     shares, rings = _average(q, logs, variances, tau2)
     top = max(measurements, key=lambda m: m.cutoff.q)
-    band = min(m.fit.q_min for m in measurements), top.cutoff.q
-    fit = fit_rings(rings, *band)
-    tau, bent = float(np.sqrt(tau2)), fit.q_rolloff is not None
+    q_min = min(m.fit.q_min for m in measurements)
+    fit = fit_rings(rings, q_min, top.cutoff.q)
+    tau = float(np.sqrt(tau2))
+    has_plateau = fit.q_rolloff is not None
     covariance = fit.log_covariance.copy()
     # Offsets tilt the spectrum: add what raising each measurement by tau changes.
     for offsets in tau * np.eye(len(logs)) if tau > 0 else ():
         _, raised = _average(q, logs + offsets[:, None], variances, tau**2)
-        other = fit_rings(raised, *band, rolloff=bent)
-        change = [np.log(other.c0 / fit.c0), other.hurst - fit.hurst]
-        change += [np.log(other.q_rolloff / fit.q_rolloff)] if bent else []
+        changed = fit_rings(raised, q_min, top.cutoff.q, rolloff=has_plateau)
+        change = [np.log(changed.c0 / fit.c0), changed.hurst - fit.hurst]
+        if has_plateau:
+            change.append(np.log(changed.q_rolloff / fit.q_rolloff))
         covariance += np.outer(change, change)
     lowest = min(m.lowest for m in measurements)
-    excess, present = logs - np.nansum(shares * logs, axis=0), np.isfinite(logs)
-    overlaps = present & (present.sum(axis=0) > 1)
-    offsets = [e[o].mean() if o.any() else np.nan for e, o in zip(excess, overlaps, strict=True)]
+    # Where a measurement overlaps with others, how far it is off the mean.
+    excess = logs - np.nansum(shares * logs, axis=0)
+    present = np.isfinite(logs)
+    shared = present & (present.sum(axis=0) > 1)
+    offsets = [e[s].mean() if s.any() else np.nan for e, s in zip(excess, shared, strict=True)]
     return Stitched(
         rings=rings,
         area=ring_areas(rings.q, lowest),
@@ -87,7 +91,8 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
 def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
     """Logarithm of C and its variance (k, m), NaN where there are no data; wave numbers (m,)."""
     broadest = min(measurements, key=lambda m: m.lowest)
-    q_low, top = broadest.lowest, max(m.cutoff.q for m in measurements)
+    q_low = broadest.lowest
+    top = max(m.cutoff.q for m in measurements)
     count = int(np.ceil(np.log10(top / q_low) * RINGS)) + 1
     centres = q_low * 10 ** (np.arange(count) / RINGS)
     logs = np.full((len(measurements), count), np.nan)
@@ -199,28 +204,16 @@ def draw(
             f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
         )
     rng = np.random.default_rng(seed)
-    fit, rings, cutoff = spectrum.fit, spectrum.rings, spectrum.cutoff.q
-    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
-    # of that mean and variance is positive and lacks the far tail of the posterior of a single
-    # mode: the variance of the measured heights is known.
-    variance = np.log1p(1 / rings.dof)
-    sampling, logs = variance, 0.0
-    if isinstance(spectrum, Stitched):
-        tau, shares = np.nan_to_num(spectrum.scatter), spectrum.shares
-        logs = rng.normal(size=(count, len(shares))) * tau @ shares
-        # The errors of the rings already hold the offsets, as if these were independent.
-        sampling = np.maximum(variance - tau**2 * np.sum(shares**2, axis=0), 0.0)
-    normal = rng.normal(size=(count, len(variance)))
-    levels = rings.psd * np.exp(logs + normal * np.sqrt(sampling) - variance / 2)
-    # ln C at the cutoff, H and, with a plateau, ln q_rolloff.
-    centre = [np.log(fit.c0), fit.hurst] + ([np.log(fit.q_rolloff)] if fit.q_rolloff else [])
-    law = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
-    hurst = law[:, 1]
-    level = np.exp(law[:, 0] - 2 * (hurst + 1) * np.log(cutoff))
+    rings = spectrum.rings
+    cutoff = spectrum.cutoff.q
+    levels = _draw_levels(spectrum, count, rng)
+    law = _draw_laws(spectrum.fit, count, rng)
 
-    def integrate_law(end, order):
-        log_ratio = np.log(end / cutoff)
-        return 2 * np.pi * level * cutoff ** (2 + order) * expm1_over(order - 2 * hurst, log_ratio)
+    def integrate_law(end: ArrayLike, order: int) -> NDArray:
+        """2 pi * integral of q^(1 + order) C from the cutoff to `end`, by every law."""
+        level = np.exp(law.log_c0 - 2 * (law.hurst + 1) * np.log(cutoff))
+        integral = expm1_over(order - 2 * law.hurst, np.log(end / cutoff))
+        return 2 * np.pi * level * cutoff ** (2 + order) * integral
 
     moments = {}
     for name, order in ORDERS.items():
@@ -230,10 +223,50 @@ def draw(
         if extend_to is not None:
             moment = moment + integrate_law(extend_to, order)
         moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
+
+    # Waves that are not resolved, up to ends of the law that are spread over the magnitudes.
     furthest = cutoff if extend_to is not None else max(continue_to or 0.0, cutoff)
     unresolved = integrate_law(furthest, 1) / 4 / moments["elastic_energy"]
     # A twelfth of the draws is at either end, so that limits of 90 % contain both.
     ends = cutoff * (furthest / cutoff) ** np.clip(rng.uniform(-0.1, 1.1, count), 0.0, 1.0)
     moments["elastic_energy"] = moments["elastic_energy"] + integrate_law(ends, 1) / 4
-    q0 = np.exp(law[:, 2]) if fit.q_rolloff else np.full(count, spectrum.lowest)
+    q0 = np.full(count, spectrum.lowest)
+    if law.log_q_rolloff is not None:
+        q0 = np.exp(law.log_q_rolloff)
     return Draws(moments, q0, unresolved)
+
+
+def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
+    """C of every ring, `(count, m)`, drawn by its sampling error and the scatter."""
+    rings = spectrum.rings
+    # The mean of dof exponential values has the relative variance 1/dof. A log-normal distribution
+    # of that mean and variance is positive and lacks the far tail of the posterior of a single
+    # mode: the variance of the measured heights is known.
+    variance = np.log1p(1 / rings.dof)
+    sampling = variance
+    offsets: ArrayLike = 0.0
+    if isinstance(spectrum, Stitched):
+        tau = np.nan_to_num(spectrum.scatter)
+        shares = spectrum.shares
+        offsets = rng.normal(size=(count, len(shares))) * tau @ shares
+        # The errors of the rings already hold the offsets, as if these were independent.
+        sampling = np.maximum(variance - tau**2 * np.sum(shares**2, axis=0), 0.0)
+    normal = rng.normal(size=(count, len(variance)))
+    return rings.psd * np.exp(offsets + normal * np.sqrt(sampling) - variance / 2)
+
+
+class _Laws(NamedTuple):
+    """Self-affine laws that agree with a fit, `(count,)` each."""
+
+    log_c0: NDArray
+    hurst: NDArray
+    log_q_rolloff: NDArray | None  #: None without a plateau
+
+
+def _draw_laws(fit: SelfAffineFit, count: int, rng: np.random.Generator) -> _Laws:
+    """Draw laws by the covariance of the fit."""
+    centre = [np.log(fit.c0), fit.hurst]
+    if fit.q_rolloff:
+        centre.append(np.log(fit.q_rolloff))
+    drawn = rng.multivariate_normal(centre, fit.log_covariance, size=count, method="eigh")
+    return _Laws(drawn[:, 0], drawn[:, 1], drawn[:, 2] if fit.q_rolloff else None)

@@ -13,17 +13,15 @@ from typing import Self
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from stickiness.arguments import numbers, positive
 from stickiness.measured import levelling, readers
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.plausibility import doubt_sizes, doubt_values
 from stickiness.measured.readers import Length, Raw, metres, sides
 
 Size = Length | Sequence[Length] | None
-
-_SAME_SIZE = 0.01  # relative, up to which two sizes are the same
-_WGS84_A, _WGS84_E2 = 6378137.0, 6.69437999014e-3  # semi-major axis [m], eccentricity squared
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,12 +59,16 @@ class _Heights:
 
     def to_xarray(self) -> xr.DataArray:
         """Return the heights along `x` (and `y`) with units, so that ``.plot()`` labels itself."""
-        attributes, axes = {"units": "m", "long_name": "height"}, ("x", "y")
-        found = xr.DataArray(self.heights, None, axes[: self.heights.ndim], "height", attributes)
-        for axis, step in zip(found.dims, self.steps, strict=True):
-            found[axis] = step * np.arange(found.sizes[axis])
-            found[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
-        return found
+        labelled = xr.DataArray(
+            self.heights,
+            dims=("x", "y")[: self.heights.ndim],
+            name="height",
+            attrs={"units": "m", "long_name": "height"},
+        )
+        for axis, step in zip(labelled.dims, self.steps, strict=True):
+            labelled[axis] = step * np.arange(labelled.sizes[axis])
+            labelled[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
+        return labelled
 
     def h_rms_as_read(self, kind: Detrend = "plane") -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
@@ -169,6 +171,138 @@ def read(
         raise FileNotFoundError(f"no topography file {str(path)!r}")
     if length is not None and pixel_size is not None:
         raise ValueError("give length or pixel_size, not both")
+    _check_options(missing, max_missing, missing_rim, spikes)
+
+    raw = readers.read(path, format, variable, channel)
+    size = length or pixel_size
+    _ask_for_units(raw, size, height_unit, position_unit)
+    heights = raw.heights
+    if missing_value is not None:
+        heights = np.where(heights == missing_value, np.nan, heights)
+    places = _places(raw, length, pixel_size, position_unit)
+
+    # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
+    in_metres = raw.unit == "m" and readers.format_of(path, format) == readers.INSTRUMENT
+    contradictions = tuple(_contradict(raw, size, places, height_unit, in_metres))
+    scale = _scale(raw.source, "height_unit", None if in_metres else height_unit, raw.unit)
+    measurement = from_array(
+        heights,
+        places,
+        missing=missing,
+        max_missing=max_missing,
+        missing_rim=missing_rim,
+        spikes=spikes,
+        source=raw.source,
+        scale=scale,
+    )
+    return replace(measurement, others=raw.others, contradictions=contradictions)
+
+
+def from_array(
+    heights: ArrayLike,
+    steps: ArrayLike,
+    *,
+    missing: Missing = "fill",
+    max_missing: float = MAX_MISSING,
+    missing_rim: Rim = "detect",
+    spikes: Spikes = "mask",
+    source: str = "heights",
+    scale: float = 1.0,
+) -> Topography | Profile:
+    """Clean and check heights in an array, as `read` does those of a file.
+
+    Parameters
+    ----------
+    heights : (nx, ny) or (n,) array
+        Map, the first axis along x, or line profile; NaN or masked where missing.
+    steps : float, pair of float or (n,) array
+        Grid step [m] along both axes, or along each. Of a profile its step, or the positions of
+        its points [m], in any order: uneven ones are interpolated linearly to as many even ones.
+    missing, max_missing, missing_rim, spikes
+        As of `read`.
+    source : str
+        Name of the heights in messages.
+    scale : float
+        Metres per unit of `heights`. Doubts about values are about numbers as they are given.
+
+    Returns
+    -------
+    Topography or Profile
+        Heights in metres, without missing points.
+
+    Raises
+    ------
+    ValueError
+        If the heights are no map or profile or all equal, if positions coincide, or if too much is
+        missing.
+
+    Examples
+    --------
+    >>> heights = 1e-6 * np.cos(0.1 * np.arange(32.0))[:, None] * np.ones(32)
+    >>> heights[7, 5] = np.nan
+    >>> wall = from_array(heights, steps=1e-6)
+    >>> wall.missing, wall.heights.shape
+    (1, (32, 32))
+    """
+    _check_options(missing, max_missing, missing_rim, spikes)
+    if np.ma.isMaskedArray(heights):
+        heights = heights.astype(float).filled(np.nan)
+    heights = numbers("heights", heights)
+    if heights.ndim not in (1, 2) or heights.size == 0:
+        raise ValueError(
+            f"{source}: heights must be a map (nx, ny) or a profile (n,), got shape {heights.shape}"
+        )
+    positions = None
+    if heights.ndim == 1:
+        heights, positions = _sort_profile(heights, steps, source)
+    else:
+        steps = np.broadcast_to(positive(steps=steps)[0], 2)
+
+    # Spikes and points beside missing ones are taken for missing.
+    usable, dropped = levelling.without_rims(heights, missing_rim)
+    masked = 0
+    if spikes == "mask":
+        is_spike = levelling.find_spikes(usable)
+        masked = int(np.count_nonzero(is_spike))
+        usable = np.where(is_spike, np.nan, usable)
+    doubts = [*doubt_values(usable)]
+
+    # Missing points are cut off or filled.
+    if missing == "crop":
+        kept = levelling.complete_rectangle(np.isfinite(usable), source)
+        usable = usable[kept]
+        positions = None if positions is None else positions[kept]
+    losses = f", {dropped} points beside missing ones dropped" if dropped else ""
+    losses += f", {masked} spikes masked" if masked else ""
+    limit = 0.0 if missing == "refuse" else max_missing
+    filled, filled_count = levelling.fill_missing(usable, limit, source + losses, positions)
+
+    largest_gap = 0.0
+    if positions is not None:
+        if len(positions) < 2:
+            raise ValueError(f"{source}: a line profile needs two points at least")
+        largest_gap = float(np.diff(positions).max())
+        filled, step = _resample(filled, positions)
+        steps = (step,)
+    filled = filled * scale
+    if np.ptp(filled) == 0:
+        raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
+    doubts += doubt_sizes(filled, steps)
+    record = {
+        "missing": filled_count,
+        "cropped": 1 - usable.size / heights.size,
+        "dropped": dropped,
+        "spikes": masked,
+        "as_read": heights * scale if dropped or masked else None,
+        "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
+    }
+    if positions is not None:
+        return Profile(filled, steps[0], source, largest_gap, **record)
+    return Topography(filled, float(steps[0]), float(steps[1]), source, **record)
+
+
+def _check_options(missing: Missing, max_missing: float, missing_rim: Rim, spikes: Spikes) -> None:
+    """Check how missing points and spikes are to be treated."""
     if not 0 <= max_missing < 1:
         raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
     if missing not in ("fill", "crop", "refuse"):
@@ -177,107 +311,92 @@ def read(
         raise ValueError(f"missing_rim must be a number of points or 'detect', got {missing_rim!r}")
     if spikes not in ("mask", "keep"):
         raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
-    raw = readers.read(path, format, variable, channel)
-    source, heights = raw.source, raw.heights
-    _ask_for_units(raw, length or pixel_size, height_unit, position_unit)
-    if missing_value is not None:
-        heights = np.where(heights == missing_value, np.nan, heights)
-    x, steps = None, _places(raw, length, pixel_size, position_unit)
-    if heights.ndim == 1:
-        order = np.argsort(steps, kind="stable")
-        x, heights = steps[order], heights[order]
-        if len(x) < 2 or not np.all(np.diff(x) > 0):
-            raise ValueError(f"{source}: positions of a line profile must all differ")
 
-    left, dropped = levelling.without_rims(heights, missing_rim)
-    spiky = levelling.find_spikes(left) if spikes == "mask" else np.zeros(left.shape, bool)
-    masked = int(np.count_nonzero(spiky))
-    left = np.where(spiky, np.nan, left)
-    doubts = [*doubt_values(left)]
-    if missing == "crop":
-        kept = levelling.complete_rectangle(np.isfinite(left), source)
-        left, x = left[kept], x if x is None else x[kept]
-    name = source + (f", {dropped} points beside missing ones dropped" if dropped else "")
-    name += f", {masked} spikes masked" if masked else ""
-    limit = 0.0 if missing == "refuse" else max_missing
-    filled, count = levelling.fill_missing(left, limit, name, x)
-    if x is not None:
-        if len(x) < 2:
-            raise ValueError(f"{source}: a line profile needs two points at least")
-        gaps, even = np.diff(x), np.linspace(x[0], x[-1], len(x))
-        steps = (float(even[1] - even[0]),)
-        if np.ptp(gaps) > 1e-3 * steps[0]:
-            filled = np.interp(even, x, filled)
-    # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
-    in_metres = raw.unit == "m" and readers.format_of(path, format) == readers.INSTRUMENT
-    unit = None if in_metres else height_unit
-    contradictions = tuple(_contradict(raw, length or pixel_size, steps, height_unit, in_metres))
-    scale = _scale(source, "height_unit", unit, raw.unit)
-    filled = filled * scale
-    if np.ptp(filled) == 0:
-        raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
-    doubts += doubt_sizes(filled, steps)
-    known = {
-        "missing": count,
-        "cropped": 1 - left.size / heights.size,
-        "dropped": dropped,
-        "spikes": masked,
-        "as_read": heights * scale if dropped or masked else None,
-        "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
-        "others": raw.others,
-        "contradictions": contradictions,
-    }
-    if x is not None:
-        return Profile(filled, *steps, source, float(gaps.max()), **known)
-    return Topography(filled, *map(float, steps), source, **known)
+
+def _sort_profile(heights: NDArray, steps: ArrayLike, source: str) -> tuple[NDArray, NDArray]:
+    """Heights and positions of a profile in ascending order, from its step or its positions."""
+    positions = numbers("steps", steps)
+    if positions.ndim == 0:
+        positions = positive(steps=steps)[0] * np.arange(len(heights))
+    if positions.shape != heights.shape:
+        raise ValueError(
+            f"{source}: steps must be one step or {len(heights)} positions, got shape "
+            f"{positions.shape}"
+        )
+    order = np.argsort(positions, kind="stable")
+    positions = positions[order]
+    if len(positions) < 2 or not np.all(np.diff(positions) > 0):
+        raise ValueError(f"{source}: positions of a line profile must all differ")
+    return heights[order], positions
+
+
+def _resample(heights: NDArray, positions: NDArray) -> tuple[NDArray, float]:
+    """Heights of a profile at even positions, and their step."""
+    even = np.linspace(positions[0], positions[-1], len(positions))
+    step = float(even[1] - even[0])
+    if np.ptp(np.diff(positions)) > 1e-3 * step:
+        heights = np.interp(even, positions, heights)
+    return heights, step
 
 
 def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
-    shape, is_profile = raw.heights.shape, raw.heights.ndim == 1
-    if length is not None or pixel_size is not None:
-        counts = (1,) * len(shape) if length is None else shape
-        name, given = ("pixel_size", pixel_size) if length is None else ("length", length)
-        size = sides(given, counts, f"{raw.source}: {name}")
-        return np.arange(shape[0]) * size[0] / counts[0] if is_profile else np.divide(size, counts)
-    if not np.all(np.isfinite(raw.places)):
-        raise ValueError(f"{raw.source}: a position of the profile is missing")
-    return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
+    shape = raw.heights.shape
+    if length is None and pixel_size is None:
+        if not np.all(np.isfinite(raw.places)):
+            raise ValueError(f"{raw.source}: a position of the profile is missing")
+        return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
+    if length is None:
+        counts = (1,) * len(shape)
+        size = sides(pixel_size, counts, f"{raw.source}: pixel_size")
+    else:
+        counts = shape
+        size = sides(length, counts, f"{raw.source}: length")
+    if len(shape) == 1:
+        return np.arange(shape[0]) * size[0] / counts[0]
+    return np.divide(size, counts)
 
 
 def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
     """Name all keys at once that the file leaves open."""
-    wanted = []
+    unknown = []
+    keys = []
     if size is None and raw.places is None:
-        wanted.append(("its size", "length (or pixel_size)"))
+        unknown.append("its size")
+        keys.append("length (or pixel_size)")
     elif size is None and raw.place_unit is None and position_unit is None:
-        wanted.append(("the unit of position", "position_unit"))
+        unknown.append("the unit of position")
+        keys.append("position_unit")
     if height_unit is None and raw.unit is None:
-        wanted.append(("the unit of height", "height_unit"))
-    if wanted:
-        unknown, keys = zip(*wanted, strict=True)
-        said = f"the file does not tell {' or '.join(unknown)}; give {' and '.join(keys)}"
-        raise ValueError(f"{raw.source}: {said}")
+        unknown.append("the unit of height")
+        keys.append("height_unit")
+    if unknown:
+        raise ValueError(
+            f"{raw.source}: the file does not tell {' or '.join(unknown)}; "
+            f"give {' and '.join(keys)}"
+        )
 
 
 def _contradict(raw: Raw, size, steps, height_unit, in_metres: bool) -> Iterator[str]:
     """Say where the file tells otherwise than the caller, and which of them is taken."""
     if in_metres and height_unit is not None and metres(f"1 {height_unit}", "height_unit") != 1:
         yield f"{raw.source}: the heights are in m; height_unit = {height_unit!r} is not used"
-    known = raw.heights.ndim == 2 and raw.places is not None and raw.place_unit is not None
-    if size is not None and known:
+    in_file = raw.heights.ndim == 2 and raw.places is not None and raw.place_unit is not None
+    if size is not None and in_file:
         ratio = np.max(np.divide(steps, _places(raw, None, None, None)))
-        if not np.isclose(ratio, 1, rtol=_SAME_SIZE):
+        if not np.isclose(ratio, 1, rtol=0.01):
             yield f"{raw.source}: the size given is used, {ratio:.3g} times the size in the file"
 
 
-def _scale(source: str, key: str, given: str | None, in_file: str | None) -> float:
+def _scale(source: str, key: str, from_caller: str | None, in_file: str | None) -> float:
     """Metres per unit, from the caller or the file, which must agree."""
-    units = [unit for unit in (given, in_file) if unit is not None]
+    units = [unit for unit in (from_caller, in_file) if unit is not None]
     scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
-        said = f"{source}: {key} = {given!r}, but the file says {in_file!r}"
-        raise ValueError(f"{said}; leave {key} out, or correct the file")
+        raise ValueError(
+            f"{source}: {key} = {from_caller!r}, but the file says {in_file!r}; leave {key} out, "
+            "or correct the file"
+        )
     return scales[0]
 
 
@@ -292,10 +411,13 @@ def jacksboro() -> Topography:
     with cbook.get_sample_data("jacksboro_fault_dem.npz") as data:
         latitude = np.deg2rad((float(data["ymin"]) + float(data["ymax"])) / 2)
         heights = np.ascontiguousarray(data["elevation"].T, dtype=float)
-        dx, dy = float(data["dx"]), float(data["dy"])
+        dx = float(data["dx"])
+        dy = float(data["dy"])
     # Lengths of a degree, by the radii of curvature across and along the meridian.
-    w = 1 - _WGS84_E2 * np.sin(latitude) ** 2
-    east = float(np.deg2rad(_WGS84_A / np.sqrt(w) * np.cos(latitude)))
-    north = float(np.deg2rad(_WGS84_A * (1 - _WGS84_E2) / w**1.5))
+    semi_major_axis = 6378137.0  # of WGS 84 [m]
+    eccentricity2 = 6.69437999014e-3
+    w = 1 - eccentricity2 * np.sin(latitude) ** 2
+    east = float(np.deg2rad(semi_major_axis / np.sqrt(w) * np.cos(latitude)))
+    north = float(np.deg2rad(semi_major_axis * (1 - eccentricity2) / w**1.5))
     source = "matplotlib sample data jacksboro_fault_dem.npz: elevation"
     return Topography(heights, dx * east, dy * north, source)

@@ -23,24 +23,11 @@ from stickiness.spectrum.interface import Spectrum
 _SMALLEST_LOG = 45.0  # gaps below exp(-45) of the others count as zero
 _TAIL_LOG = 38.0  # area lost beyond holds less than exp(-38) of what is lost in all
 _SERIES_ORDER = 16  # Chebyshev points of a panel
-# Widths in ln(y - y_end) of the first panels of the series, and where halving ends.
-_SERIES_PANEL, _LEAST_PANEL = 1.5, 1e-3
 _POINTS = -np.cos(np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER)
 _TO_SERIES = np.polynomial.chebyshev.chebvander(_POINTS, _SERIES_ORDER - 1).T * (2 / _SERIES_ORDER)
 _TO_SERIES[0] /= 2
-# Gauss quadrature of panels that see less than each of these changes, or more than all.
-_CHANGES = 0.015, 0.08, 0.3
-_RULES = [np.polynomial.legendre.leggauss(order) for order in (2, 3, 5, 10)]
-_MANY_PANELS = 100  # with fewer, next to a strong shell, all have the last of these rules
 _PANEL = 1.4  # change over a panel, see `_panel_edges`
-_MOST_MOVES = 2000  # panels laid for Gaussians that move by many of their widths
-_LOOK, _LOOK_FAR = 0.2, 0.5  # steps in ln(y - y_end) and y^2 of the look that panels are laid by
-_MOST_SHELLS, _MOST_KNOTS = 600, 250  # that edges of panels keep to
-_STRONG = 0.02  # step of ln q from shell to shell that the approach to a shell shows
-_ONSETS = np.geomspace(1.5, 96.0, 13)  # of exp(-p^2/(m_shell - m)), negative exponents
-_SHARES = np.geomspace(0.03, 30.0, 7)  # height variance left in a shell over the finer ones'
 _FAR = 9.5  # widths from which on a Gaussian is nothing
-_BLOCK = 10  # gaps that are looked at together
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
 
@@ -67,7 +54,8 @@ class LostContact:
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
         """At values of ln(y - y_end)."""
         step = np.exp(log_step)
-        y, rest = y_end + step, p**2 * setting.kernels.area_scale_step(y_end, step)
+        y = y_end + step
+        rest = p**2 * setting.kernels.area_scale_step(y_end, step)
         return cls(y, p**2 * setting.kernels.area_scale(y), rest)
 
 
@@ -91,7 +79,8 @@ class GapCurve:
         """
         inside = np.clip(log_step, self.edges[0], self.edges[-1])
         panel = np.clip(np.searchsorted(self.edges, inside) - 1, 0, len(self.series) - 1)
-        start, end = self.edges[panel], self.edges[panel + 1]
+        start = self.edges[panel]
+        end = self.edges[panel + 1]
         x = (2 * inside - start - end) / (end - start)
         terms = np.polynomial.chebyshev.chebvander(x, _SERIES_ORDER - 1)
         smooth = np.einsum("ij,ij->i", terms, self.series[panel])
@@ -104,20 +93,23 @@ def gap_curve(setting: Setting, p: float) -> GapCurve:
     y_end = float(setting.kernels.invert_area_scale(setting.m2 / p**2))
     low, high = _visible_range(setting, y_end)
     tolerance = max(1e-7 * setting.nodes**-6, 1e-10)
-    count = int(np.ceil((high - low) * setting.nodes / _SERIES_PANEL))
+    # The first panels are at most 1.5 wide in ln(y - y_end).
+    count = int(np.ceil((high - low) * setting.nodes / 1.5))
     edges = np.linspace(low, high, 1 + count)
-    panels, done = np.stack([edges[:-1], edges[1:]], axis=1), list[tuple]()
+    panels = np.stack([edges[:-1], edges[1:]], axis=1)
+    finished: list[tuple] = []  # (start, series) of panels that are fine enough
     while len(panels):
         start, end = panels.T
         log_steps = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
         parts = (LostContact.at(setting, p, y_end, log_step) for log_step in log_steps)
         series = np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
-        ready = np.abs(series[:, -3:]).max(axis=1) < tolerance
-        ready |= end - start < _LEAST_PANEL
-        done += zip(start[ready], series[ready], strict=True)
+        is_fine = np.abs(series[:, -3:]).max(axis=1) < tolerance
+        is_fine |= end - start < 1e-3  # where halving ends
+        finished += zip(start[is_fine], series[is_fine], strict=True)
         middle = 0.5 * (start + end)
-        panels = np.stack([start, middle, middle, end], axis=1)[~ready].reshape(-1, 2)
-    starts, series = zip(*sorted(done, key=lambda panel: panel[0]), strict=True)
+        panels = np.stack([start, middle, middle, end], axis=1)[~is_fine].reshape(-1, 2)
+    finished.sort(key=lambda panel: panel[0])
+    starts, series = zip(*finished, strict=True)
     return GapCurve(setting, p, y_end, np.array([*starts, high]), np.array(series))
 
 
@@ -169,7 +161,8 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
     curve = gap_curve(setting, p)
     y_end = curve.y_end
     edges, change, thinned = _panel_edges(curve, variant, reach)
-    if len(change) < _MANY_PANELS * setting.nodes:
+    # With fewer panels, next to a strong shell, all have the rule of the highest order.
+    if len(change) < 100 * setting.nodes:
         change = np.full(len(change), np.inf)
     log_step, weight = _panel_nodes(edges, change)
     y, log_gap, width = _gaussians(curve, variant, log_step)
@@ -186,20 +179,25 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
 
 def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
-    at, weights, kinds = [], [], np.digitize(change, _CHANGES)
-    for kind, (x, w) in enumerate(_RULES):
-        chosen = kinds == kind
+    # Orders of the rules for panels that see less than each of these changes, or more than all.
+    rule = np.digitize(change, (0.015, 0.08, 0.3))
+    nodes = []
+    weights = []
+    for i, order in enumerate((2, 3, 5, 10)):
+        x, w = np.polynomial.legendre.leggauss(order)
+        chosen = rule == i
         half = 0.5 * np.diff(edges)[chosen, None]
-        at.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
+        nodes.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
         weights.append((half * w).ravel())
-    nodes = np.concatenate(at)
-    order = np.argsort(nodes)
-    return nodes[order], np.concatenate(weights)[order]
+    all_nodes = np.concatenate(nodes)
+    ascending = np.argsort(all_nodes)
+    return all_nodes[ascending], np.concatenate(weights)[ascending]
 
 
 def _gaussians(curve: GapCurve, variant: str, log_step: NDArray) -> tuple[NDArray, ...]:
     """y, ln u1 and standard deviation of the Gaussians at values of ln(y - y_end)."""
-    spectrum, m2 = curve.setting.spectrum, curve.setting.m2
+    spectrum = curve.setting.spectrum
+    m2 = curve.setting.m2
     lost = LostContact.at(curve.setting, curve.p, curve.y_end, log_step)
     log_gap = curve.log_gap(log_step, lost)
     _, variance = spectrum.at_gradient_variance(2 * lost.m)
@@ -209,8 +207,11 @@ def _gaussians(curve: GapCurve, variant: str, log_step: NDArray) -> tuple[NDArra
     rest = lost.rest[finest]
     q, _ = spectrum.at_gradient_variance(2 * (m2 - 0.5 * rest))
     variance[finest] = 2 * rest / q**2
-    h, gap = np.sqrt(variance), np.exp(log_gap)
-    return lost.y, log_gap, h if variant == "almqvist2011" else gap * h / np.hypot(gap, h)
+    width = np.sqrt(variance)
+    if variant == "afferrante2018":
+        gap = np.exp(log_gap)
+        width = gap * width / np.hypot(gap, width)
+    return lost.y, log_gap, width
 
 
 def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, NDArray, bool]:
@@ -219,14 +220,17 @@ def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, 
     A change of 1, some four widths of the Gaussians, needs ten nodes. Next to full contact of a
     broad spectrum the Gaussians are so narrow that they move by more of their widths.
     """
-    setting, y_end = curve.setting, curve.y_end
+    setting = curve.setting
+    y_end = curve.y_end
     low, high = _visible_range(setting, y_end)
     if variant == "almqvist2011":
         # u1 may vanish but the width goes as (M - m)^(1/2): that much must be negligible.
         low = np.log(y_end) - 42.0
+
+    # A look at the Gaussians, on steps in ln(y - y_end) and in y^2: u1 grows as exp(y^2) where y is
+    # large.
     probe = np.linspace(low, high, 300)
-    # u1 grows as exp(y^2) where y is large.
-    number = (probe - low) / _LOOK + (y_end + np.exp(probe)) ** 2 / _LOOK_FAR
+    number = (probe - low) / 0.2 + (y_end + np.exp(probe)) ** 2 / 0.5
     number -= number[0]
     grid = np.interp(np.linspace(0, number[-1], 2 + int(number[-1])), number, probe)
     breaks = _breaks(curve)
@@ -234,19 +238,24 @@ def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, 
     grid = np.union1d(grid, breaks)
     y, log_gap, width = _gaussians(curve, variant, grid)
     width = np.maximum(width, 1e-300)
-    seen = np.minimum(np.exp(log_gap), reach * setting.spectrum.h_rms)
-    centre = 0.5 * (width[1:] + width[:-1])
+
+    # Their change from point to point. Moves by many widths are laid at most 2000 panels for.
+    visible_gap = np.minimum(np.exp(log_gap), reach * setting.spectrum.h_rms)
+    mean_width = 0.5 * (width[1:] + width[:-1])
     change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
-    moves = 0.3 * np.abs(np.diff(seen)) / centre
-    most = _MOST_MOVES * _PANEL
-    thinned = bool(moves.sum() > most)
-    change += moves * (most / moves.sum() if thinned else 1.0) + 0.3 * np.diff(y**2)
+    moves = 0.3 * np.abs(np.diff(visible_gap)) / mean_width
+    most_moves = 2000 * _PANEL
+    is_thinned = bool(moves.sum() > most_moves)
+    change += moves * (most_moves / moves.sum() if is_thinned else 1.0) + 0.3 * np.diff(y**2)
     change += 0.2 * np.abs(np.diff(np.maximum(log_gap, np.log(width))))
+
+    # Panels of equal change, split at the breaks.
     total = np.append(0.0, np.cumsum(change))
     count = int(np.ceil(total[-1] * setting.nodes / _PANEL))
     even = np.interp(np.linspace(0, total[-1], count + 1), total, grid)
     edges = np.union1d(even, breaks)
-    return edges, np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL, thinned
+    change_over_panel = np.diff(np.interp(edges, grid, total)) * setting.nodes / _PANEL
+    return edges, change_over_panel, is_thinned
 
 
 def _breaks(curve: GapCurve) -> NDArray:
@@ -255,32 +264,42 @@ def _breaks(curve: GapCurve) -> NDArray:
     And, where q jumps, values next to it: on the coarse side of a shell its part in u1 vanishes
     as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
     """
-    setting, p, y_end = curve.setting, curve.p, curve.y_end
+    setting = curve.setting
+    p = curve.p
+    y_end = curve.y_end
     spectrum = setting.spectrum
+    # How much q jumps from shell to shell, or the exponent of C bends at a knot.
     if spectrum.is_discrete:
-        most, q, jump = _MOST_SHELLS, spectrum.q[:-1], np.diff(np.log(spectrum.q))
+        most = 600
+        q = spectrum.q[:-1]
+        jump = np.diff(np.log(spectrum.q))
     else:
-        most, q = _MOST_KNOTS, spectrum.knots[1:-1]
-        at = np.concatenate([[spectrum.q0], q, [spectrum.q1]])
-        jump = np.abs(np.diff(np.diff(np.log(spectrum.psd(at))) / np.diff(np.log(at))))
+        most = 250
+        q = spectrum.knots[1:-1]
+        ends = np.concatenate([[spectrum.q0], q, [spectrum.q1]])
+        exponent = np.diff(np.log(spectrum.psd(ends))) / np.diff(np.log(ends))
+        jump = np.abs(np.diff(exponent))
     m = 0.5 * spectrum.variance_below(q, 2)
     y = setting.kernels.invert_area_scale(m / p**2)
-    matter = (y > y_end) & (y**2 < y_end**2 + _TAIL_LOG)
-    chosen = np.flatnonzero(matter)[np.argsort(jump[matter])[::-1][:most]]
-    strong = chosen[jump[chosen] > _STRONG] if spectrum.is_discrete else chosen[:0]
-    depth = (p / erf(y[strong])) ** 2 / _ONSETS[:, None]
+    matters = (y > y_end) & (y**2 < y_end**2 + _TAIL_LOG)
+    chosen = np.flatnonzero(matters)[np.argsort(jump[matters])[::-1][:most]]
+
+    # Next to strong shells: m at given negative exponents of exp(-p^2/(m_shell - m)), and at given
+    # shares of the height variance left in the shell over that of the finer ones.
+    strong = chosen[jump[chosen] > 0.02] if spectrum.is_discrete else chosen[:0]
+    onset = (p / erf(y[strong])) ** 2 / np.geomspace(1.5, 96.0, 13)[:, None]
     finer = 0.5 * q[strong] ** 2 * spectrum.variance_above(q[strong])
-    depth = np.concatenate([depth, finer * _SHARES[:, None]])
+    depth = np.concatenate([onset, finer * np.geomspace(0.03, 30.0, 7)[:, None]])
     before = np.maximum(m[strong] - depth, 1e-3 * m[strong]).ravel()
-    found = np.append(y[chosen], setting.kernels.invert_area_scale(before / p**2))
-    return np.log(found[found > y_end] - y_end)
+    breaks = np.append(y[chosen], setting.kernels.invert_area_scale(before / p**2))
+    return np.log(breaks[breaks > y_end] - y_end)
 
 
 def over_blocks(function: Callable, u: NDArray, profile: GapProfile) -> NDArray:
     """Evaluate `density` or `cumulative` at gaps `u`, `(k,)`, taking those near each other."""
     result = np.zeros(len(u))
     if len(u):
-        for block in np.array_split(np.argsort(u), max(1, len(u) // _BLOCK)):
+        for block in np.array_split(np.argsort(u), max(1, len(u) // 10)):
             result[block] = function(u[block], profile)
     return result
 
@@ -290,7 +309,8 @@ def density(u: NDArray, profile: GapProfile) -> NDArray:
     far = _FAR * profile.width
     near = (profile.gap - far < u.max()) & (profile.gap + far > u.min())
     near &= profile.width > _NARROWEST * profile.width.max()
-    gap, width = profile.gap[near], profile.width[near]
+    gap = profile.gap[near]
+    width = profile.width[near]
     to_left = (u[:, None] - gap) / width
     pair = np.exp(-0.5 * to_left**2)
     to_left += 2 * gap / width
@@ -303,7 +323,8 @@ def cumulative(u: NDArray, profile: GapProfile) -> NDArray:
     far = _FAR * profile.width
     within = profile.gap + far <= u.min()
     near = ~within & (profile.gap - far < u.max())
-    gap, weight = profile.gap[near], profile.weight[near]
+    gap = profile.gap[near]
+    weight = profile.weight[near]
     least = max(_NARROWEST * float(profile.width.max()), 1e-300)  # that may be divided by
     width = np.sqrt(2) * np.maximum(profile.width[near], least)
     to_left = (u[:, None] - gap) / width

@@ -21,10 +21,12 @@ from scipy.special import erf, exp1
 
 CorrectionName = Literal["yang2008", "wang2017", "xu2024"]
 
-_STEP = 0.005  # of the tables in ln x: Hermite interpolation then errs by less than 1e-10
-_X_LOW, _X_HIGH = 1e-11, 25.0  # below, F is its logarithmic limit; above, exp(-x^2) < 1e-271
-_X_START = 26.0  # where the sums begin: what lies above is worth exp(-51) at _X_HIGH
-_Y_LOW, _Y_HIGH = 1e-11, 6.5  # below, T is its power-law limit; above, erf(y) = 1
+# Ends of the tables, and where their sums begin.
+_X_LOW = 1e-11  # below, F is its logarithmic limit
+_X_HIGH = 25.0  # above, exp(-x^2) < 1e-271
+_X_START = 26.0  # what lies above is worth exp(-51) at _X_HIGH
+_Y_LOW = 1e-11  # below, T is its power-law limit
+_Y_HIGH = 6.5  # above, erf(y) = 1
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(8)
 
 
@@ -134,13 +136,16 @@ class EvenTable:
     """
 
     def __init__(self, x: NDArray, value: NDArray, slope: NDArray):
-        self._first, self._last = x[0], len(x) - 2
+        self._first = x[0]
+        self._last = len(x) - 2
         self._step = (x[-1] - x[0]) / (len(x) - 1)
-        start, rise, per_step = value[:-1], np.diff(value), slope * self._step
-        first, last = per_step[:-1], per_step[1:]
+        rise = np.diff(value)
+        slope_start = slope[:-1] * self._step
+        slope_end = slope[1:] * self._step
         # Factors of the powers 3 to 0 of the distance in steps, a row for each step.
-        cubic, square = first + last - 2 * rise, 3 * rise - 2 * first - last
-        self._rows = np.stack([cubic, square, first, start], axis=1)
+        cubic = slope_start + slope_end - 2 * rise
+        square = 3 * rise - 2 * slope_start - slope_end
+        self._rows = np.stack([cubic, square, slope_start, value[:-1]], axis=1)
 
     def __call__(self, x: NDArray) -> NDArray:
         """Return the values at `x`."""
@@ -160,7 +165,8 @@ class Kernels:
 
     def __init__(self, correction: Correction):
         self.correction = correction
-        self._log_t, self._gap = _area_table(correction), _gap_table(correction)
+        self._log_t = _area_table(correction)
+        self._gap = _gap_table(correction)
         self._mean = _mean_table(self._gap)
 
     def area_scale(self, y: ArrayLike) -> NDArray:
@@ -207,8 +213,9 @@ class Kernels:
     def energy_kept(self, p: NDArray, m: NDArray) -> tuple[NDArray, NDArray]:
         """Energy A S of the scale m over that in full contact, and its mean over scales up to m."""
         x = np.clip(p / np.sqrt(m), 1e-150, 20.0)
-        kept, rest = erf(x) * self.correction.diffusion(x), 2 / np.sqrt(np.pi) * x * np.exp(-(x**2))
-        return kept, kept + rest * (self.gap_kernel(x**2) - self.mean_kernel(x**2))
+        kept = erf(x) * self.correction.diffusion(x)
+        weight = 2 / np.sqrt(np.pi) * x * np.exp(-(x**2))
+        return kept, kept + weight * (self.gap_kernel(x**2) - self.mean_kernel(x**2))
 
     def _evaluate(self, table: EvenTable, x2: ArrayLike) -> NDArray:
         log_x = 0.5 * np.log(np.asarray(x2, dtype=float))
@@ -224,7 +231,8 @@ def kernels(gamma: float | None = None, correction: CorrectionName = "yang2008")
 
 def _panels(low: float, high: float) -> tuple[NDArray, NDArray, NDArray]:
     """Even logarithms, and Gauss-Legendre nodes and weights, `(panels, 8)`, between them."""
-    log_x = np.linspace(np.log(low), np.log(high), 1 + int(np.log(high / low) / _STEP))
+    # At steps of 0.005 Hermite interpolation errs by less than 1e-10.
+    log_x = np.linspace(np.log(low), np.log(high), 1 + int(np.log(high / low) / 0.005))
     half = 0.5 * np.diff(log_x)[:, None]
     return log_x, log_x[:-1, None] + half * (1 + _NODES), half * _WEIGHTS
 
@@ -237,7 +245,8 @@ def _from_the_right(terms: NDArray, start: float = 0.0) -> NDArray:
 def _area_table(correction: Correction) -> EvenTable:
     """Ln T against ln y."""
     log_y, log_t, weights = _panels(_Y_LOW, _Y_HIGH)
-    y, t = np.exp(log_y), np.exp(log_t)
+    y = np.exp(log_y)
+    t = np.exp(log_t)
     value = _from_the_right(weights * 2 / (t**2 * correction.diffusion(t)), _Y_HIGH**-2.0)
     slope = -2 / (y**2 * correction.diffusion(y) * value)
     return EvenTable(log_y, np.log(value), slope)
@@ -246,7 +255,8 @@ def _area_table(correction: Correction) -> EvenTable:
 def _gap_table(correction: Correction) -> EvenTable:
     """exp(x^2) F(x) against ln x."""
     log_x, log_t, weights = _panels(_X_LOW, _X_START)
-    x, t = np.exp(log_x), np.exp(log_t)
+    x = np.exp(log_x)
+    t = np.exp(log_t)
     # The gamma in K alone gives gamma E1(x^2)/2.
     rest = (correction.energy(t) - correction.gamma) * np.exp(-(t**2))
     value = 0.5 * correction.gamma * exp1(x**2) + _from_the_right(weights * rest)

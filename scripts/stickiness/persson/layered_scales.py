@@ -17,14 +17,13 @@ from stickiness.persson.scale_quadrature import scale_edges, split_panels
 from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
 
-_ORDER = 8  # of Gauss quadrature on panels
-
 
 class LayeredScales:
     """Variance m of a spectrum on a layer, and the mean gap that its scales make."""
 
     def __init__(self, spectrum: Spectrum, solid: Solid, nodes: float = 1.0):
-        self.spectrum, self.solid = spectrum, solid
+        self.spectrum = spectrum
+        self.solid = solid
         if spectrum.is_discrete:
             self._q = spectrum.q
             self._growth = 0.5 * spectrum.variance * self._slope_weight(self._q)
@@ -41,8 +40,9 @@ class LayeredScales:
         s = np.sqrt(self._m)
         x2 = (p[..., None] / s) ** 2
         faded = np.exp(-x2)
-        total, kernel = s * faded * universal.mean_kernel(x2), faded * universal.gap_kernel(x2)
-        return 2 / np.sqrt(np.pi) * self._sum(total, kernel * self._growth / (2 * s))
+        up_to_each = s * faded * universal.mean_kernel(x2)
+        growth = faded * universal.gap_kernel(x2) * self._growth / (2 * s)
+        return 2 / np.sqrt(np.pi) * self._sum(up_to_each, growth)
 
     def elastic_energy(self, p: NDArray, universal: Kernels) -> NDArray:
         """Elastic energy [length] at mean pressures `p` [E*], less the mean compression's."""
@@ -68,15 +68,19 @@ class LayeredScales:
         edges = np.log(self.spectrum.q0) + scale_edges(self.spectrum)
         m = np.array([self.variance_below(q) for q in np.exp(edges)])
         edges, _ = split_panels(edges, m)
-        x, w = np.polynomial.legendre.leggauss(max(2, round(_ORDER * nodes)))
-        share, w = 0.5 * (1 + x), 0.5 * w
-        start, width = edges[:-1, None], np.diff(edges)[:, None]
+        # Gauss nodes and weights of a panel, on 0 to 1.
+        x, w = np.polynomial.legendre.leggauss(max(2, round(8 * nodes)))
+        share = 0.5 * (1 + x)
+        w = 0.5 * w
+        start = edges[:-1, None]
+        width = np.diff(edges)[:, None]
         to_node = width * share
         growth = width * w * self._growth_per_log_q(start + to_node)
         before = np.append(0.0, np.cumsum(growth.sum(axis=1))[:-1])[:, None]
         parts = start[..., None] + to_node[..., None] * share
         m = before + to_node * (self._growth_per_log_q(parts) @ w)
         # The first panel, of relative width 1e-8 at most: F(p/s) changes there at small loads.
-        shell = self.spectrum.q0, growth[0].sum(), 0.0
-        rest = np.exp(start + to_node)[1:], m[1:], growth[1:]
-        return tuple(np.append(one, others) for one, others in zip(shell, rest, strict=True))
+        # It is a shell at q0.
+        q = np.append(self.spectrum.q0, np.exp(start + to_node)[1:])
+        m_at_q = np.append(growth[0].sum(), m[1:])
+        return q, m_at_q, np.append(0.0, growth[1:])

@@ -19,13 +19,7 @@ from numpy.typing import NDArray
 from stickiness.spectrum.interface import Spectrum
 
 _ORDER = 7  # of Gauss quadrature on panels
-_WIDEST = 0.7  # panels, in ln q
-_FINE = 0.1  # parts of panels, in ln m
-_MOST_PARTS = 10
-_MOST_NODES, _MOST_COARSE = 4000, 700  # fine ones and coarse ones; more are put together
-_FINE_GROUP = 0.006  # in ln(m/(M - m))
-_RATIO = 8  # of coarse groups to fine ones
-_PANEL_MARGIN, _GROUP_MARGIN = 0.35, 8.0
+_MOST_COARSE = 700  # coarse nodes; more are put together
 
 
 @dataclass(frozen=True)
@@ -69,7 +63,7 @@ def scale_nodes(spectrum: Spectrum, nodes: float = 1.0) -> ScaleNodes:
     fine_edges, start = split_panels(edges, edge)
     fine = _gauss_nodes(spectrum, fine_edges, order)
     panels = np.arange(len(edges))
-    return ScaleNodes(fine, coarse, edge, order * start, order * panels, _PANEL_MARGIN)
+    return ScaleNodes(fine, coarse, edge, order * start, order * panels, margin=0.35)
 
 
 def scale_edges(spectrum: Spectrum) -> NDArray:
@@ -80,9 +74,10 @@ def scale_edges(spectrum: Spectrum) -> NDArray:
     """
     span = np.log(spectrum.q1 / spectrum.q0)
     width = min(0.5, span / 2)
-    count = int(np.ceil((span - 2 * width) / _WIDEST))
+    count = int(np.ceil((span - 2 * width) / 0.7))
     middle = np.linspace(width, span - width, count + 1) if count else [width]
-    low, high = width * 4.0 ** np.arange(-13, 0), width * 4.0 ** np.arange(-1, -10, -1)
+    low = width * 4.0 ** np.arange(-13, 0)
+    high = width * 4.0 ** np.arange(-1, -10, -1)
     edges = np.concatenate([[0.0], low, middle, span - high, [span]])
     return np.union1d(edges, np.log(spectrum.knots[1:-1] / spectrum.q0))
 
@@ -90,7 +85,7 @@ def scale_edges(spectrum: Spectrum) -> NDArray:
 def split_panels(edges: NDArray, m: NDArray) -> tuple[NDArray, NDArray]:
     """Split panels into parts over which ln m grows little, and where each panel's begin."""
     growth = np.log(m[1:]) - np.log(np.maximum(m[:-1], 1e-300))  # a ratio may overflow
-    parts = np.clip(np.ceil(growth / _FINE), 1, _MOST_PARTS).astype(int)
+    parts = np.clip(np.ceil(growth / 0.1), 1, 10).astype(int)
     start = np.append(0, np.cumsum(parts))
     return np.interp(np.arange(start[-1] + 1), start, edges), start
 
@@ -109,22 +104,26 @@ def _gauss_nodes(spectrum: Spectrum, edges: NDArray, order: int) -> NDArray:
 
 def _grouped_nodes(discrete: NDArray, nodes: float) -> ScaleNodes:
     """Quadratures that put neighbours together, the last node, at M, excepted."""
-    inner, last = discrete[:, :-1], discrete[:, -1:]
+    inner = discrete[:, :-1]
+    last = discrete[:, -1:]
     below, above, _ = inner
     count = len(below)
     if count <= _MOST_COARSE:
         ends = np.array([0, count])
-        return ScaleNodes(discrete, discrete, discrete[0, [0, -1]], ends, ends, _GROUP_MARGIN)
-    label = np.floor(np.log(below / above) * nodes / _FINE_GROUP)
-    wide = np.floor(label / _RATIO)
+        return ScaleNodes(discrete, discrete, discrete[0, [0, -1]], ends, ends, margin=8.0)
+    # Fine groups by ln(m/(M - m)), and coarse ones, each eight times as wide.
+    label = np.floor(np.log(below / above) * nodes / 0.006)
+    wide = np.floor(label / 8)
     first = np.flatnonzero(np.diff(wide, prepend=-np.inf))
     edge = np.append(below[first], below[-1])
     coarse, coarse_start = _grouped(inner, wide, first)
-    fine, fine_start = inner, np.append(first, count)
-    if count > _MOST_NODES * nodes:
+    fine = inner
+    fine_start = np.append(first, count)
+    if count > 4000 * nodes:
         fine, fine_start = _grouped(inner, label, first)
-    fine, coarse = np.hstack([fine, last]), np.hstack([coarse, last])
-    return ScaleNodes(fine, coarse, edge, fine_start, coarse_start, _GROUP_MARGIN)
+    fine = np.hstack([fine, last])
+    coarse = np.hstack([coarse, last])
+    return ScaleNodes(fine, coarse, edge, fine_start, coarse_start, margin=8.0)
 
 
 def _grouped(nodes: NDArray, label: NDArray, first: NDArray) -> tuple[NDArray, NDArray]:
@@ -141,7 +140,8 @@ def _grouped(nodes: NDArray, label: NDArray, first: NDArray) -> tuple[NDArray, N
     total = np.add.reduceat(weight, begin)
     mean = np.add.reduceat(weight * offset, begin) / total
     rest = offset - np.repeat(mean, size)
-    second, third = (np.add.reduceat(weight * rest**n, begin) / total for n in (2, 3))
+    second = np.add.reduceat(weight * rest**2, begin) / total
+    third = np.add.reduceat(weight * rest**3, begin) / total
     several = (size > 1) & (second > 0)
     lean = 0.5 * np.divide(third, second**1.5, out=np.zeros_like(third), where=several)
     spread = np.hypot(1.0, lean)

@@ -33,9 +33,6 @@ from stickiness.spectrum.interface import Spectrum, check_spectrum
 ENERGY_GAMMA = 0.34  #: of "xu2024", which meets simulated energies best; areas want more
 Variant = Literal["afferrante2018", "almqvist2011"]
 
-_REACH = 17.0  # gaps up to 0.6 of this many h_rms (10) are always resolved
-_FARTHEST = 1024.0  # in h_rms; the theory's tail P ~ 1/(u ln u)^2 beyond means nothing
-
 
 class Persson:
     """Persson's contact theory for one surface spectrum.
@@ -96,9 +93,12 @@ class Persson:
         nodes = number("nodes", nodes)
         universal = kernels(gamma, correction)
         self.spectrum = spectrum = spectrum.averaged()
-        self.variant, self.nodes = variant, nodes
-        self.correction, self.gamma = correction, universal.correction.gamma
-        self.solid, self._layered = check_solid(solid), None
+        self.variant = variant
+        self.nodes = nodes
+        self.correction = correction
+        self.gamma = universal.correction.gamma
+        self.solid = check_solid(solid)
+        self._layered = None
         if solid != HALF_SPACE:
             self._layered = LayeredScales(spectrum, solid, nodes)
         m2 = self._variance_below(spectrum.q1)
@@ -217,13 +217,17 @@ class Persson:
             return float(np.log(np.maximum(self.mean_gap(np.exp(log_p)), 1e-300) / target))
 
         root_m2 = np.sqrt(self._setting.m2)
-        lowest, highest = -300.0, float(np.log(24 * root_m2))
+        lowest = -300.0
+        highest = float(np.log(24 * root_m2))
         if excess(lowest) < 0 or excess(highest) > 0:
             raise ValueError(
                 f"mean_gap must lie between {self.mean_gap(np.exp(highest)):.3g} (full contact to "
                 f"rounding) and {self.mean_gap(np.exp(lowest)):.3g}, got {target!r}"
             )
-        low = high = float(np.clip(np.log(root_m2) - 2 * target / self.spectrum.h_rms, -299, None))
+        # A bracket about the pressure at which the gap decays as exp(-2 u/h_rms).
+        near = float(np.clip(np.log(root_m2) - 2 * target / self.spectrum.h_rms, -299, None))
+        low = near
+        high = near
         while excess(low) < 0:
             low = max(low - 2.0, lowest)
         while excess(high) > 0:
@@ -239,9 +243,10 @@ class Persson:
         (p,) = positive(p=p)
         (u,) = nonnegative(u=u)
         largest = float(np.max(u[np.isfinite(u)], initial=0.0)) / self.spectrum.h_rms
-        # In powers of two, so that profiles are shared between calls.
-        doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * _REACH))))
-        reach = min(_REACH * 2**doublings, _FARTHEST)
+        # Gaps up to 10 h_rms, 0.6 of the least reach, are always resolved. Reaches double, so that
+        # profiles are shared between calls; the tail P ~ 1/(u ln u)^2 beyond 1024 means nothing.
+        doublings = max(0.0, np.ceil(np.log2(max(largest, 1.0) / (0.6 * 17.0))))
+        reach = min(17.0 * 2**doublings, 1024.0)
         rows = []
         for load in map(float, p.ravel()):
             profile = gaps.gap_profile(self._setting, self.variant, load, reach)

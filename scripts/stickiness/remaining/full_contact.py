@@ -49,7 +49,8 @@ def full_contact_energy(
     >>> print(f"{energy:.4e} J/m^2")  # 1e6 * (2 pi/1e-3) * (1e-6)^2/8
     7.8540e-04 J/m^2
     """
-    modulus, solid = number("modulus", modulus), check_solid(solid)
+    modulus = number("modulus", modulus)
+    solid = check_solid(solid)
     if (length is None) != isinstance(surface, Spectrum):
         raise ValueError(
             f"length is of heights, which need it; a spectrum has none, got {length!r}"
@@ -57,10 +58,11 @@ def full_contact_energy(
     if isinstance(surface, Spectrum):
         return modulus * surface.elastic_energy(solid)
     heights = grid("surface", surface)
-    steps = np.broadcast_to(*positive(length=length), 2) / heights.shape
+    sides = np.broadcast_to(positive(length=length)[0], 2)
+    dx, dy = sides / heights.shape
     if edges != "given":
         heights = periodise(detrend(heights, "plane"), edges)
-    plane = power_spectrum(heights, *map(float, steps))
+    plane = power_spectrum(heights, float(dx), float(dy))
     stiffness = solid.stiffness(plane.q.ravel()[1:])  # of all but the mean
     stored = (plane.psd * plane.multiplicity).ravel()[1:] @ stiffness
     return modulus * float(stored * np.prod(plane.steps)) / 2

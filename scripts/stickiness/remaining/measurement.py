@@ -26,18 +26,13 @@ from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.traction_laws import TractionLaw, check_law
 
-REACH = 4.0  #: ranges between the highest point and the surface where the approach begins
 STEPS = 80  #: of the path between far and close, at least
-# Times the number of steps: the error of a step's energy balance over the energies of the path,
-# down to which jumps are located, and the relative errors that steps leave. Of 22 paths at 80, 40
-# and 20 steps, against 160, at most 1.0, 2.3 and 4.4 % of a work, 0.9, 3.0 and 6.7 % of a pull-off.
-BALANCE, STEPS_ERRORS = 0.24, {"approach": 0.8, "separation": 0.8, "bound": 0.08, "pull_off": 1.3}
-COARSEST = 2.0  #: pixels over the width of the cohesive zone that are followed at all
-RESOLVED = 2.0  #: pixels in that width, below which the result depends on the grid
-POINTS = 50  #: of the integral between two states
-FARTHEST = 3.0  #: of the first distance, where separation must have ended
-# States of a path at most: more only where points of the grid snap one by one.
-MOST_STATES = 2000
+# Relative errors that steps leave, times the number of steps. Of 22 paths at 80, 40 and 20 steps,
+# against 160, at most 1.0, 2.3 and 4.4 % of a work, 0.9, 3.0 and 6.7 % of a pull-off.
+STEPS_ERRORS = {"approach": 0.8, "separation": 0.8, "bound": 0.08, "pull_off": 1.3}
+RESOLVED = (
+    2.0  #: pixels in the width of the cohesive zone; with fewer the result depends on the grid
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,85 +111,116 @@ def measure(
         points of the grid snap one by one.
     """
     heights = grid("heights", heights)
-    squeeze, steps = number("squeeze", squeeze), number("steps", steps)
+    squeeze = number("squeeze", squeeze)
+    steps = number("steps", steps)
     check_law(law)
     pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
     resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     if np.ptp(heights) == 0:
         return _part_flat(law, 1 / resolution)
-    if resolution > COARSEST:
+    if resolution > 2:
         raise ValueError(
             f"a pixel of {pixel:.3g} is {resolution:.2g} times the width of the cohesive zone, "
             "adhesion_length/strength^2: points would snap one by one. Take pixels of at most "
             f"{edge_zone.COARSEST * pixel / resolution:.3g} or a longer range"
         )
     if resolution * RESOLVED > 1.001:
-        text = f"{1 / resolution:.2g} pixels in the width of the cohesive zone are fewer than"
-        warnings.warn(f"{text} {RESOLVED:g}: separation costs too much", PlausibilityWarning, 2)
+        warnings.warn(
+            f"{1 / resolution:.2g} pixels in the width of the cohesive zone are fewer than "
+            f"{RESOLVED:g}: separation costs too much",
+            PlausibilityWarning,
+            stacklevel=2,
+        )
     settings = {"tol": tol, "solid": check_solid(solid), "steps": steps}
-    found = _follow(heights, length, law, squeeze, settings, 1 / resolution)
+    fine = _follow(heights, length, law, squeeze, settings, 1 / resolution)
     if not half_grid:
-        return found
+        return fine
     with warnings.catch_warnings():
         # The half grid is coarse on purpose: what that changes is the error.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        coarse, limits = _follow(heights[::2, ::2], length, law, squeeze, settings), {}
-    for name, error in STEPS_ERRORS.items():
-        value = getattr(found, name)
+        coarse = _follow(heights[::2, ::2], length, law, squeeze, settings)
+    limits = {}
+    for name, steps_error in STEPS_ERRORS.items():
+        value = getattr(fine, name)
         # The change from half the grid, more than what this one still lacks, and the steps.
-        error = np.hypot(value - getattr(coarse, name), error / steps * value)
+        error = np.hypot(value - getattr(coarse, name), steps_error / steps * value)
         limits[f"{name}_limits"] = (max(value - error, 0.0), value + error)
-    return replace(found, **limits)
+    return replace(fine, **limits)
 
 
-def _part_flat(law, pixels_in_zone):
+def _part_flat(law: TractionLaw, pixels_in_zone: float) -> Remaining:
     """Flat surfaces, which gain the work of adhesion at a gap of zero and part at the strength."""
-    values = dict.fromkeys(("approach", "separation", "bound"), 1.0) | {"pull_off": law.strength}
-    at_zero_load, none = {"area_at_zero_load": 1.0, "gap_at_zero_load": 0.0}, np.empty(0)
-    curve = {"gap": none, "pressure": none, "separating": none.astype(bool), "points": ()}
-    limits = {f"{name}_limits": (value, value) for name, value in values.items()}
-    path_taken = {"pixels_in_zone": pixels_in_zone, "jumps": 0, "fft_pairs": 0.0}
-    return Remaining(**values, **at_zero_load, **curve, **limits, **path_taken)
+    return Remaining(
+        approach=1.0,
+        separation=1.0,
+        bound=1.0,
+        pull_off=law.strength,
+        area_at_zero_load=1.0,
+        gap_at_zero_load=0.0,
+        pixels_in_zone=pixels_in_zone,
+        jumps=0,
+        gap=np.empty(0),
+        pressure=np.empty(0),
+        separating=np.empty(0, dtype=bool),
+        fft_pairs=0.0,
+        points=(),
+        approach_limits=(1.0, 1.0),
+        separation_limits=(1.0, 1.0),
+        bound_limits=(1.0, 1.0),
+        pull_off_limits=(law.strength, law.strength),
+    )
 
 
 def _follow(heights, length, law, squeeze, options, pixels_in_zone=np.nan):
     """Approach, squeeze and part once; limits are NaN."""
-    first = float(heights.max() - heights.mean()) + REACH * law.range
-    balance = BALANCE / options["steps"]
-    settings = options | {"balance": balance, "smallest_jump": balance, "max_states": MOST_STATES}
-    settings["control"] = "mean_gap"
+    farthest = float(heights.max() - heights.mean()) + 4 * law.range
+    # Error of a step's energy balance over the energies of the path, down to which jumps are
+    # located.
+    balance = 0.24 / options["steps"]
+    settings = options | {
+        "control": "mean_gap",
+        "balance": balance,
+        "smallest_jump": balance,
+        "max_states": 2000,  # more only where points of the grid snap one by one
+    }
+
+    # Approach until the squeeze is reached.
     closest = 0.0 if law.hard_wall else -0.2 * law.range
-    approach, separation = [], []
-    for point in path(heights, length, law, (first, closest), **settings):
+    approach = []
+    for point in path(heights, length, law, (farthest, closest), **settings):
         approach.append(point)
         if point.state.mean_pressure >= squeeze:
             break
+
+    # Part, at three times the first distance at the latest.
     start = replace(approach[-1].state, branch=SEPARATION)
-    values = (start.mean_gap, first, FARTHEST * first)
-    for point in path(heights, length, law, values, start=start, **settings):
+    mean_gaps = (start.mean_gap, farthest, 3 * farthest)
+    separation = []
+    for point in path(heights, length, law, mean_gaps, start=start, **settings):
         separation.append(point)
-        if point.state.mean_gap >= first and not point.state.repulsive_area_fraction > 0:
+        if point.state.mean_gap >= farthest and not point.state.repulsive_area_fraction > 0:
             break
     else:
         raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
+
     points = (*approach, *separation)
     gap = np.array([point.state.mean_gap for point in points])
     pressure = np.array([point.state.mean_pressure for point in points])
     jumped = np.array([point.event is not None for point in points])
-    gained, spent = _gain(approach), _gain(separation)
-    ways = slice(len(approach)), slice(len(approach), None)
-    works = [
-        # Beyond both ends of the path the tension does as much work as there is energy left.
-        _work(gap[way], pressure[way], jumped[way]) - far.state.energy
-        for way, far in zip(ways, (approach[0], separation[-1]), strict=True)
-    ]
+    # Beyond both ends of the path the tension does as much work as there is energy left.
+    way_in = slice(len(approach))
+    way_out = slice(len(approach), None)
+    work_in = _work(gap[way_in], pressure[way_in], jumped[way_in]) - approach[0].state.energy
+    work_out = _work(gap[way_out], pressure[way_out], jumped[way_out]) - separation[-1].state.energy
+    gained = _gain(approach)
+    spent = _gain(separation)
     area_at_zero_load, gap_at_zero_load = _at_zero_load([point.state for point in approach])
     return Remaining(
         # A jump can only lose energy: where integrals say otherwise they are less exact than it.
-        approach=min(works[0], gained) / law.adhesion_length,
-        separation=max(works[1], gained, spent) / law.adhesion_length,
+        approach=min(work_in, gained) / law.adhesion_length,
+        separation=max(work_out, gained, spent) / law.adhesion_length,
         bound=max(gained, spent) / law.adhesion_length,
-        pull_off=max(-float(pressure[ways[1]].min()), 0.0),
+        pull_off=max(-float(pressure[way_out].min()), 0.0),
         area_at_zero_load=area_at_zero_load,
         gap_at_zero_load=gap_at_zero_load,
         pixels_in_zone=pixels_in_zone,
@@ -222,12 +248,13 @@ def _work(gap, pressure, jumped):
 def _gain(points):
     """Largest gain of energy along one way [E* length]."""
     gains = [-point.state.energy for point in points]
-    for before, point in pairwise(points):
-        one, other = before.state, point.state
-        slope = (other.mean_pressure - one.mean_pressure) / (other.mean_gap - one.mean_gap)
-        if point.event is None and one.mean_pressure * other.mean_pressure < 0 and slope < 0:
+    for point, after in pairwise(points):
+        start = point.state
+        end = after.state
+        slope = (end.mean_pressure - start.mean_pressure) / (end.mean_gap - start.mean_gap)
+        if after.event is None and start.mean_pressure * end.mean_pressure < 0 and slope < 0:
             # Up to zero load between them, along a straight line from either state.
-            ends = [state.mean_pressure**2 / (-2 * slope) - state.energy for state in (one, other)]
+            ends = [state.mean_pressure**2 / (-2 * slope) - state.energy for state in (start, end)]
             gains.append(sum(ends) / 2)
     return max(*gains, 0.0)
 
@@ -236,18 +263,24 @@ def _at_zero_load(states):
     """Area and mean gap where tension turns into pressure."""
     ends = np.array([(state.repulsive_area_fraction, state.mean_gap) for state in states])
     for i in reversed(range(len(states) - 1)):
-        one, other = states[i].mean_pressure, states[i + 1].mean_pressure
-        if one < 0 <= other:
-            return tuple((ends[i] - one / (other - one) * (ends[i + 1] - ends[i])).tolist())
+        before = states[i].mean_pressure
+        after = states[i + 1].mean_pressure
+        if before < 0 <= after:
+            area, gap = ends[i] - before / (after - before) * (ends[i + 1] - ends[i])
+            return float(area), float(gap)
     # Full contact holds tension at a gap of zero, and is the state at zero load too.
-    return tuple(ends[-1].tolist()) if states[-1].mean_pressure < 0 else (np.nan, np.nan)
+    if states[-1].mean_pressure < 0:
+        area, gap = ends[-1]
+        return float(area), float(gap)
+    return np.nan, np.nan
 
 
 def _tension_over_gap(gap, pressure):
     """Integral along a stretch without jumps, between its states along a monotone cubic."""
     if gap[0] > gap[-1]:
-        gap, pressure = gap[::-1], pressure[::-1]
-    fine = np.linspace(gap[:-1], gap[1:], POINTS, endpoint=False).T.ravel()
+        gap = gap[::-1]
+        pressure = pressure[::-1]
+    fine = np.linspace(gap[:-1], gap[1:], 50, endpoint=False).T.ravel()
     fine = np.append(fine, gap[-1])
     tension = np.maximum(-PchipInterpolator(gap, pressure)(fine), 0)
     return np.trapezoid(tension, fine)

@@ -10,29 +10,34 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import elementwise
 
 from stickiness.arguments import number, plain, positive
-from stickiness.remaining.share import ONSET, find_deepest_state, find_onset, remaining_share
+from stickiness.remaining.share import (
+    ONSET,
+    DeepestState,
+    find_deepest_state,
+    find_onset,
+    remaining_share,
+)
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
-# Errors of the onset (the spread of extrapolations to short ranges, no interval of 90 %), and of a
-# share: relative, in proportion to what is lost, and absolute, for small ones. In simulations of
-# two by two waves and more they contain all energies where more than 5 % remains and 95 % of the
-# smaller ones; in cells of one wave a third.
-ONSET_ERROR = 0.08
-SHARE_ERROR = 0.15
-LEAST_ERROR = 0.015
+# Errors of a share. In simulations of two by two waves and more they contain all energies where
+# more than 5 % remains and 95 % of the smaller ones; in cells of one wave a third.
+ONSET_ERROR = 0.08  # of the onset: the spread of extrapolations to short ranges, not 90 %
+SHARE_ERROR = 0.15  # relative, in proportion to what is lost
 WEAK_ERROR = 4.0  # relative, far below the onset at short ranges: the highest summits decide
+LEAST_ERROR = 0.015  # absolute, for small shares
 # On layers limits are wider by these parts of what is lost, times the distance of S of the longest
-# waves from 1: LESS for films on a soft backing and S of about a half, MORE for thin incompressible
-# layers. Both were set so that limits hold all simulations on layers; no others were kept back.
-LAYER_LESS, LAYER_MORE = 0.06, 0.2
+# waves from 1. Both were set so that limits hold all simulations on layers; none were kept back.
+LAYER_LESS = 0.06  # low limit: films on a soft backing, and S of about a half
+LAYER_MORE = 0.2  # high limit: thin incompressible layers
 PULL_OFF_ERROR = 0.3  # of the largest tension, beside the error of the share
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
-PULL_OFF_KNOWN, PULL_OFF_UNKNOWN = 1.4, 3.0
-# Jumps at a given mean gap: what the energy gained over the work of approach, and the work of
-# separation over the energy gained, reach in simulations. Both tend to a limit as the range falls.
-LATE, HYSTERESIS = 1.3, 1.6
+PULL_OFF_KNOWN = 1.4
+PULL_OFF_UNKNOWN = 3.0
+# Jumps at a given mean gap, by simulation. Both ratios tend to a limit as the range falls.
+LATE = 1.3  # energy gained over the work of approach, at most
+HYSTERESIS = 1.6  # work of separation over the energy gained, at most
 # Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
 # at the energy ratios of 4 to 6 where it was.
 PINNING = 6.0
@@ -40,17 +45,14 @@ PINNING = 6.0
 # law where that is more than so many times the rms tension of full contact, E* rms slope/2: below
 # that the preload did not change simulations.
 LASTING = 2.2
-MOST_RATIO = 1e30  #: of adhesion length to the energy of full contact, and of range to h_rms
-_NOTHING = 1e-12  # of tensions that act at all, over elastic_energy/h_rms
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
 # of full contact is off by less than 1e-3 of itself.
 FILM_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
-# Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths, see
-# `find_anisotropy_error_factor`.
-UNLIKE, UNLIKE_RATIO = 2.0, 4.0
+# Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
+UNLIKE = 2.0
 
 
 @dataclass(frozen=True)
@@ -97,25 +99,33 @@ class Roughness:
         """Return the same with E* times a factor: the film under a layer keeps its stiffness."""
         if self.film_response is None:
             return self
-        logs = np.log(FILM_FACTORS)
-        place = np.asarray(np.log(factor) - logs[0]) / (logs[1] - logs[0])
-        place, logs = np.broadcast_arrays(place[..., None, None], self.film_response)
-        place = place[..., :1]
-        below = np.clip(np.floor(place).astype(int), 0, logs.shape[-1] - 2)
-        low, high = (np.take_along_axis(logs, below + step, axis=-1) for step in (0, 1))
-        found = np.exp(low + (place - below) * (high - low))[..., 0]
+        # Position of the factor in `FILM_FACTORS`, whose logarithms are evenly spaced.
+        log_factors = np.log(FILM_FACTORS)
+        position = np.asarray(np.log(factor) - log_factors[0]) / (log_factors[1] - log_factors[0])
+        position, log_response = np.broadcast_arrays(position[..., None, None], self.film_response)
+        position = position[..., :1]
+        below = np.clip(np.floor(position).astype(int), 0, log_response.shape[-1] - 2)
+        # Interpolate the logarithms of energy and compliance between the two factors around it.
+        log_low = np.take_along_axis(log_response, below, axis=-1)
+        log_high = np.take_along_axis(log_response, below + 1, axis=-1)
+        response = np.exp(log_low + (position - below) * (log_high - log_low))[..., 0]
         return replace(
             self,
-            elastic_energy=self.elastic_energy * found[..., 0],
-            relative_compliance=self.relative_compliance * found[..., 1],
+            elastic_energy=self.elastic_energy * response[..., 0],
+            relative_compliance=self.relative_compliance * response[..., 1],
         )
 
     def scaled(self, factor: ArrayLike) -> Self:
         """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
-        powers = {"h_rms": 1, "rms_slope": 1, "elastic_energy": 2, "half_space_energy": 2}
-        powers["layer_strain"] = 1  # of a `Pair`
-        known = {name: getattr(self, name, None) for name in powers}
-        scaled = {n: x * factor ** powers[n] for n, x in known.items() if x is not None}
+        scaled = {
+            "h_rms": self.h_rms * factor,
+            "rms_slope": self.rms_slope * factor,
+            "elastic_energy": self.elastic_energy * factor**2,
+        }
+        if self.half_space_energy is not None:
+            scaled["half_space_energy"] = self.half_space_energy * factor**2
+        if hasattr(self, "layer_strain"):  # of a `Pair`
+            scaled["layer_strain"] = self.layer_strain * factor
         return replace(self, **scaled)
 
     def share(
@@ -131,39 +141,67 @@ class Roughness:
         dissipates. At the high limit all edges of contact do, so that it multiplies the area.
         """
         if np.any(np.asarray(separation_factor) != 1):
-            value, area = self.share(adhesion_length, range), self.area(adhesion_length, range)
-            all_edges = np.clip(sign, 0, 1) * np.maximum(area - value, 0)
-            more = (np.asarray(separation_factor) - 1) * (value + all_edges)
-            return plain(self.share(adhesion_length, range, sign) + more)
-        sign = sign * self.anisotropy_error_factor
-        ratio = np.asarray(adhesion_length) / self.elastic_energy
+            value = self.share(adhesion_length, range)
+            beyond_value = np.maximum(self.area(adhesion_length, range) - value, 0)
+            all_edges = np.clip(sign, 0, 1) * beyond_value
+            dissipated = (np.asarray(separation_factor) - 1) * (value + all_edges)
+            return plain(self.share(adhesion_length, range, sign) + dissipated)
+
+        # What remains by the theory, with the onset of contact at its own limit.
+        sign = np.asarray(sign * self.anisotropy_error_factor)
+        energy_ratio = self._energy_ratio(adhesion_length)
+        range_ratio = np.asarray(range) / self.h_rms
         zone = self.zone(adhesion_length, range)
-        reach = np.asarray(range) / self.h_rms
-        onset = ONSET - sign * ONSET_ERROR
-        compliance, load_scale = self.relative_compliance, self.load_scale
-        share = remaining_share(ratio, reach, zone, onset, compliance, load_scale, self.law)
-        sign, lost = np.asarray(sign), 1 - np.asarray(share)
-        fades = np.minimum(ratio / ONSET, 1.0)  # of absolute errors, below the onset
-        weak = 1 - np.minimum(ratio / find_onset(zone), 1.0)
-        error = (SHARE_ERROR + WEAK_ERROR * weak / (1 + reach)) * lost
-        # A tail attracts whatever small gaps do.
-        least = LEAST_ERROR * fades ** np.where(np.equal(self.law, EXPONENTIAL), 1, 2)
-        share = share * (1 + error) ** sign + sign * least * lost
-        harder = 1 - np.asarray(self.relative_compliance)
-        less, more = np.minimum(abs(harder), 1.0), np.maximum(harder, 0.0)
-        layer = sign * np.where(sign < 0, LAYER_LESS * less, LAYER_MORE * more)
-        share = share + layer * fades * lost
+        share = remaining_share(
+            energy_ratio,
+            range_ratio,
+            zone,
+            onset=ONSET - sign * ONSET_ERROR,
+            relative_compliance=self.relative_compliance,
+            load_scale=self.load_scale,
+            law=self.law,
+        )
+        lost = 1 - np.asarray(share)
+
+        # The relative error grows below the onset, the absolute one fades there. A tail attracts
+        # whatever small gaps do, so that with a tail it fades faster.
+        below_onset = 1 - np.minimum(energy_ratio / find_onset(zone), 1.0)
+        relative_error = (SHARE_ERROR + WEAK_ERROR * below_onset / (1 + range_ratio)) * lost
+        fading = np.minimum(energy_ratio / ONSET, 1.0)
+        absolute_error = LEAST_ERROR * fading ** np.where(np.equal(self.law, EXPONENTIAL), 1, 2)
+        share = share * (1 + relative_error) ** sign + sign * absolute_error * lost
+
+        # Layers are less certain the further the longest waves are from those of a half-space.
+        stiffening = 1 - np.asarray(self.relative_compliance)
+        layer_error = np.where(
+            sign < 0,
+            LAYER_LESS * np.minimum(abs(stiffening), 1.0),
+            LAYER_MORE * np.maximum(stiffening, 0.0),
+        )
+        share = share + sign * layer_error * fading * lost
         if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
-            # A solid that is stiffer to every wave has no state of less energy than a half-space,
-            # and a softer one has none of more.
-            known = np.isfinite(self.half_space_energy)
-            energy = np.where(known, self.half_space_energy, self.elastic_energy)
-            deep = Roughness(self.h_rms, self.q0, energy, rms_slope=self.rms_slope, law=self.law)
-            deep = deep.share(adhesion_length, range, sign)
-            bound = np.where(harder >= 0, np.minimum(share, deep), np.maximum(share, deep))
-            share = np.where(known, bound, share)
+            share = self._bound_by_half_space(share, adhesion_length, range, sign)
+
         # Full contact is a state that the surfaces may take.
-        return plain(np.clip(share, np.maximum(1 - 1 / ratio, 0.0), 1.0))
+        return plain(np.clip(share, np.maximum(1 - 1 / energy_ratio, 0.0), 1.0))
+
+    def _bound_by_half_space(self, share, adhesion_length, range, sign) -> NDArray:
+        """Bound a share by that on a half-space; `sign` contains the factor on the errors.
+
+        A solid that is stiffer to every wave has no state of less energy than a half-space, and a
+        softer one has none of more.
+        """
+        is_known = np.isfinite(self.half_space_energy)
+        energy = np.where(is_known, self.half_space_energy, self.elastic_energy)
+        half_space = Roughness(self.h_rms, self.q0, energy, rms_slope=self.rms_slope, law=self.law)
+        bound = half_space.share(adhesion_length, range, sign)
+        is_stiffer = 1 - np.asarray(self.relative_compliance) >= 0
+        bounded = np.where(is_stiffer, np.minimum(share, bound), np.maximum(share, bound))
+        return np.where(is_known, bounded, share)
+
+    def _energy_ratio(self, adhesion_length: ArrayLike) -> NDArray:
+        """Work of adhesion over the elastic energy of full contact."""
+        return np.asarray(adhesion_length) / self.elastic_energy
 
     @property
     def load_scale(self) -> float | NDArray:
@@ -178,20 +216,24 @@ class Roughness:
 
     def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Share of the nominal area that is in contact at zero load."""
-        return plain(self._deepest_state(adhesion_length, range)[2])
+        return plain(self._deepest_state(adhesion_length, range).area)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts: its work over the largest tension [length]."""
-        share, tension, _ = self._deepest_state(adhesion_length, range)
-        ratio = np.asarray(adhesion_length) / self.elastic_energy
-        acts = tension > _NOTHING
-        found = self.h_rms * ratio * share / np.where(acts, tension, 1.0)
-        return plain(np.where(acts, found, np.asarray(range) + self.h_rms))
+        state = self._deepest_state(adhesion_length, range)
+        acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
+        tension = np.where(acts, state.tension, 1.0)
+        distance = self.h_rms * self._energy_ratio(adhesion_length) * state.share / tension
+        return plain(np.where(acts, distance, np.asarray(range) + self.h_rms))
 
-    def _deepest_state(self, adhesion_length, range):
-        ratio, reach = np.asarray(adhesion_length) / self.elastic_energy, range / self.h_rms
-        zone = self.zone(adhesion_length, range)
-        return find_deepest_state(ratio, reach, zone, self.load_scale, self.law)
+    def _deepest_state(self, adhesion_length, range) -> DeepestState:
+        return find_deepest_state(
+            energy_ratio=self._energy_ratio(adhesion_length),
+            range_ratio=range / self.h_rms,
+            zone=self.zone(adhesion_length, range),
+            load_scale=self.load_scale,
+            law=self.law,
+        )
 
     def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Width of the cohesive zone over the longest waves.
@@ -212,10 +254,11 @@ class Roughness:
         contact that lasts up to the strength of the law is within this limit, too.
         """
         share = np.asarray(self.share(adhesion_length, range, sign))
-        ratio = np.asarray(adhesion_length) / self.elastic_energy
-        pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / ratio)
-        most = np.maximum(np.minimum(HYSTERESIS * share, 1.0), pinned)
-        return plain(np.where(np.asarray(sign) > 0, most, share))
+        energy_ratio = self._energy_ratio(adhesion_length)
+        with_jumps = np.minimum(HYSTERESIS * share, 1.0)
+        pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / energy_ratio)
+        high_limit = np.maximum(with_jumps, pinned)
+        return plain(np.where(np.asarray(sign) > 0, high_limit, share))
 
     def tension(
         self,
@@ -232,19 +275,24 @@ class Roughness:
         factor on the work of separation raises the tension as it does the share.
         """
         length = np.asarray(adhesion_length)
-        found = np.asarray(
+        predicted = np.asarray(
             length
             / self.distance(length, range)
             * self.share(length, range, sign, separation_factor)
             * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
         )
-        known, unknown = np.log(PULL_OFF_KNOWN), np.log(PULL_OFF_UNKNOWN)
-        beyond = np.clip((np.log(length / self.elastic_energy) - known) / (unknown - known), 0, 1)
+        # Towards full contact, which was not simulated, only the strength bounds the high limit.
+        log_known = np.log(PULL_OFF_KNOWN)
+        log_unknown = np.log(PULL_OFF_UNKNOWN)
+        log_ratio = np.log(self._energy_ratio(length))
+        weight = np.clip((log_ratio - log_known) / (log_unknown - log_known), 0, 1)
+        # Full contact that a preload made lasts up to the strength of a law that is strong enough.
         strength = find_strength(self.law) * length / range
         slope = np.asarray(self.rms_slope)
         lasts = (np.asarray(pressed) > 2 * slope) & (strength > LASTING * slope / 2)
-        beyond = np.where(lasts, 1.0, beyond) * np.clip(sign, 0.0, 1.0)
-        return plain(np.minimum(found, strength) ** (1 - beyond) * strength**beyond)
+        weight = np.where(lasts, 1.0, weight) * np.clip(sign, 0.0, 1.0)
+        # Geometric interpolation between what is predicted and the strength.
+        return plain(np.minimum(predicted, strength) ** (1 - weight) * strength**weight)
 
     def threshold(
         self,
@@ -259,33 +307,91 @@ class Roughness:
         With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
         On a film it is the modulus of the layer that changes the length, from `adhesion_length`.
         """
-        names = ("h_rms", "q0", "elastic_energy", "relative_compliance")
-        positive(**{name: getattr(self, name) for name in names}, range=range)
-        *known, films = (getattr(self, field.name) for field in fields(Roughness))
-        known = [np.nan if value is None else value for value in (*known, adhesion_length)]
-        at = np.broadcast_arrays(*known, range, sign, separation_factor, share)
-        energy, share, shape = at[2], at[-1], at[0].shape
-        at, most = [values.ravel() for values in at], 0.0
-        bends = films is not None and adhesion_length is not None
-        if bends:
-            most, table = films[..., 0, :].max(axis=-1), films.shape[-2:]
-            films = np.broadcast_to(films, (*shape, *table)).reshape(-1, *table)
+        positive(
+            h_rms=self.h_rms,
+            q0=self.q0,
+            elastic_energy=self.elastic_energy,
+            relative_compliance=self.relative_compliance,
+            range=range,
+        )
+        # One row per pair: the root search runs over rows. Without a length to start from, the film
+        # under a layer is taken as it is.
+        surface = self
+        start = adhesion_length
+        if adhesion_length is None:
+            surface = replace(self, film_response=None)
+            start = np.nan
+        shape, pairs = flatten_pairs(
+            surface,
+            range=range,
+            sign=sign,
+            separation_factor=separation_factor,
+            wanted_share=share,
+            start_length=start,
+        )
 
-        def excess(log_length, i):
-            *known, start, range, sign, factor, share = (values[i] for values in at)
-            length, rough = np.exp(log_length), Roughness(*known, films[i] if bends else None)
-            return rough.at_modulus(start / length).share(length, range, sign, factor) - share
+        def find_excess(log_length: NDArray, row: NDArray) -> NDArray:
+            """Share that remains in these rows of the table, less the wanted one."""
+            pair = pairs.take(row)
+            length = np.exp(log_length)
+            rough = pair.at_modulus(pair.start_length / length)
+            remains = rough.share(length, pair.range, pair.sign, pair.separation_factor)
+            return remains - pair.wanted_share
 
-        bracket = np.log(LEAST_LENGTH * energy), np.log(20 * energy / (1 - share)) + most
-        # Limits say at the length given what the share there says, even if they do not rise.
-        given = np.clip(np.fmax(np.log(known[-1]), bracket[0]), *bracket)
-        place = np.arange(share.size).reshape(shape)
-        remains = excess(given, place) >= 0
-        bracket = np.where(remains, bracket[0], given), np.where(remains, given, bracket[1])
-        found = elementwise.find_root(excess, bracket, args=(place,))
+        # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
+        # is more than the share from energy/(1 - share) on. A film may raise the energy on the way
+        # there, at most by `log_stiffest`.
+        log_stiffest = 0.0
+        if pairs.film_response is not None:
+            log_stiffest = pairs.film_response[:, 0].max(axis=-1)
+        energy = pairs.elastic_energy
+        lowest = np.log(LEAST_LENGTH * energy)
+        highest = np.log(20 * energy / (1 - pairs.wanted_share)) + log_stiffest
+
+        # Shares need not rise with the length. The threshold must agree with the share at the
+        # start: search below that if enough remains there, else above.
+        row = np.arange(energy.size)
+        log_start = np.clip(np.fmax(np.log(pairs.start_length), lowest), lowest, highest)
+        is_enough = find_excess(log_start, row) >= 0
+        bracket = (np.where(is_enough, lowest, log_start), np.where(is_enough, log_start, highest))
+        root = elementwise.find_root(find_excess, bracket, args=(row,))
+
         # Attraction whose range is far above h_rms holds at any strength.
-        always = excess(bracket[0], place) >= 0
-        return plain(np.where(always, LEAST_LENGTH * energy, np.exp(found.x)))
+        holds_always = find_excess(bracket[0], row) >= 0
+        lengths = np.where(holds_always, LEAST_LENGTH * energy, np.exp(root.x))
+        return plain(lengths.reshape(shape))
+
+
+@dataclass(frozen=True, kw_only=True)
+class PairRows(Roughness):
+    """Pairs as a flat table with one row each; all columns are arrays `(n,)`."""
+
+    range: NDArray  #: of the attraction [length]
+    sign: NDArray  #: -1, 0, 1: limit of the share, see `Roughness.share`
+    separation_factor: NDArray
+    wanted_share: NDArray
+    start_length: NDArray  #: adhesion length of the pair as given; NaN if none is
+
+    def take(self, row: NDArray) -> Self:
+        """Return some rows of the table."""
+        columns = {field.name: getattr(self, field.name) for field in fields(self)}
+        return replace(self, **{name: x[row] for name, x in columns.items() if x is not None})
+
+
+def flatten_pairs(rough: Roughness, **columns: ArrayLike) -> tuple[tuple[int, ...], PairRows]:
+    """Common shape of what a roughness and other columns hold, and all of it as rows of a table."""
+    film_response = rough.film_response
+    for field in fields(Roughness):
+        if field.name != "film_response":
+            columns[field.name] = getattr(rough, field.name)
+    if rough.half_space_energy is None:
+        columns["half_space_energy"] = np.nan
+    shape = np.broadcast_shapes(*(np.shape(values) for values in columns.values()))
+    if film_response is not None:
+        table = np.shape(film_response)[-2:]
+        film_response = np.broadcast_to(film_response, (*shape, *table)).reshape(-1, *table)
+    rows = {name: np.broadcast_to(values, shape).ravel() for name, values in columns.items()}
+    return shape, PairRows(film_response=film_response, **rows)
 
 
 def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray | None:
@@ -294,18 +400,24 @@ def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray |
     For factors on the modulus of a layer whose film stays as it is, ``(2, FILM_FACTORS)``; None
     without a film.
     """
-    if not isinstance(solid, Layer) or not isinstance(film := solid.backing, Film):
+    if not isinstance(solid, Layer) or not isinstance(solid.backing, Film):
         return None
-    ratios = film.modulus_ratio / np.append(1.0, FILM_FACTORS)
-    layers = [replace(solid, backing=replace(film, modulus_ratio=float(r))) for r in ratios]
-    found = np.log([(spectrum.elastic_energy(layer), layer.factor(q0)) for layer in layers]).T
-    return found[:, 1:] - found[:, :1]
+    film = solid.backing
+    responses = []
+    for factor in np.append(1.0, FILM_FACTORS):
+        softer_film = replace(film, modulus_ratio=float(film.modulus_ratio / factor))
+        layer = replace(solid, backing=softer_film)
+        responses.append((spectrum.elastic_energy(layer), layer.factor(q0)))
+    log_responses = np.log(responses).T
+    return log_responses[:, 1:] - log_responses[:, :1]
 
 
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
     """Elastic energy that bounds that of a layer; none of a film, which is softer to long waves."""
-    bends = isinstance(solid, Layer) and isinstance(solid.backing, Film)
-    return None if solid == HALF_SPACE or bends else spectrum.elastic_energy()
+    is_on_film = isinstance(solid, Layer) and isinstance(solid.backing, Film)
+    if solid == HALF_SPACE or is_on_film:
+        return None
+    return spectrum.elastic_energy()
 
 
 def find_anisotropy_error_factor(ratio: float) -> float:
@@ -313,7 +425,7 @@ def find_anisotropy_error_factor(ratio: float) -> float:
 
     Simulations of ratios up to 4 lie within the limits without it, but they are few.
     """
-    return UNLIKE ** float(np.log(ratio) / np.log(UNLIKE_RATIO))
+    return UNLIKE ** float(np.log(ratio) / np.log(4.0))
 
 
 def predict(
@@ -356,12 +468,13 @@ def predict(
     --------
     >>> from stickiness.spectrum import SelfAffine
     >>> rough = SelfAffine(hurst=0.8, q0=1.0, q1=1e4, h_rms=1.0)
-    >>> found = predict(rough, adhesion_length=1.0, range=0.01)
-    >>> print(f"{found.separation:.2f} of the work of adhesion remains")
+    >>> prediction = predict(rough, adhesion_length=1.0, range=0.01)
+    >>> print(f"{prediction.separation:.2f} of the work of adhesion remains")
     0.40 of the work of adhesion remains
     """
     check_spectrum(spectrum)
-    length, range = number("adhesion_length", adhesion_length), number("range", range)
+    length = number("adhesion_length", adhesion_length)
+    range = number("range", range)
     pressed = number("pressed", pressed, zero=True)
     q0 = number("q0", spectrum.q_longest if q0 is None else q0)
     rough = Roughness(
@@ -374,33 +487,35 @@ def predict(
         rms_slope=spectrum.rms_slope,
         law=law,
     )
-    if not 1 / MOST_RATIO < range / rough.h_rms < MOST_RATIO:
+    most_ratio = 1e30
+    if not 1 / most_ratio < range / rough.h_rms < most_ratio:
         raise ValueError(
             f"range = {range:.3g} is out of proportion to the rms height, {rough.h_rms:.3g}: give "
             "both in one unit"
         )
-    if not length <= MOST_RATIO * rough.elastic_energy:
+    if not length <= most_ratio * rough.elastic_energy:
         raise ValueError(
-            f"adhesion_length = {length:.3g} is more than {MOST_RATIO:g} times the elastic energy "
+            f"adhesion_length = {length:.3g} is more than {most_ratio:g} times the elastic energy "
             f"of full contact over E*, {rough.elastic_energy:.3g}: give the work of adhesion over "
             "E*, in the unit of the heights"
         )
-    low, share, high = (float(rough.share(length, range, sign)) for sign in (-1, 0, 1))
-    ratio, softened = length / rough.elastic_energy, length * rough.relative_compliance
-    least, pull_off, most = (
-        float(rough.tension(length, range, sign, pressed)) for sign in (-1, 0, 1)
-    )
+    share = float(rough.share(length, range))
+    least_share = float(rough.share(length, range, -1))
+    most_share = float(rough.share(length, range, 1))
+    most_separation = float(rough.separation(length, range, 1))
+    least_tension = float(rough.tension(length, range, -1, pressed))
+    most_tension = float(rough.tension(length, range, 1, pressed))
+    softened = length * rough.relative_compliance
+    maugis_range = range / find_strength(law)
     return Prediction(
         approach=share,
         separation=share,
-        pull_off=pull_off,
+        pull_off=float(rough.tension(length, range, 0, pressed)),
         area_at_zero_load=float(rough.area(length, range)),
-        approach_limits=(low / LATE, high),
-        separation_limits=(low, float(rough.separation(length, range, 1))),
-        pull_off_limits=(least, most),
-        energy_ratio=ratio,
-        tabor=float(
-            np.cbrt(softened**2 / (q0**2 * rough.h_rms * (range / find_strength(law)) ** 3))
-        ),
+        approach_limits=(least_share / LATE, most_share),
+        separation_limits=(least_share, most_separation),
+        pull_off_limits=(least_tension, most_tension),
+        energy_ratio=length / rough.elastic_energy,
+        tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * maugis_range**3))),
         anisotropy_error_factor=rough.anisotropy_error_factor,
     )

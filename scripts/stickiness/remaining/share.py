@@ -17,6 +17,9 @@ What remains is the least energy, the pull-off its steepest rise with the gap. O
 
 from __future__ import annotations
 
+from functools import cache
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.special import erf, erfcx, lambertw, ndtr
@@ -24,48 +27,39 @@ from scipy.special import erf, erfcx, lambertw, ndtr
 from stickiness.arguments import plain, positive
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
-# Of contact without adhesion, -ln F = a u^m + b u^n, with a, m, b, n. In simulations of H = 0.3 to
-# 0.9 and magnifications 4 to 128, in cells of 4 by 4 waves and more, -ln F scatters about it by 6 %
-# at a gap of 0.1, 2 % at 1, 3 % at 1.5 and 5 % at 2.5.
-ENERGY_DECAY = (2.19, 0.82, 0.18, 2.53)
-# Where undeformed heights overlap but do not touch, attraction falls short of contact by
-# exp(-CLOSING e).
-CLOSING = 2.6
 # Fitted to what remains in simulations: the energy ratio from which tough contact grows at a short
 # range, and how a wider cohesive zone advances that.
-ONSET, ADVANCE = 0.4, 1.2
+ONSET = 0.4
+ADVANCE = 1.2
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
 LIFT = 1.4
-_GAPS = np.linspace(0.05, 10.0, 200)  # mean gaps over h_rms; full contact is a tough state
 # Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.2 to 4.6
 # in cells of 16 to 256 of the longest waves. The largest of 10^6 independent heights is at 4.9.
 FIRST_TOUCH = 4.0
-# Gaps over h_rms, even in the logarithm, and their weights in Gaussian heights by mean gap.
-_OPENINGS = np.exp(np.linspace(-28.0, 3.0, 389))
-_OPEN = np.exp(-((_GAPS - _OPENINGS[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
-_OPEN *= np.gradient(np.log(_OPENINGS))[:, None] * _OPENINGS[:, None]
-_FINE_GAPS, _LEAST_DECAY = np.geomspace(1e-9, _GAPS[-1], 1000), 1e-6  # of the inverse of F
-_PARTS = np.linspace(0.0, 1.0, 60)[:, None]  # of the way to zero load, in logarithms
-# Of springs over h_rms: clearances between undeformed surfaces, and their means.
-_CLEARANCES, _STEP = np.linspace(-6.0, 12.0, 901, retstep=True)
-_LEVELS = np.linspace(-0.5, 6.0, 66)
-_BLOCK, _TINY = 100, 1e-6
-_PAIRS = 400  # at all mean gaps in one block
-_HEIGHTS = np.exp(-((_LEVELS[:, None] - _CLEARANCES) ** 2) / 2) * (_STEP / np.sqrt(2 * np.pi))
 
 
 def decay_energy(gap: ArrayLike) -> tuple[NDArray, NDArray]:
-    """-ln F of contact without adhesion at a mean gap, and its slope."""
-    a, m, b, n = ENERGY_DECAY
-    terms = a * np.power(gap, m), b * np.power(gap, n)
-    return terms[0] + terms[1], (m * terms[0] + n * terms[1]) / gap
+    """-ln F of contact without adhesion at a mean gap, and its slope.
+
+    Two power laws, fitted to simulations of H = 0.3 to 0.9 and magnifications 4 to 128, in cells of
+    4 by 4 waves and more: -ln F scatters about them by 6 % at a gap of 0.1, 2 % at 1, 3 % at 1.5
+    and 5 % at 2.5.
+    """
+    near = 2.19 * np.power(gap, 0.82)
+    far = 0.18 * np.power(gap, 2.53)
+    return near + far, (0.82 * near + 2.53 * far) / gap
 
 
+# Contact without adhesion at the mean gaps over h_rms that are searched; full contact is a tough
+# state. Beyond the first touch it stores no energy and has no area.
+_GAPS = np.linspace(0.05, 10.0, 200)
+_TOUCHING = slice(np.count_nonzero(_GAPS < FIRST_TOUCH))
 _DECAY, _SLOPE = decay_energy(_GAPS)
 _ENERGY = np.where(_GAPS < FIRST_TOUCH, np.exp(-_DECAY), 0.0)
-_TOUCHING = slice(np.count_nonzero(_GAPS < FIRST_TOUCH))  # mean gaps at which the area is not zero
-_FINE_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
+# The inverse of -ln F, from full contact on.
+_FINE_GAPS = np.geomspace(1e-9, _GAPS[-1], 1000)
+_FINE_LOG_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
 
 
 def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
@@ -101,14 +95,20 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
     A contact of area 1 - exp(-t) stores F = 1 - (1 + (1 - onset) t) exp(-t): that is how the energy
     F - x area has its minimum, with the area of `tough_area`, at x = onset + (1 - onset) t.
     """
-    x, onset = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, onset=onset))
-    start, rest = onset.ravel(), 1 - onset.ravel()
-    full = np.maximum(x.ravel() - start, 1e-9) / rest
+    x, onset = positive(energy_ratio=energy_ratio, onset=onset)
+    x, onset = np.broadcast_arrays(x, onset)
+    flat_x = x.ravel()
+    start = onset.ravel()
+    rest = 1 - onset.ravel()
+    # Areas, by t, on the way from nearly none to that at zero load, evenly in the logarithm.
+    full = np.maximum(flat_x - start, 1e-9) / rest
     least = 1e-3 * np.minimum(full, 1.0)
-    t = least * (full / least) ** _PARTS
-    decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), _LEAST_DECAY)
-    gap = np.exp(np.interp(np.log(decay), _FINE_DECAY, np.log(_FINE_GAPS)))
-    rise = decay_energy(gap)[1] * np.exp(-decay) * (x.ravel() / (start + rest * t) - 1)
+    t = least * (full / least) ** np.linspace(0.0, 1.0, 60)[:, None]
+    # The mean gap at which contact without adhesion stores the same energy.
+    decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), 1e-6)
+    gap = np.exp(np.interp(np.log(decay), _FINE_LOG_DECAY, np.log(_FINE_GAPS)))
+    # d(F - x area)/du, where x is that of the energy minimum at this area.
+    rise = decay_energy(gap)[1] * np.exp(-decay) * (flat_x / (start + rest * t) - 1)
     return plain(np.max(rise, axis=0, initial=0.0).reshape(x.shape) / LIFT)
 
 
@@ -117,51 +117,82 @@ def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> fl
 
     `law` is a name of `LAWS`, or an array of names.
     """
-    checked = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
-    given = np.broadcast_arrays(*checked, load_scale, law)
-    share, flat = np.empty(given[0].shape), [values.ravel() for values in given]
-    # Blocks that fit the cache, by range: each needs the attraction of few ranges.
-    for block in np.array_split(np.argsort(flat[1]), share.size // _PAIRS + 1):
-        x, energy, _ = _weak_energy(*(values[block] for values in flat))
-        share.flat[block] = np.max(-energy / x, axis=-1, initial=0.0)
-    return plain(share)
+    x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
+    x, e, load_scale, law = np.broadcast_arrays(x, e, load_scale, law)
+    flat_x = x.ravel()
+    flat_e = e.ravel()
+    flat_scale = load_scale.ravel()
+    flat_law = law.ravel()
+    share = np.empty(x.size)
+    # Blocks of 400 pairs at all mean gaps fit the cache. By range: each needs attraction of few.
+    for block in np.array_split(np.argsort(flat_e), share.size // 400 + 1):
+        states = _find_weak_states(flat_x[block], flat_e[block], flat_scale[block], flat_law[block])
+        share[block] = _gain_of(states)
+    return plain(share.reshape(x.shape))
 
 
-def _weak_energy(energy_ratio, range_ratio, load_scale, law):
-    """Energy ratios ``(..., 1)``; energies and contact areas at the mean gaps, ``(..., gap)``."""
-    x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
+class _WeakStates(NamedTuple):
+    """Contact without adhesion at the mean gaps `_GAPS`, with attraction."""
+
+    energy_ratio: NDArray  #: (..., 1)
+    energy: NDArray  #: (..., gap), with attraction, over U
+    area: NDArray  #: (..., gap), in contact
+
+
+def _gain_of(states: _WeakStates) -> NDArray:
+    """Largest gain of energy over the work of adhesion."""
+    return np.max(-states.energy / states.energy_ratio, axis=-1, initial=0.0)
+
+
+def _find_weak_states(energy_ratio, range_ratio, load_scale, law) -> _WeakStates:
+    x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
+    x, e = np.broadcast_arrays(x, e)
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
     scale = np.sqrt(np.pi) * np.asarray(load_scale)[..., None]
     area = np.zeros((*np.shape(load_scale), _GAPS.size))
     area[..., _TOUCHING] = erf(scale * _SLOPE[_TOUCHING] * _ENERGY[_TOUCHING])
-    # What attraction gains is dear and knows the range alone, of which grids of pairs have few.
+    # Mean attraction is costly and depends on the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
-    gained = _mean_attraction(ranges)[place.reshape(e.shape)]
+    attraction = _mean_attraction(ranges)[place.reshape(e.shape)]
+    # Where undeformed heights overlap but do not touch, attraction falls short of contact. The
+    # decay with the range was fitted to simulations.
     open_overlap = np.maximum(ndtr(-_GAPS) - area, 0.0)
-    gained = gained - open_overlap * np.exp(-CLOSING * e[..., None])
+    attraction = attraction - open_overlap * np.exp(-2.6 * e[..., None])
+    # Other laws: what they attract beyond the exponential one.
     law = np.broadcast_to(law, e.shape)
     for name in set(np.unique(law).tolist()) - {EXPONENTIAL}:
         ranges, place = np.unique(e[law == name], return_inverse=True)
-        gained[law == name] += _mean_excess(ranges, name)[place]
-    return x[..., None], _ENERGY - x[..., None] * np.maximum(gained, area), area
+        attraction[law == name] += _mean_excess(ranges, name)[place]
+    x = x[..., None]
+    return _WeakStates(x, _ENERGY - x * np.maximum(attraction, area), area)
+
+
+@cache
+def _open_gaps() -> tuple[NDArray, NDArray]:
+    """Gaps over h_rms, even in the logarithm, and their weights in Gaussian heights by mean gap."""
+    gaps = np.exp(np.linspace(-28.0, 3.0, 389))
+    weights = np.exp(-((_GAPS - gaps[:, None]) ** 2) / 2) / np.sqrt(2 * np.pi)
+    weights *= np.gradient(np.log(gaps))[:, None] * gaps[:, None]
+    return gaps, weights
 
 
 def _mean_excess(range_ratio: NDArray, law: str) -> NDArray:
     """Mean over open gaps of what a law attracts beyond the exponential, ``(range, gap)``."""
-    gaps = _OPENINGS / range_ratio[:, None]
-    kinds = LAWS[EXPONENTIAL](1.0, 1.0), LAWS[law](1.0, 1.0)
-    return (kinds[0].potential(gaps) - kinds[1].potential(gaps)) @ _OPEN
+    gaps, weights = _open_gaps()
+    gaps_over_range = gaps / range_ratio[:, None]
+    exponential = LAWS[EXPONENTIAL](1.0, 1.0).potential(gaps_over_range)
+    return (exponential - LAWS[law](1.0, 1.0).potential(gaps_over_range)) @ weights
 
 
 def _mean_attraction(range_ratio: NDArray) -> NDArray:
     """Mean of exp(-gap/range) over undeformed heights, ``(range, gap)``; overlap counts as 1."""
     away = 1 / range_ratio[:, None] - _GAPS
-    found = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
+    open_part = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
     far = away <= 0  # nowhere if the range is short
     if far.any():
         gaps = np.broadcast_to(_GAPS, away.shape)[far]
-        found[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * ndtr(-away[far])
-    return found + ndtr(-_GAPS)
+        open_part[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * ndtr(-away[far])
+    return open_part + ndtr(-_GAPS)
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
@@ -171,26 +202,40 @@ def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDA
     balances the exponential law, ``(c - g)^2 - x exp(-g/e)``: y = (c - g)/e solves
     ``y exp(-y) = x/(2 e^2) exp(-c/e)``.
     """
-    x, e = np.broadcast_arrays(*positive(energy_ratio=energy_ratio, range_ratio=range_ratio))
-    blocks = -(-x.size // _BLOCK)  # arrays that fit the cache
-    parts = (np.array_split(values.ravel(), max(blocks, 1)) for values in (x, e))
-    gained = np.concatenate([_gain_of_springs(*part) for part in zip(*parts, strict=True)])
-    return plain(np.clip(gained.reshape(x.shape), 0.0, 1.0))
+    x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
+    x, e = np.broadcast_arrays(x, e)
+    blocks = max(-(-x.size // 100), 1)  # of 100 pairs, which fit the cache
+    x_blocks = np.array_split(x.ravel(), blocks)
+    e_blocks = np.array_split(e.ravel(), blocks)
+    gains = list(map(_gain_of_springs, x_blocks, e_blocks))
+    return plain(np.clip(np.concatenate(gains).reshape(x.shape), 0.0, 1.0))
+
+
+@cache
+def _clearances() -> tuple[NDArray, NDArray]:
+    """Clearances between undeformed surfaces over h_rms, and their weights by mean clearance."""
+    clearances, step = np.linspace(-6.0, 12.0, 901, retstep=True)
+    means = np.linspace(-0.5, 6.0, 66)
+    weights = np.exp(-((means[:, None] - clearances) ** 2) / 2) * (step / np.sqrt(2 * np.pi))
+    return clearances, weights
 
 
 def _gain_of_springs(energy_ratio: NDArray, range_ratio: NDArray) -> NDArray:
     """Energy gained over the work of adhesion, ``(n,)``."""
-    x, e = energy_ratio[:, None], range_ratio[:, None]
-    closed = _CLEARANCES**2 - x
-    pull = x / (2 * e**2) * np.exp(np.minimum(-_CLEARANCES / e, 500.0))
-    holds = pull < np.exp(-1)
-    pull = np.where(holds, pull, 0.0)
+    x = energy_ratio[:, None]
+    e = range_ratio[:, None]
+    clearances, weights = _clearances()
+    closed = clearances**2 - x
+    # Beyond 1/e the balance has no solution: the point closes.
+    pull = x / (2 * e**2) * np.exp(np.minimum(-clearances / e, 500.0))
+    is_open = pull < np.exp(-1)
+    pull = np.where(is_open, pull, 0.0)
     y = pull * (1 + pull)  # to rounding where it is tiny, which is nearly everywhere
-    strong = pull > _TINY
-    y[strong] = -lambertw(-pull[strong]).real
-    holds &= e * y < _CLEARANCES
-    energy = np.where(holds, np.minimum(closed, e**2 * (y**2 - 2 * y)), closed)
-    return -np.min(energy @ _HEIGHTS.T, axis=-1) / x[:, 0]
+    is_strong = pull > 1e-6
+    y[is_strong] = -lambertw(-pull[is_strong]).real
+    is_open &= e * y < clearances
+    energy = np.where(is_open, np.minimum(closed, e**2 * (y**2 - 2 * y)), closed)
+    return -np.min(energy @ weights.T, axis=-1) / x[:, 0]
 
 
 def remaining_share(
@@ -209,27 +254,41 @@ def remaining_share(
     Springs have the exponential law of equal strength.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
-    share = np.maximum(tough, weak_share(energy_ratio, range_ratio, load_scale, law))
-    alone = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
-    if np.any(alone > 0):
+    weak = weak_share(energy_ratio, range_ratio, load_scale, law)
+    share = np.maximum(tough, weak)
+    independence = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
+    if np.any(independence > 0):
         springs = spring_share(energy_ratio, np.asarray(range_ratio) / find_strength(law))
-        share = share + alone * np.maximum(springs - share, 0.0)
+        share = share + independence * np.maximum(springs - share, 0.0)
     return plain(np.minimum(share, 1.0))
 
 
-def find_deepest_state(energy_ratio, range_ratio, zone, load_scale=0.0, law=EXPONENTIAL):
-    """Share that remains, largest tension [U/h], and area of contact at zero load."""
+class DeepestState(NamedTuple):
+    """State of least energy, weak or tough."""
+
+    share: NDArray  #: of the work of adhesion that remains
+    tension: NDArray  #: the largest on separation [U/h]
+    area: NDArray  #: of contact at zero load
+
+
+def find_deepest_state(
+    energy_ratio, range_ratio, zone, load_scale=0.0, law=EXPONENTIAL
+) -> DeepestState:
+    """Share that remains, largest tension, and area of contact at zero load."""
     onset = find_onset(zone)
-    x, energy, area = _weak_energy(energy_ratio, range_ratio, load_scale, law)
-    weak, lowest = np.max(-energy / x, axis=-1, initial=0.0), np.argmin(energy, axis=-1)
-    beyond = np.arange(_GAPS.size - 1) >= lowest[..., None]
-    rise = np.max(np.diff(energy) / np.diff(_GAPS), axis=-1, where=beyond, initial=0.0)
-    area = np.take_along_axis(np.broadcast_to(area, energy.shape), lowest[..., None], -1)[..., 0]
-    share = np.maximum(tough_share(energy_ratio, onset), weak)
-    tough = share > weak
-    strength = find_strength(law) * x[..., 0] / range_ratio
-    return (
-        share,
-        np.minimum(np.where(tough, tough_tension(energy_ratio, onset), rise), strength),
-        np.where(tough, tough_area(energy_ratio, onset), area),
-    )
+    states = _find_weak_states(energy_ratio, range_ratio, load_scale, law)
+    weak = _gain_of(states)
+    tough = np.asarray(tough_share(energy_ratio, onset))
+    share = np.maximum(tough, weak)
+    is_tough = share > weak
+    # The tension is the steepest rise of the energy beyond its minimum, up to the strength.
+    lowest = np.argmin(states.energy, axis=-1)[..., None]
+    beyond = np.arange(_GAPS.size - 1) >= lowest
+    slopes = np.diff(states.energy) / np.diff(_GAPS)
+    weak_tension = np.max(slopes, axis=-1, where=beyond, initial=0.0)
+    tension = np.where(is_tough, tough_tension(energy_ratio, onset), weak_tension)
+    strength = find_strength(law) * states.energy_ratio[..., 0] / range_ratio
+    areas = np.broadcast_to(states.area, states.energy.shape)
+    weak_area = np.take_along_axis(areas, lowest, axis=-1)[..., 0]
+    area = np.where(is_tough, tough_area(energy_ratio, onset), weak_area)
+    return DeepestState(share, np.minimum(tension, strength), area)

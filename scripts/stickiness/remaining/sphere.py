@@ -17,8 +17,7 @@ from stickiness.arguments import plain, positive
 from stickiness.remaining.prediction import Roughness
 from stickiness.traction_laws import find_strength
 
-_LEAST, _MOST, _POINTS = 1e-3, 1e3, 121  # Maugis' parameter; JKR and DMT to 0.2 % beyond
-_NOTHING = 1e-200
+_LEAST_PARAMETER = 1e-3  # of Maugis; below DMT to 0.2 %
 _POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 
 
@@ -44,31 +43,38 @@ def pull_off(
     """Pull-off after a contact formed by load; `sign` is -1 or +1 for the low or high limit."""
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     work = np.asarray(rough.separation(length, range, sign))
-    held = np.maximum(work, _NOTHING) * length
+    remaining_length = np.maximum(work, 1e-200) * length  # that may be divided by
     reach = np.asarray(rough.distance(length, range))
-    force = work * length * _coefficient(radius, held, reach)
+    force = work * length * _coefficient(radius, remaining_length, reach)
     smooth = length * _coefficient(radius, length, range / find_strength(rough.law))
-    zone = np.maximum(np.cbrt(9 * np.pi / 8 * held * radius**2), np.sqrt(2 * radius * reach))
+    jkr_contact = np.cbrt(9 * np.pi / 8 * remaining_length * radius**2)
+    derjaguin_zone = np.sqrt(2 * radius * reach)
     return SpherePullOff(
-        plain(np.pi * radius * force), plain(force / smooth), plain(work), plain(zone)
+        force=plain(np.pi * radius * force),
+        relative=plain(force / smooth),
+        work=plain(work),
+        zone_radius=plain(np.maximum(jkr_contact, derjaguin_zone)),
     )
 
 
 def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:
     """Pull-off force over pi R l_a: from 3/2 (JKR) to 2 (DMT)."""
-    tabulated, values = _table()
-    found = np.maximum(maugis_parameter(radius, length, range), _LEAST)
-    return np.interp(np.log(found), tabulated, values)
+    log_parameters, coefficients = _tabulate_coefficient()
+    parameter = np.maximum(maugis_parameter(radius, length, range), _LEAST_PARAMETER)
+    return np.interp(np.log(parameter), log_parameters, coefficients)
 
 
 @cache
-def _table() -> tuple[NDArray, NDArray]:
+def _tabulate_coefficient() -> tuple[NDArray, NDArray]:
     """Logarithm of Maugis' parameter, and the pull-off force over pi R l_a."""
-    parameters, forces = np.geomspace(_LEAST, _MOST, _POINTS), []
+    parameters = np.geomspace(_LEAST_PARAMETER, 1e3, 121)  # beyond, JKR to 0.2 %
+    forces = []
+    # The parameter is that of a sphere with a range, to rounding.
     unit = float(maugis_parameter(1.0, 1.0, 1.0))
-    for given in parameters:
-        parameter = float(maugis_parameter(1.0, 1.0, unit / given))
-        forces.append(-float(maugis_curve(find_pull_off(parameter), parameter)[2] * np.pi))
+    for nominal in parameters:
+        parameter = float(maugis_parameter(1.0, 1.0, unit / nominal))
+        _, _, force, _ = maugis_curve(find_pull_off(parameter), parameter)
+        forces.append(-float(force * np.pi))
     return np.log(parameters), np.clip(np.array(forces) / np.pi, 1.5, 2.0)
 
 
@@ -111,11 +117,11 @@ def find_pull_off(parameter: float) -> float:
     i = int(np.argmin(force(t)))
     if i == t.size - 1:
         return _POINT_CONTACT
-    bounds = t[max(i - 1, 0)], t[i + 1]
-    found = optimize.minimize_scalar(
+    bounds = (t[max(i - 1, 0)], t[i + 1])
+    minimum = optimize.minimize_scalar(
         force, bounds=bounds, method="bounded", options={"xatol": 1e-10 * t[i]}
     )
-    return float(found.x)
+    return float(minimum.x)
 
 
 def opening(t: NDArray) -> NDArray:

@@ -24,10 +24,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import number, plain, positive
 
-_SHORTEST = 25.0  # k beyond which S is 1 to rounding
-_SERIES = 1.5  # 2k below which sinh and cosh are expanded
-_TERMS = 12
-
 
 class _Compliant(ABC):
     """What follows from the compliance over that of a half-space."""
@@ -141,9 +137,10 @@ class Layer(_Compliant):
     def factor(self, q: ArrayLike) -> float | NDArray:
         """Compliance over that of a half-space, S, of waves `q` >= 0 [1/length]."""
         k = np.asarray(q, dtype=float) * self.thickness
-        long = k < _SHORTEST
         factor = np.ones(k.shape)
-        factor[long] = self._slipping(k[long]) if self.backing == "slip" else self._bonded(k[long])
+        is_long = k < 25.0  # beyond, S is 1 to rounding
+        on_base = self._slipping if self.backing == "slip" else self._bonded
+        factor[is_long] = on_base(k[is_long])
         if isinstance(self.backing, Film):
             factor += self._bending(self.backing, q)
         return plain(factor)
@@ -177,23 +174,28 @@ class Layer(_Compliant):
         return 6 / (stiffness * np.maximum(thin, np.finfo(float).tiny ** 0.25) ** 3)
 
     def _slipping(self, k: NDArray) -> NDArray:
-        """S on a rigid base without friction, from its parts times 2 exp(-2k) = 2 (1 + gone)."""
-        gone = np.expm1(-2 * k)
-        below = -gone * (2 + gone) + 4 * k * (1 + gone)
-        return gone**2 / np.where(k > 0, below, 1.0)
+        """S on a rigid base without friction.
+
+        Numerator and denominator are multiplied by 2 exp(-2k) = 2 (1 + d), d = exp(-2k) - 1.
+        """
+        d = np.expm1(-2 * k)
+        denominator = -d * (2 + d) + 4 * k * (1 + d)
+        return d**2 / np.where(k > 0, denominator, 1.0)
 
     def _bonded(self, k: NDArray) -> NDArray:
-        """S on a rigid base that it sticks to, from its parts times 2 exp(-2k).
+        """S on a rigid base that it sticks to.
 
-        In these groups all terms are positive.
+        Numerator and denominator are multiplied by 2 exp(-2k), and regrouped so that all terms are
+        positive.
         """
-        a, compressible = 3 - 4 * self.poisson, 1 - 2 * self.poisson
-        gone = np.exp(-2 * k)
+        a = 3 - 4 * self.poisson
+        compressible = 1 - 2 * self.poisson
+        decay = np.exp(-2 * k)
         odd, even = _less_leading_terms(2 * k)
-        above = (2 * a * odd) / 2 + 4 * (2 * compressible) * k * gone
-        below = (2 * a * even) / 2
-        below += ((1 + a) ** 2 + 4 * (4 * (1 - self.poisson)) * k**2) * gone
-        return above / below
+        numerator = (2 * a * odd) / 2 + 4 * (2 * compressible) * k * decay
+        denominator = (2 * a * even) / 2
+        denominator += ((1 + a) ** 2 + 4 * (4 * (1 - self.poisson)) * k**2) * decay
+        return numerator / denominator
 
 
 Solid = HalfSpace | Layer  #: what the solvers and theories take
@@ -214,15 +216,20 @@ def _set(frozen: Film | Layer, name: str, value: float) -> None:
 
 def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:
     """Return sinh x - x and cosh x - 1 - x^2/2, both times 2 exp(-x), without cancellation."""
-    gone = np.exp(-x)
-    odd = -np.expm1(-2 * x) - 2 * x * gone
-    even = 1 + gone**2 - (2 + x**2) * gone
-    small = x < _SERIES
-    y, gone = x[small] ** 2, gone[small]
-    third = fourth = np.zeros_like(y)  # sinh: x^3 (1/6 + ...), cosh: x^4/2 (1/12 + ...)
-    for n in range(_TERMS, 0, -1):
-        third = (1 + third * y) / ((2 * n) * (2 * n + 1))
-        fourth = (1 + fourth * y) / ((2 * n + 1) * (2 * n + 2))
-    odd[small] = 2 * gone * x[small] * y * third
-    even[small] = gone * y**2 * fourth
+    decay = np.exp(-x)
+    odd = -np.expm1(-2 * x) - 2 * x * decay
+    even = 1 + decay**2 - (2 + x**2) * decay
+
+    # Where the terms cancel, the series sinh x - x = x^3 (1/6 + ...) and
+    # cosh x - 1 - x^2/2 = x^4/2 (1/12 + ...), summed from their last terms.
+    is_small = x < 1.5
+    x2 = x[is_small] ** 2
+    decay = decay[is_small]
+    sinh_series = np.zeros_like(x2)
+    cosh_series = np.zeros_like(x2)
+    for n in range(12, 0, -1):
+        sinh_series = (1 + sinh_series * x2) / ((2 * n) * (2 * n + 1))
+        cosh_series = (1 + cosh_series * x2) / ((2 * n + 1) * (2 * n + 2))
+    odd[is_small] = 2 * decay * x[is_small] * x2 * sinh_series
+    even[is_small] = decay * x2**2 * cosh_series
     return odd, even

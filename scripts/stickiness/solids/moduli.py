@@ -15,9 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import number, plain, positive
 
 REFERENCE_FREQUENCY = 1.0  #: Hz, Dahlquist's
-_GLASSY = 1e100  # x from which on a term is E_i to rounding; its square does not overflow
-# Steps of t, up to REACH beyond the slowest time, in a sum that converges as exp(-pi^2/STEP).
-_STEP, _REACH = 0.25, 40.0
 
 
 @dataclass(frozen=True)
@@ -58,7 +55,8 @@ class Prony:
         """
         (frequency,) = positive(frequency=frequency)
         moduli, times = np.array(self.terms).T
-        x = np.minimum(2 * np.pi * frequency[..., None] * times, _GLASSY)
+        # From 1e100 on a term is E_i to rounding, and its square does not overflow.
+        x = np.minimum(2 * np.pi * frequency[..., None] * times, 1e100)
         return plain(self.equilibrium + np.sum(moduli * x**2 / (1 + x**2), axis=-1))
 
     def relaxation(self, time: ArrayLike) -> float | NDArray:
@@ -76,16 +74,20 @@ class Prony:
         if it were at equilibrium. Limits: 1, of a slow edge, and of a fast one the instantaneous
         modulus over E(dwell).
         """
-        dwell, omega = number("dwell", dwell), 2 * np.pi * number("frequency", frequency)
+        dwell = number("dwell", dwell)
+        omega = 2 * np.pi * number("frequency", frequency)
         relaxed = float(self.relaxation(dwell))
         moduli, times = np.array(self.terms).T
-        most = float(self.equilibrium + moduli.sum()) / relaxed
-        # With g = f/cosh(t) the integrand is smooth, even in t, and vanishes exponentially.
-        t = np.arange(_STEP, _REACH + np.log1p(omega * times.max() * most), _STEP)
+        fast_edge = float(self.equilibrium + moduli.sum()) / relaxed
+        # With g = f/cosh(t) the integrand is smooth, even in t, and vanishes exponentially: the sum
+        # converges as exp(-pi^2/step).
+        step = 0.25
+        t = np.arange(step, 40 + np.log1p(omega * times.max() * fast_edge), step)
         x = 1j * (omega / np.cosh(t))[:, None] * times
         modulus = relaxed - x / (1 + x) @ (moduli * np.expm1(-dwell / times))
-        lost = np.tanh(t) ** 2 @ (-1 / modulus).imag * _STEP
-        return float(np.clip(1 / (1 - 2 / np.pi * relaxed * lost), 1.0, most)), 1.0, most
+        lost = np.tanh(t) ** 2 @ (-1 / modulus).imag * step
+        factor = 1 / (1 - 2 / np.pi * relaxed * lost)
+        return float(np.clip(factor, 1.0, fast_edge)), 1.0, fast_edge
 
 
 @dataclass(frozen=True)
@@ -105,8 +107,14 @@ class Table:
     def storage(self, frequency: ArrayLike) -> float | NDArray:
         """Storage modulus [Pa] at frequencies [Hz]; NaN beyond the table."""
         (frequency,) = positive(frequency=frequency)
-        x, y = np.log(self.frequencies), np.log(self.moduli)
-        return plain(np.exp(np.interp(np.log(frequency), x, y, left=np.nan, right=np.nan)))
+        log_modulus = np.interp(
+            np.log(frequency),
+            np.log(self.frequencies),
+            np.log(self.moduli),
+            left=np.nan,
+            right=np.nan,
+        )
+        return plain(np.exp(log_modulus))
 
     def relaxation(self, time: ArrayLike) -> float | NDArray:
         """Relaxation modulus E(t) [Pa] at times [s]: E' at omega = 2/(pi t); NaN beyond the table.
@@ -125,9 +133,9 @@ class Table:
         relaxation. The high limit is as high as the table goes.
         """
         relaxed = self.relaxation(number("dwell", dwell))
-        most = float(np.maximum(max(self.moduli) / relaxed, 1.0))
-        value = self.storage(number("frequency", frequency)) / relaxed
-        return float(np.clip(value, 1.0, most)), 1.0, most
+        fast_edge = float(np.maximum(max(self.moduli) / relaxed, 1.0))
+        factor = self.storage(number("frequency", frequency)) / relaxed
+        return float(np.clip(factor, 1.0, fast_edge)), 1.0, fast_edge
 
 
 Modulus = Constant | Prony | Table
@@ -141,5 +149,6 @@ def relaxation_frequency(time: ArrayLike) -> ArrayLike:
 def choose_factor(factor: tuple[ArrayLike, ArrayLike, ArrayLike], sign: ArrayLike) -> NDArray:
     """Value of a factor, or its low or high limit at `sign` -1 or +1; signs between interpolate."""
     value, low, high = map(np.asarray, factor)
-    down, up = np.clip(np.negative(sign), 0, 1), np.clip(sign, 0, 1)
-    return value * (low / value) ** down * (high / value) ** up
+    towards_low = np.clip(np.negative(sign), 0, 1)
+    towards_high = np.clip(sign, 0, 1)
+    return value * (low / value) ** towards_low * (high / value) ** towards_high

@@ -18,17 +18,11 @@ from stickiness.arguments import finite, nonnegative, number
 
 MOST = 1e4  #: ratios up to which averages were checked
 _ALIKE = 1e-4  # ratios nearer to 1 change no average by more than 1e-8
-_NODES = 64  # of averages over whole ellipses
-_PIECE = 32  # nodes of those over the part of an ellipse between two knots
-_CELLS = 56  # power laws for each knot
 # Nodes and weights on 0 to 1, of a cell, for functions that are like a square root at both ends.
 _TURN, _GAUSS = np.polynomial.legendre.leggauss(16)
 _TURN = 0.5 * np.pi * (1 + _TURN)
-_SHARE, _WEIGHT = 0.5 * (1 - np.cos(_TURN)), 0.25 * np.pi * np.sin(_TURN) * _GAUSS
-_CLOSEST = 1e-10  # ends of cells in ln q
-# Angles of the amplitude of cos 2 phi, and the ratio beyond which it hardly changes.
-_ANGLES, _LARGEST_FOUND = 2000, 20.0
-_STEEPEST = 60.0  # change of ln(q^2 C) over a cell
+_SHARE = 0.5 * (1 - np.cos(_TURN))
+_WEIGHT = 0.25 * np.pi * np.sin(_TURN) * _GAUSS
 
 PowerLaws = tuple[NDArray, NDArray, NDArray]  #: knots, levels and exponents, see `kinds`
 
@@ -72,15 +66,19 @@ class Ellipse:
         """Norm Q of wave vectors."""
         if self.is_circle:
             return np.hypot(qx, qy)
-        qx, qy = np.asarray(qx, dtype=float), np.asarray(qy, dtype=float)
-        c, s = np.cos(self.angle), np.sin(self.angle)
-        return np.hypot((c * qx + s * qy) * self.reach, (c * qy - s * qx) / self.reach)
+        qx = np.asarray(qx, dtype=float)
+        qy = np.asarray(qy, dtype=float)
+        cosine = np.cos(self.angle)
+        sine = np.sin(self.angle)
+        along = cosine * qx + sine * qy
+        across = cosine * qy - sine * qx
+        return np.hypot(along * self.reach, across / self.reach)
 
     def mean_stretch(self, power: float) -> float:
         """Average of g^power, i.e. of ``|q|^power``/Q^power, over an ellipse."""
         if self.is_circle:
             return 1.0
-        w = np.pi * (np.arange(_NODES) + 0.5) / _NODES
+        w = np.pi * (np.arange(64) + 0.5) / 64
         log_g = -self._log_reach * np.cos(w)
         return float(np.mean(2 * self._fill(w) * np.exp(power * log_g)))
 
@@ -94,7 +92,7 @@ class Ellipse:
         log_ratio = np.log(within / knots)
         # Where the ellipses of the knots pass this wave number.
         at_knot = np.arccos(np.clip(-log_ratio / self._log_reach, -1, 1))
-        x, weight = np.polynomial.legendre.leggauss(_PIECE)
+        x, weight = np.polynomial.legendre.leggauss(32)
         half = 0.5 * (at_knot[:, :-1] - at_knot[:, 1:])[..., None]
         w = at_knot[:, 1:, None] + half * (1 + x)
         log_g = -self._log_reach * np.cos(w)
@@ -111,18 +109,25 @@ class Ellipse:
         """
         if self.is_nearly_circle:
             return laws
-        around = -self._log_reach * np.cos(np.linspace(0, np.pi, _CELLS + 1))
+        # Edges of cells in ln q, 56 cells about each knot.
+        around = -self._log_reach * np.cos(np.linspace(0, np.pi, 57))
         edges = np.unique(np.add.outer(np.log(laws[0]), around))
-        edges = edges[np.append(True, np.diff(edges) > _CLOSEST)]
-        width, start = np.diff(edges), np.exp(edges[:-1])
-        at = width[:, None] * _SHARE
-        density = np.exp(2 * at) * self.mean_psd(laws, start[:, None] * np.exp(at))
+        edges = edges[np.append(True, np.diff(edges) > 1e-10)]
+        width = np.diff(edges)
+        start = np.exp(edges[:-1])
+
+        # C averaged over directions at the nodes of each cell, times (q/q at its start)^2.
+        from_start = width[:, None] * _SHARE
+        density = np.exp(2 * from_start) * self.mean_psd(laws, start[:, None] * np.exp(from_start))
         empty = density @ _WEIGHT == 0  # between the bands of a spectrum that has a gap
         density[empty] = 1.0
-        high = np.expm1(2 * at) / np.expm1(2 * width)[:, None]
+
+        # The power law of each cell has its height variance, and its gradient variance by the
+        # centre of the density.
+        high = np.expm1(2 * from_start) / np.expm1(2 * width)[:, None]
         centre = (density * high) @ _WEIGHT / (density @ _WEIGHT)
         slope = _find_slopes(centre, width) / width
-        level = (density @ _WEIGHT) / (np.exp(slope[:, None] * at) @ _WEIGHT)
+        level = (density @ _WEIGHT) / (np.exp(slope[:, None] * from_start) @ _WEIGHT)
         return np.exp(edges), np.where(empty, 0.0, level), slope - 2
 
     @property
@@ -132,8 +137,8 @@ class Ellipse:
     def _fill(self, w: NDArray) -> NDArray:
         """dt/dw, its mean over w from 0 to pi being a half."""
         length = self._log_reach
-        s2, c2 = np.sin(w / 2) ** 2, np.cos(w / 2) ** 2
-        low, high = 4 * length * s2, 4 * length * c2
+        low = 4 * length * np.sin(w / 2) ** 2
+        high = 4 * length * np.cos(w / 2) ** 2
         # Each of the roots vanishes with the sine of one end.
         ends = expm1_over(low, 1.0) * expm1_over(-high, 1.0)
         return 0.5 * np.exp(-2 * length * np.cos(w)) / np.sqrt(ends)
@@ -143,23 +148,25 @@ CIRCLE = Ellipse()
 
 
 def find_ratio(amplitude: float, hurst: float) -> float:
-    """Ratio of the correlation lengths, at most `_LARGEST_FOUND`, of a self-affine spectrum.
+    """Ratio of the correlation lengths, at most 20, of a self-affine spectrum.
 
     `amplitude` is A of C ~ 1 + A cos 2 phi, as `measured.psd.PowerSpectrum.anisotropy` finds it.
+    It hardly changes at larger ratios.
     """
     hurst = min(max(hurst, 0.1), 1.0)
-    phi = np.pi * (np.arange(_ANGLES) + 0.5) / _ANGLES
+    phi = np.pi * (np.arange(2000) + 0.5) / 2000
+    log_largest = np.log(20.0)
 
     def excess(log_ratio: float) -> float:
         ratio = np.exp(log_ratio)
         density = (ratio * np.cos(phi) ** 2 + np.sin(phi) ** 2 / ratio) ** (-1 - hurst)
         return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density)) - amplitude
 
-    if excess(np.log(_LARGEST_FOUND)) <= 0:
-        return _LARGEST_FOUND
+    if excess(log_largest) <= 0:
+        return 20.0
     if amplitude <= 0:
         return 1.0
-    return float(np.exp(scipy.optimize.brentq(excess, 0, np.log(_LARGEST_FOUND))))
+    return float(np.exp(scipy.optimize.brentq(excess, 0, log_largest)))
 
 
 def expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
@@ -170,11 +177,12 @@ def expm1_over(beta: NDArray, x: NDArray | float) -> NDArray:
 
 def _find_slopes(centre: NDArray, width: NDArray) -> NDArray:
     """Change over each cell of ln(q^2 C) that puts the gradient's centre where it is."""
+    from scipy.optimize import elementwise  # not loaded with `scipy.optimize`
 
     def excess(slope, centre, width):
         density = np.exp(slope[..., None] * (_SHARE - 0.5)) * _WEIGHT
         high = np.expm1(2 * width[..., None] * _SHARE) / np.expm1(2 * width[..., None])
         return np.sum(density * high, axis=-1) / np.sum(density, axis=-1) - centre
 
-    ends = np.full_like(centre, -_STEEPEST), np.full_like(centre, _STEEPEST)
-    return scipy.optimize.elementwise.find_root(excess, ends, args=(centre, width)).x
+    bracket = (np.full_like(centre, -60.0), np.full_like(centre, 60.0))
+    return elementwise.find_root(excess, bracket, args=(centre, width)).x

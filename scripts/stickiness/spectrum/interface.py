@@ -15,18 +15,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable
 
 import numpy as np
-import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import nonnegative, number
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.spectrum.direction import CIRCLE, Ellipse
 
-# Gauss quadrature on panels in ln q. What layers make of a wave has its nearest singularity
-# about one unit of ln q off the real axis: such panels err by less than 1e-13.
-_ORDER, _WIDEST = 12, 0.7
-_PRECISION = 4e-16  # of ln q, where a gradient variance is inverted
-_MOST_WAVES = 2**15  # along a side; beyond, a list of all modes leaves no memory
 LATTICE_ROUNDING = 1e-9  #: relative slack on band limits that coincide with lattice wave numbers
 
 
@@ -86,6 +80,8 @@ class Spectrum(ABC):
         Within a shell of a discrete spectrum, where q stands still, both variances grow in
         proportion.
         """
+        from scipy.optimize import elementwise  # not needed to read a configuration
+
         (variance,) = nonnegative(variance=variance)
         ends = np.log(self.band)
         target = np.clip(variance, *self.variance_below(np.exp(ends), 2))
@@ -93,11 +89,9 @@ class Spectrum(ABC):
         def excess(log_q: NDArray, target: NDArray) -> NDArray:
             return self.variance_below(np.exp(log_q), 2) - target
 
-        tolerances = {"xatol": _PRECISION, "xrtol": _PRECISION, "fatol": 0.0, "frtol": 0.0}
-        found = scipy.optimize.elementwise.find_root(
-            excess, tuple(ends), args=(target,), tolerances=tolerances
-        )
-        q = np.clip(np.exp(found.x), *self.band)
+        tolerances = {"xatol": 4e-16, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+        root = elementwise.find_root(excess, tuple(ends), args=(target,), tolerances=tolerances)
+        q = np.clip(np.exp(root.x), *self.band)
         return q, self.variance_above(q)
 
     def truncated(self, q1: float) -> Spectrum:
@@ -177,13 +171,16 @@ class Spectrum(ABC):
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
         """Return 2 pi * integral from `low` to `high`, included, of q f(q) C(q) dq, f smooth."""
-        low, high = max(low, self.q0), min(high, self.q1)
+        low = max(low, self.q0)
+        high = min(high, self.q1)
         if not high > low:
             return 0.0
         kinks = self.knots
         knots = np.concatenate([[low], kinks[(kinks > low) & (kinks < high)], [high]])
-        x, w = np.polynomial.legendre.leggauss(_ORDER)
-        parts = np.ceil(np.diff(np.log(knots)) / _WIDEST).astype(int)
+        # Gauss quadrature on panels in ln q. What layers make of a wave has its nearest singularity
+        # about one unit of ln q off the real axis: such panels err by less than 1e-13.
+        x, w = np.polynomial.legendre.leggauss(12)
+        parts = np.ceil(np.diff(np.log(knots)) / 0.7).astype(int)
         start = np.concatenate([[0], np.cumsum(parts)])
         edges = np.interp(np.arange(start[-1] + 1), start, np.log(knots))
         half = 0.5 * np.diff(edges)[:, None]
@@ -202,20 +199,23 @@ class Spectrum(ABC):
         reach = int(np.floor(self.band[1] / dq * (1 + LATTICE_ROUNDING)))
         if reach < 1:
             raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")
-        if reach > _MOST_WAVES:
+        most = 2**15  # beyond, a list of all modes leaves no memory
+        if reach > most:
             raise ValueError(
                 f"length = {length:.6g} holds {reach} of the shortest waves, more than "
-                f"{_MOST_WAVES}: q0 = {self.q0:.6g} and q1 = {self.q1:.6g} must be in the inverse "
+                f"{most}: q0 = {self.q0:.6g} and q1 = {self.q1:.6g} must be in the inverse "
                 "of its unit; otherwise lower q1 or length"
             )
         i, j = np.meshgrid(np.arange(reach + 1), np.arange(-reach, reach + 1), indexing="ij")
         kept = ((i > 0) | (j > 0)) & self.modes_in_band(i, j, dq)
-        i, j = i[kept], j[kept]
+        i = i[kept]
+        j = j[kept]
         rank = i**2 + j**2
         if not self.ellipse.is_circle:  # equal norms have equal ranks
             rank = np.round(np.log(self.ellipse.norm(i, j)), 10)
         order = np.lexsort((j, i, rank))
-        i, j = i[order], j[order]
+        i = i[order]
+        j = j[order]
         variance = self.mode_variance(i, j, dq)
         if not variance.any():
             raise ValueError(f"no wave vector of a window of length {length:.6g} lies in the band")

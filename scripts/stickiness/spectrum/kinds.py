@@ -33,10 +33,13 @@ class PowerLawSegments(Spectrum):
     def __init__(
         self, knots: ArrayLike, level: ArrayLike, exponent: ArrayLike, ellipse: Ellipse = CIRCLE
     ):
-        laws = (np.asarray(values, dtype=float) for values in (knots, level, exponent))
-        self._knots, self._level, self._exponent = laws
-        self._laws = self._knots, self._level, self._exponent
-        self.ellipse, self.q0, self.q1 = ellipse, float(self._knots[0]), float(self._knots[-1])
+        self._knots = np.asarray(knots, dtype=float)
+        self._level = np.asarray(level, dtype=float)
+        self._exponent = np.asarray(exponent, dtype=float)
+        self._laws = (self._knots, self._level, self._exponent)
+        self.ellipse = ellipse
+        self.q0 = float(self._knots[0])
+        self.q1 = float(self._knots[-1])
 
     @property
     def knots(self) -> NDArray:
@@ -89,10 +92,12 @@ class PowerLawSegments(Spectrum):
     @cached_property
     def _mean(self) -> PowerLawSegments:
         """The spectrum averaged over directions."""
-        return PowerLawSegments(*self.ellipse.average(self._laws))
+        knots, level, exponent = self.ellipse.average(self._laws)
+        return PowerLawSegments(knots, level, exponent)
 
     def _cut(self, q1: float) -> PowerLawSegments:
-        cut, keep = copy(self), self._knots[:-1] < q1
+        cut = copy(self)
+        keep = self._knots[:-1] < q1
         knots = np.append(self._knots[:-1][keep], q1)
         PowerLawSegments.__init__(cut, knots, self._level[keep], self._exponent[keep], self.ellipse)
         vars(cut).pop("_mean", None)
@@ -185,12 +190,14 @@ class SelfAffine(PowerLawSegments):
         self.ellipse = Ellipse(anisotropy, angle)
         if (h_rms is None) == (C0 is None):
             raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
-        name, size = ("h_rms", h_rms) if C0 is None else ("C0", C0)
-        size = number(name, size)
-        self.hurst, self.q_rolloff, self.prescribed = hurst, q_rolloff, name
-        plateau = [] if q_rolloff is None else [q_rolloff]
-        knots, slope = [q0, *plateau, q1], -2 * (hurst + 1)
-        exponents = [*(0.0 for _ in plateau), slope]
+        name = "h_rms" if C0 is None else "C0"
+        size = number(name, h_rms if C0 is None else C0)
+        self.hurst = hurst
+        self.q_rolloff = q_rolloff
+        self.prescribed = name
+        slope = -2 * (hurst + 1)
+        knots = [q0, q1] if q_rolloff is None else [q0, q_rolloff, q1]
+        exponents = [slope] if q_rolloff is None else [0.0, slope]
         with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
             levels = np.full(len(exponents), np.float64(knots[-2]) ** slope)
             super().__init__(knots, levels, exponents, self.ellipse)
@@ -211,7 +218,10 @@ class SelfAffine(PowerLawSegments):
     def _cut(self, q1: float) -> PowerLawSegments:
         cut = super()._cut(q1)
         bends = self.q_rolloff is None or self.q_rolloff < q1
-        return cut if bends else PowerLawSegments(*cut._laws, cut.ellipse)  # a plateau alone
+        if bends:
+            return cut
+        # A plateau alone.
+        return PowerLawSegments(cut._knots, cut._level, cut._exponent, cut.ellipse)
 
     def __repr__(self) -> str:
         rest = "" if self.q_rolloff is None else f", q_rolloff={self.q_rolloff:.6g}"
@@ -259,15 +269,18 @@ class Shells(Spectrum):
         if not (np.all(np.isfinite(variance)) and np.all(variance >= 0) and variance.any()):
             raise ValueError("variance must be finite, non-negative and not all zero")
         keep = variance > 0
-        self.q, self.variance = q[keep], variance[keep]
-        self.q0, self.q1 = float(self.q[0]), float(self.q[-1])
+        self.q = q[keep]
+        self.variance = variance[keep]
+        self.q0 = float(self.q[0])
+        self.q1 = float(self.q[-1])
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C averaged over the ring between the midpoints to the neighbouring shells."""
         if len(self.q) == 1:
             raise ValueError("a single shell is a delta function: it has no density")
         middle = (self.q[1:] + self.q[:-1]) / 2
-        first, last = self.q0 - (middle[0] - self.q0), 2 * self.q1 - middle[-1]
+        first = self.q0 - (middle[0] - self.q0)
+        last = 2 * self.q1 - middle[-1]
         edges = np.concatenate([[first], middle, [last]])
         density = self.variance / (np.pi * np.diff(edges**2))
         (q,) = nonnegative(q=q)
@@ -322,7 +335,8 @@ class Sum(Spectrum):
 
     def __init__(self, *parts: Spectrum):
         self.parts = parts
-        self.q0, self.q1 = min(part.q0 for part in parts), max(part.q1 for part in parts)
+        self.q0 = min(part.q0 for part in parts)
+        self.q1 = max(part.q1 for part in parts)
 
     def __repr__(self) -> str:
         return f"Sum({', '.join(map(repr, self.parts))})"
@@ -346,8 +360,8 @@ class Sum(Spectrum):
 
     @property
     def band(self) -> tuple[float, float]:
-        low, high = zip(*(part.band for part in self.parts), strict=True)
-        return min(low), max(high)
+        bands = [part.band for part in self.parts]
+        return min(low for low, _ in bands), max(high for _, high in bands)
 
     @property
     def q_longest(self) -> float:
@@ -411,29 +425,34 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
     5.0
     """
     spectra = (first, *others)
-    for one in spectra:
-        if not isinstance(one, Spectrum):
+    for spectrum in spectra:
+        if not isinstance(spectrum, Spectrum):
             raise ValueError(
-                f"combine takes spectra one by one, combine(*spectra), got {type(one).__name__}"
+                "combine takes spectra one by one, combine(*spectra), got "
+                f"{type(spectrum).__name__}"
             )
-    shells = [one.is_discrete for one in spectra]
-    if all(shells):
-        q = np.concatenate([one.q for one in spectra])
+    is_shells = [spectrum.is_discrete for spectrum in spectra]
+    if all(is_shells):
+        q = np.concatenate([spectrum.q for spectrum in spectra])
+        variance = np.concatenate([spectrum.variance for spectrum in spectra])
         order = np.argsort(q, kind="stable")
-        q, variance = q[order], np.concatenate([one.variance for one in spectra])[order]
+        q = q[order]
         start = _find_first(q)  # shells at one wave number hold the sum
-        return Shells(q[start], np.add.reduceat(variance, start))
-    if any(shells):
+        return Shells(q[start], np.add.reduceat(variance[order], start))
+    if any(is_shells):
         raise ValueError(
             "combine: shells and a density have no common form; take surface.lattice_spectrum of "
             "the density on the window of the shells"
         )
-    parts = [part for one in spectra for part in getattr(one, "parts", (one,))]
+    parts: list[Spectrum] = []
+    for spectrum in spectra:
+        parts += spectrum.parts if isinstance(spectrum, Sum) else [spectrum]
     return Sum(*parts) if len(parts) > 1 else first
 
 
 def _check_points(q: ArrayLike, values: ArrayLike, name: str, least: int) -> tuple[NDArray, ...]:
-    q, values = np.asarray(q, dtype=float), np.asarray(values, dtype=float)
+    q = np.asarray(q, dtype=float)
+    values = np.asarray(values, dtype=float)
     if q.ndim != 1 or q.shape != values.shape or len(q) < least:
         shapes = f"{q.shape} and {values.shape}"
         raise ValueError(f"q and {name} must be 1D, of one length >= {least}; got {shapes}")

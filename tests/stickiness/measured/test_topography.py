@@ -382,3 +382,40 @@ def test_jacksboro_has_the_steps_of_the_ellipsoid():
     north = 111132.92 - 559.82 * np.cos(2 * phi) + 1.175 * np.cos(4 * phi)
     east = 111412.84 * np.cos(phi) - 93.5 * np.cos(3 * phi) + 0.118 * np.cos(5 * phi)
     np.testing.assert_allclose([t.dx, t.dy], np.array([east, north]) / 1200, rtol=1e-6)
+
+
+@pytest.mark.parametrize("options", [{}, {"missing": "crop"}, {"spikes": "keep", "missing_rim": 1}])
+def test_an_array_is_cleaned_as_a_file_is(tmp_path, options):
+    heights = np.random.default_rng(2).normal(size=(30, 20)).cumsum(axis=0)
+    heights[10, 4:7] = np.nan
+    heights[20, 10] = 1e3
+    np.save(tmp_path / "map.npy", heights.T)
+    np.save(tmp_path / "profile.npy", heights[:, 5])
+    options = {"max_missing": 0.3} | options
+    for name, values, steps in (("map", heights, (2e-6, 1e-6)), ("profile", heights[:, 5], 2e-6)):
+        file = tmp_path / f"{name}.npy"
+        unit = {"pixel_size": steps, "height_unit": "um"}
+        from_file = topography.read(file, **unit, **options)
+        masked = np.ma.masked_invalid(values)
+        for array in (values, masked):
+            same = topography.from_array(array, steps, scale=1e-6, source=str(file), **options)
+            assert np.array_equal(same.heights, from_file.heights)
+            assert same.steps == pytest.approx(from_file.steps, rel=1e-14)
+            for field in ("missing", "cropped", "dropped", "spikes", "doubts", "source"):
+                assert getattr(same, field) == getattr(from_file, field)
+
+
+@pytest.mark.parametrize(
+    ("heights", "steps", "words"),
+    [
+        (np.ones(5), 1e-6, "nothing to analyse"),
+        (np.ones((2, 2, 2)), 1e-6, "a map"),
+        (np.arange(5.0), [1.0, 1.0, 2.0, 3.0, 4.0], "must all differ"),
+        (np.arange(5.0), [1.0, 2.0], "one step or 5 positions"),
+        (np.eye(4), -1.0, "positive"),
+        (np.full((4, 4), np.nan), 1.0, "which are all"),
+    ],
+)
+def test_arrays_that_hold_no_surface_are_refused(heights, steps, words):
+    with pytest.raises(ValueError, match=words):
+        topography.from_array(heights, steps)

@@ -114,7 +114,7 @@ def test_the_deeper_state_counts():
 
 
 def test_energy_of_contact_without_adhesion():
-    """`ENERGY_DECAY` against the boundary element method, on a surface of many waves."""
+    """`decay_energy` against the boundary element method, on a surface of many waves."""
     rough = SelfAffine(hurst=0.7, q0=1.0, q1=8.0, h_rms=1.0)
     heights = surface.synthesise(rough, n=128, length=8 * np.pi, seed=5)
     full = surface.realised_spectrum(heights, 8 * np.pi).elastic_energy()
