@@ -27,7 +27,9 @@ def positive(**values: ArrayLike) -> tuple[NDArray, ...]:
 def takes_positive(function: Callable) -> Callable:
     """Let a function have its arguments as positive and finite float arrays; default None stays."""
     expected = signature(function)
-    optional = {name for name, one in expected.parameters.items() if one.default is None}
+    optional = {
+        name for name, parameter in expected.parameters.items() if parameter.default is None
+    }
 
     @wraps(function)
     def checked(*args, **kwargs):
@@ -36,8 +38,13 @@ def takes_positive(function: Callable) -> Callable:
         except TypeError as error:
             raise TypeError(f"{function.__name__}: {error}") from None
         bound.apply_defaults()
-        given = {n: x for n, x in bound.arguments.items() if x is not None or n not in optional}
-        return function(**bound.arguments | dict(zip(given, positive(**given), strict=True)))
+        numeric = {
+            name: value
+            for name, value in bound.arguments.items()
+            if value is not None or name not in optional
+        }
+        bound.arguments |= dict(zip(numeric, positive(**numeric), strict=True))
+        return function(**bound.arguments)
 
     return checked
 
@@ -74,8 +81,8 @@ def number(name: str, value: float, *, zero: bool = False, most: float = np.inf)
 
 def integer(name: str, value: int, least: int) -> int:
     """Return `value` as an int; ValueError unless it is a whole number of at least `least`."""
-    known = isinstance(value, int | float | np.integer) and not isinstance(value, bool)
-    if not (known and value % 1 == 0 and value >= least):
+    is_number = isinstance(value, int | float | np.integer) and not isinstance(value, bool)
+    if not (is_number and value % 1 == 0 and value >= least):
         raise ValueError(f"{name} must be an integer of at least {least}, got {value!r}")
     return int(value)
 

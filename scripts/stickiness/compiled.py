@@ -14,19 +14,19 @@ _FREEDOMS = {"reassoc", "contract", "nsz"}
 
 def compiled(function):
     """Compile a function of arrays and numbers at its first call."""
-    made = None
+    machine_code = None
 
     @wraps(function)
     def call(*arguments):
-        nonlocal made
-        if made is None:
+        nonlocal machine_code
+        if machine_code is None:
             try:
-                made = _compile(function, cache=True)
-                return made(*arguments)
+                machine_code = _compile(function, cache=True)
+                return machine_code(*arguments)
             # No folder, a full or a vanished one, found before the function runs.
             except (OSError, RuntimeError):
-                made = _compile(function, cache=False)
-        return made(*arguments)
+                machine_code = _compile(function, cache=False)
+        return machine_code(*arguments)
 
     return call
 

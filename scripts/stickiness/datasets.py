@@ -30,8 +30,6 @@ _SIGNS = {
     r"interaction_energy": "negative where the surfaces attract each other",
     r"heights?": "positive towards the elastic solid",
 }
-_TEXTS = ("units", "long_name", "nan_means")
-_CODES = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4")
 
 
 class DatasetError(ValueError):
@@ -46,15 +44,21 @@ def provenance() -> dict[str, str]:
     """Versions of this package and of the codes that its numbers depend on."""
     import pyfftw  # here, not above: figures and reports need no FFTW
 
-    codes = {f"version_{name.lower()}": version(name) for name in _CODES}
+    names = ("numpy", "scipy", "pyfftw", "xarray", "netCDF4")
+    codes = {f"version_{name.lower()}": version(name) for name in names}
     return {"version_stickiness": __version__} | codes | {"version_fftw": str(pyfftw.fftw_version)}
 
 
 def annotate(dataset: xr.Dataset, **described: tuple[str, ...]) -> xr.Dataset:
     """Set `units`, `long_name`, what NaN means if it may occur, and the sign convention."""
     for name, texts in described.items():
-        signs = (("sign_convention", s) for p, s in _SIGNS.items() if re.fullmatch(p, name))
-        dataset[name].attrs = dict([*signs, *zip(_TEXTS, texts, strict=False)])
+        attributes = {}
+        for pattern, convention in _SIGNS.items():
+            if re.fullmatch(pattern, name):
+                attributes["sign_convention"] = convention
+        # The last text is given only where values may be missing.
+        attributes |= zip(("units", "long_name", "nan_means"), texts, strict=False)
+        dataset[name].attrs = attributes
     return dataset
 
 
@@ -83,8 +87,10 @@ def write(
         **provenance(),
     )
     for name in dataset.variables:
-        kind, attributes = dataset[name].dtype.kind, dataset[name].attrs
-        if is_text := kind in "OU":
+        kind = dataset[name].dtype.kind
+        attributes = dataset[name].attrs
+        is_text = kind in "OU"
+        if is_text:
             attributes.pop("units", None)
             dataset[name].encoding = {}  # texts joined keep the width of the first one's file
         for text in ("long_name",) if is_text else ("units", "long_name"):

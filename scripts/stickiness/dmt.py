@@ -101,7 +101,8 @@ def sum_over_gaps(area: ArrayLike, ranges: ArrayLike, function: Callable) -> NDA
     function : callable
         ``law.traction`` gives the mean attraction p_ad [E*], ``law.potential`` the mean potential.
     """
-    area, (ranges,) = numbers("area", area), positive(ranges=ranges)
+    area = numbers("area", area)
+    (ranges,) = positive(ranges=ranges)
     if ranges.ndim != 1 or not np.all(np.diff(ranges) > 0) or area.shape[-1:] != ranges.shape:
         raise ValueError(
             "ranges must be an increasing sequence with one area each, "
@@ -135,7 +136,8 @@ def weak_attraction(pressure: ArrayLike, mean_gap: ArrayLike, potential: ArrayLi
         loads differ by a factor of 2, 6 % for 5 and 10 % for 9; one surface has 10 % for 2.
     """
     (pressure,) = positive(pressure=pressure)
-    gap, potential = numbers("mean_gap", mean_gap), numbers("potential", potential)
+    gap = numbers("mean_gap", mean_gap)
+    potential = numbers("potential", potential)
     if pressure.ndim != 1 or pressure.size < 3 or not np.all(np.diff(pressure) > 0):
         raise ValueError(f"pressure must be three or more increasing numbers, got {pressure!r}")
     if not gap.shape[-1:] == potential.shape[-1:] == pressure.shape or np.any(potential >= 0):
@@ -143,9 +145,11 @@ def weak_attraction(pressure: ArrayLike, mean_gap: ArrayLike, potential: ArrayLi
         raise ValueError(f"{message} {pressure.size} pressures, got {mean_gap!r} and {potential!r}")
     if np.any(np.diff(gap) >= 0):
         raise ValueError(f"mean_gap must fall as the pressure rises, got {mean_gap!r}")
-    logs, along = np.log(pressure), {"axis": -1, "edge_order": 2}
-    growth = np.gradient(np.log(-potential), logs, **along)
-    return potential * growth / np.gradient(gap, logs, **along)
+    # dPhi/du by the chain rule, from slopes against the logarithm of the pressure.
+    logs = np.log(pressure)
+    growth = np.gradient(np.log(-potential), logs, axis=-1, edge_order=2)
+    closing = np.gradient(gap, logs, axis=-1, edge_order=2)
+    return potential * growth / closing
 
 
 def __getattr__(name: str):

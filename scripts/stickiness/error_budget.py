@@ -41,16 +41,20 @@ def with_budget(dataset: xr.Dataset, name: str, **components: ErrorComponent) ->
 
     Components are of the shape of the variable, or of one that broadcasts to it.
     """
-    value, parts = dataset[name], [components[source] for source in SOURCES]
+    value = dataset[name]
+    parts = [components[source] for source in SOURCES]
+    # Errors by source, of the shape of the value, and in quadrature.
     whole = xr.zeros_like(value, dtype=float).where(value.notnull())
     errors = [
         (whole + abs(part.error)).transpose(*value.dims).reset_coords(drop=True) for part in parts
     ]
     error = xr.concat(errors, "source", coords="minimal", compat="override")
-    total, known = np.sqrt((error**2).sum("source", skipna=False)), value.notnull()
+    total = np.sqrt((error**2).sum("source", skipna=False))
     largest = error.fillna(np.inf).argmax("source")
-    largest = largest.where(known & ~(total == 0), NONE).astype("i1")
-    units, text = value.attrs["units"], value.attrs["long_name"]
+    largest = largest.where(value.notnull() & ~(total == 0), NONE).astype("i1")
+    # What each error is, and why one may be missing.
+    units = value.attrs["units"]
+    text = value.attrs["long_name"]
     comment = "; ".join(f"{s}: {part.text}" for s, part in zip(SOURCES, parts, strict=True))
     missing = [value.attrs.get("nan_means", "")]
     missing += [

@@ -92,9 +92,19 @@ def synthesise(
     ------
     ValueError
         If the window or the grid cannot hold the band, or an argument is out of range.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> q0 = 2 * np.pi
+    >>> spectrum = SelfAffine(hurst=0.8, q0=q0, q1=8 * q0, h_rms=0.01)
+    >>> heights = synthesise(spectrum, n=64, length=1.0, seed=7)
+    >>> print(f"{heights.std():.4f}")
+    0.0100
     """
     check_window(spectrum, length)
-    n, seed = integer("n", n, least=2), integer("seed", seed, least=0)
+    n = integer("n", n, least=2)
+    seed = integer("seed", seed, least=0)
     shortest = 2 * np.pi / spectrum.band[1]
     if shortest < 2 * length / n * (1 - LATTICE_ROUNDING):
         lower = f"q1 to {np.pi * n / length:.6g}" if spectrum.isotropic else "q1 or anisotropy"
@@ -145,9 +155,20 @@ def moments(heights: NDArray, length: float) -> Moments:
     length = number("length", length)
     power = np.where((i == 0) & (j == 0), 0.0, power)
     dq = 2 * np.pi / length
-    kx, ky = i * dq, j * dq
-    orders = (0, 0), (2, 0), (0, 2), (4, 0), (2, 2), (0, 4)
-    return Moments(**{f"m{a}{b}": float(np.sum(kx**a * ky**b * power)) for a, b in orders})
+    kx = i * dq
+    ky = j * dq
+
+    def moment(a, b):
+        return float(np.sum(kx**a * ky**b * power))
+
+    return Moments(
+        m00=moment(0, 0),
+        m20=moment(2, 0),
+        m02=moment(0, 2),
+        m40=moment(4, 0),
+        m22=moment(2, 2),
+        m04=moment(0, 4),
+    )
 
 
 def resample(heights: NDArray, n: int) -> NDArray:
@@ -155,7 +176,8 @@ def resample(heights: NDArray, n: int) -> NDArray:
 
     ValueError if the coarser grid cannot hold what the heights contain.
     """
-    heights, n = grid("heights", heights, square=True), integer("n", n, least=1)
+    heights = grid("heights", heights, square=True)
+    n = integer("n", n, least=1)
     old = heights.shape[0]
     if n == old:
         return heights.copy()

@@ -31,6 +31,12 @@ class TractionLaw(ABC):
         Work of adhesion over E* [length]; the integral of the traction over the gap.
     range : float
         Range of attraction epsilon [length].
+
+    Examples
+    --------
+    >>> law = Maugis(adhesion_length=1e-4, range=1e-3)
+    >>> print(law.traction([0.0, 0.5e-3, 2e-3]))
+    [0.1 0.1 0. ]
     """
 
     adhesion_length: float
@@ -151,7 +157,8 @@ class LennardJones(TractionLaw):
             raise ValueError(
                 f"gap must exceed -range = {-self.range!r}, got {separation.min() - self.range!r}"
             )
-        s, stress = self.range / separation, self.maugis_stress
+        s = self.range / separation
+        stress = self.maugis_stress
         traction = 8 / 3 * stress * (s**3 - s**9)
         derivative = 8 * stress / self.range * (3 * s**10 - s**4)
         return traction, derivative, -self.adhesion_length * (4 * s**2 - s**8) / 3
@@ -171,10 +178,12 @@ PREDICTED = (EXPONENTIAL, "van_der_waals")
 
 def find_strength(names: ArrayLike) -> NDArray:
     """Strength of laws, by their names in `PREDICTED`, over adhesion_length/range."""
-    known, place = np.unique(names, return_inverse=True)
-    if unknown := set(known.tolist()) - set(PREDICTED):
+    distinct, place = np.unique(names, return_inverse=True)
+    unknown = set(distinct.tolist()) - set(PREDICTED)
+    if unknown:
         raise ValueError(f"law must be one of {', '.join(PREDICTED)}, got {unknown.pop()!r}")
-    return np.array([LAWS[name].strength_ratio for name in known])[place].reshape(np.shape(names))
+    strengths = np.array([LAWS[name].strength_ratio for name in distinct])
+    return strengths[place].reshape(np.shape(names))
 
 
 def check_law(law: TractionLaw) -> None:

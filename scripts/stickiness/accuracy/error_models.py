@@ -53,11 +53,16 @@ class Surface:
     kind_measured: bool = True
 
     @classmethod
-    def of(cls, made: Mapping[str, Any]) -> Surface:
+    def of(cls, entry: Mapping[str, Any]) -> Surface:
         """From a model surface of the configuration, or the parameters of a file."""
-        usual = made.get("rolloff") is None and made.get("anisotropy", 1) == 1
-        usual &= made.get("amplitudes", "gaussian") == "gaussian"
-        return cls(made["hurst"], made["magnification"], made.get("window", 1.0), usual)
+        isotropic = entry.get("anisotropy", 1) == 1
+        gaussian = entry.get("amplitudes", "gaussian") == "gaussian"
+        return cls(
+            hurst=entry["hurst"],
+            magnification=entry["magnification"],
+            window=entry.get("window", 1.0),
+            kind_measured=entry.get("rolloff") is None and isotropic and gaussian,
+        )
 
 
 @dataclass(frozen=True, order=True)
@@ -107,34 +112,50 @@ ErrorModels = Mapping[tuple[str, str], ErrorModel]
 
 def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float, float]:
     """Return the nearest surface and pressure measured, and the factor that widens errors there."""
-    asked = {name: getattr(surface, name, pressure) for name in MEASURED}
-    near = {name: min(max(asked[name], low), high) for name, (low, high) in MEASURED.items()}
-    factor = 1.0 if near == asked and surface.kind_measured else OUTSIDE
-    load = near.pop("pressure")
-    return replace(surface, **near), load, factor
+
+    def to_measured(name, value):
+        low, high = MEASURED[name]
+        return min(max(value, low), high)
+
+    nearest = replace(
+        surface,
+        hurst=to_measured("hurst", surface.hurst),
+        magnification=to_measured("magnification", surface.magnification),
+        window=to_measured("window", surface.window),
+    )
+    load = to_measured("pressure", pressure)
+    inside = nearest == surface and load == pressure
+    factor = 1.0 if inside and surface.kind_measured else OUTSIDE
+    return nearest, load, factor
 
 
 def single_error(
     models, part, column, surface, pressure, pixels=FINEST["pixels"], tolerance=FINEST["tolerance"]
 ) -> float:
     """Return one part of an error, covering 90 %; widened outside what was measured."""
-    model, (surface, pressure, factor) = models[part, column], nearest_measured(surface, pressure)
+    model = models[part, column]
+    surface, pressure, factor = nearest_measured(surface, pressure)
     if _is_coarse(pixels, tolerance):
         factor *= OUTSIDE
-    finest = min(pixels, FINEST["pixels"]), max(tolerance, FINEST["tolerance"])
-    return factor * model.spread * model(surface, pressure, *finest)
+    error = model(
+        surface,
+        pressure,
+        pixels=min(pixels, FINEST["pixels"]),
+        tolerance=max(tolerance, FINEST["tolerance"]),
+    )
+    return factor * model.spread * error
 
 
-def grid_error(models, column, surface, pressure, pixels, found) -> float:
-    """Return the relative error by the grid, covering 90 %, of a case whose own grids say `found`.
+def grid_error(models, column, surface, pressure, pixels, by_grids) -> float:
+    """Return the relative error by the grid, covering 90 %, of a case; `by_grids` is its own.
 
     The smaller of that and the error model's. What one case's grids say has to cover any surface,
     and is two to five times the error; outside what was measured it stands alone.
     """
     if extrapolated(surface, pressure, pixels):
-        return found
+        return by_grids
     by_model = single_error(models, "discretisation", column, surface, pressure, pixels=pixels)
-    return float(np.fmin(found, by_model))
+    return float(np.fmin(by_grids, by_model))
 
 
 def extrapolated(surface, pressure, pixels=FINEST["pixels"], tolerance=FINEST["tolerance"]) -> bool:
@@ -152,14 +173,15 @@ def read_models(path: str | Path) -> dict[tuple[str, str], ErrorModel]:
         with Path(path).open(encoding="utf-8", newline="") as file:
             models = {}
             for row in csv.DictReader(line for line in file if not line.startswith("#")):
-                key = row.pop("part"), row.pop("quantity")
+                key = (row.pop("part"), row.pop("quantity"))
                 models[key] = ErrorModel(**{name: float(value) for name, value in row.items()})
     except FileNotFoundError:
         raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(f"{path}: not a table of error models ({error})") from None
-    wanted = itertools.product(PARTS, columns_of(MODELLED))
-    for part, column in (*wanted, *((cost, "") for cost in COSTS)):
+    wanted = list(itertools.product(PARTS, columns_of(MODELLED)))
+    wanted += [(cost, "") for cost in COSTS]
+    for part, column in wanted:
         if (part, column) not in models:
             raise ValueError(f"{path}: lacks {part} of {column or 'a solution'}")
     return models

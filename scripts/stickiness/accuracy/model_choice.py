@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +26,16 @@ AXES = ("magnification", "pressure", "range_over_h_rms", "strength")
 COLUMNS = ("law", "hurst", *AXES, "ratio", "error")
 _ROUNDING = 1e-9  # relative, of the ends of an axis
 
-# By law and Hurst exponent: the logarithms of the values along `AXES`, and the logarithm of the
-# ratio of 1/kappa_ad, full over DMT, and its error on their product, NaN where not measured.
-ErrorTable = Mapping[tuple[str, float], tuple[tuple[NDArray, ...], NDArray, NDArray]]
+
+class Lattice(NamedTuple):
+    """Ratio of 1/kappa_ad, full over DMT, as measured for one law and Hurst exponent."""
+
+    axes: tuple[NDArray, ...]  #: logarithms of the values along `AXES`
+    log_ratio: NDArray  #: on the product of the axes, NaN where not measured
+    error: NDArray  #: of this logarithm
+
+
+ErrorTable = Mapping[tuple[str, float], Lattice]  #: by law and Hurst exponent
 
 
 def relative_error(table: ErrorTable, law: str, hurst: float, *values: float) -> float:
@@ -40,16 +47,21 @@ def relative_error(table: ErrorTable, law: str, hurst: float, *values: float) ->
     if (law, hurst) not in table:
         return np.nan
     positive(values=values)
-    axes, ratio, error = table[law, hurst]
+    lattice = table[law, hurst]
     # Without neighbours, outside the table, no corner is left.
-    corners = [_neighbours(axis, np.log(v)) for axis, v in zip(axes, values, strict=True)]
+    corners = [
+        _neighbours(axis, np.log(value)) for axis, value in zip(lattice.axes, values, strict=True)
+    ]
     if not all(corners):
         return np.nan
-    mean, spread = 0.0, 0.0
+    # Linear interpolation between the corners of the cell that holds the point.
+    mean = 0.0
+    spread = 0.0
     for corner in product(*corners):
-        index, share = zip(*corner, strict=True)
-        mean += np.prod(share) * ratio[index]
-        spread += np.prod(share) * error[index]
+        index = tuple(place for place, _ in corner)
+        weight = np.prod([share for _, share in corner])
+        mean += weight * lattice.log_ratio[index]
+        spread += weight * lattice.error[index]
     return float(max(abs(np.expm1(-mean - spread)), abs(np.expm1(-mean + spread))))
 
 
@@ -86,11 +98,18 @@ def read_table(path: str | Path) -> ErrorTable:
         groups.setdefault((law, hurst), []).append([*np.log(values), error / values[-1]])
     lattices = {}
     for group, rows in groups.items():
-        *points, ratios, errors = np.transpose(rows)
-        axes, places = zip(*(np.unique(x, return_inverse=True) for x in points), strict=True)
-        lattice = np.full((2, *map(len, axes)), np.nan)
-        lattice[:, *places] = ratios, errors
-        lattices[group] = axes, *lattice
+        *points, log_ratios, errors = np.transpose(rows)
+        axes = []
+        places = []
+        for values in points:
+            axis, place = np.unique(values, return_inverse=True)
+            axes.append(axis)
+            places.append(place)
+        shape = tuple(len(axis) for axis in axes)
+        lattice = Lattice(tuple(axes), np.full(shape, np.nan), np.full(shape, np.nan))
+        lattice.log_ratio[tuple(places)] = log_ratios
+        lattice.error[tuple(places)] = errors
+        lattices[group] = lattice
     return lattices
 
 
@@ -103,14 +122,13 @@ class Choice:
     jtb: NDArray  #: bool: whether the condition of Joe, Thouless and Barber for that limit holds
 
 
-def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTable) -> Choice:
+def choose(entry: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTable) -> Choice:
     """Choose the model for every point of an entry of `adhesion`, and its model surface."""
-    pressures, lengths, ranges = (
-        np.sort(np.array(asked[name], dtype=float))
-        for name in ("pressures", "adhesion_length_over_range", "range_over_h_rms")
-    )
-    q0_h_rms = roughness(asked)
-    shape = len(pressures), len(lengths), len(ranges)
+    pressures = np.sort(np.array(entry["pressures"], dtype=float))
+    lengths = np.sort(np.array(entry["adhesion_length_over_range"], dtype=float))
+    ranges = np.sort(np.array(entry["range_over_h_rms"], dtype=float))
+    q0_h_rms = roughness(entry)
+    shape = (len(pressures), len(lengths), len(ranges))
     # In units of 1/q0.
     limit = jtb_limit(1.0, lengths[:, None] * ranges * q0_h_rms, ranges * q0_h_rms)
     jtb = np.broadcast_to(q0_h_rms > limit, shape)
@@ -118,16 +136,23 @@ def choose(asked: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
     kind = Surface.of(surface)
     if kind.kind_measured and kind.window == 1:
         for i, j, k in np.ndindex(shape):
-            point = pressures[i], ranges[k], lengths[j] / q0_h_rms
-            of_surface = asked["law"], kind.hurst, kind.magnification
-            error[i, j, k] = relative_error(table, *of_surface, *point)
-    good = jtb & (error <= asked.get("accuracy", 0.0))
+            strength = lengths[j] / q0_h_rms
+            error[i, j, k] = relative_error(
+                table,
+                entry["law"],
+                kind.hurst,
+                kind.magnification,
+                pressures[i],
+                ranges[k],
+                strength,
+            )
+    good = jtb & (error <= entry.get("accuracy", 0.0))
     full = {"dmt": np.zeros(shape, bool), "full": np.ones(shape, bool), "auto": ~good}
-    return Choice(full[asked["model"]], error, jtb)
+    return Choice(full=full[entry["model"]], dmt_error=error, jtb=jtb)
 
 
-def roughness(asked: Mapping[str, Any]) -> float:
+def roughness(entry: Mapping[str, Any]) -> float:
     """Dimensionless roughness q0 h_rms, given as such or by a window and an rms height."""
-    if "q0_h_rms" in asked:
-        return float(asked["q0_h_rms"])
-    return 2 * np.pi / si(asked["window"], "m") * si(asked["h_rms"], "m")
+    if "q0_h_rms" in entry:
+        return float(entry["q0_h_rms"])
+    return 2 * np.pi / si(entry["window"], "m") * si(entry["h_rms"], "m")

@@ -22,7 +22,9 @@ from stickiness.surface import check_window, sample_modes, sum_modes
 
 _SUMMITS = (0.01, 0.03, 0.1, 0.3)  # share of the area whose mean height is taken
 DESCRIPTORS = (
-    *("full_contact_energy", "rms_slope", "mean_square_slope"),
+    "full_contact_energy",
+    "rms_slope",
+    "mean_square_slope",
     *(f"summit_{share:g}" for share in _SUMMITS),
 )
 _FEWEST = 16  # seeds that a slope can be fitted to with profit
@@ -42,9 +44,27 @@ class Estimate:
 def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> Estimate:
     """Mean of expensive samples (N, ...), corrected by controls that are known for many more.
 
-    `controls` (N, k) are of the same seeds, and serve every trailing entry of `values`; one without
-    scatter is left out. `elsewhere` (M, k) are controls of other seeds. The standard error is that
-    of the residuals, each against coefficients fitted without it, and that of the controls' mean.
+    The standard error is that of the residuals, each against coefficients fitted without it, and
+    that of the controls' mean.
+
+    Parameters
+    ----------
+    values : (N, ...) array
+        Expensive samples, a seed each.
+    controls : (N, k) array
+        Controls of the same seeds, which serve every trailing entry of `values`; one without
+        scatter is left out.
+    elsewhere : (M, k) array
+        Controls of other seeds.
+
+    Returns
+    -------
+    Estimate
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite, or an array has too few samples or the wrong shape.
     """
     values = _samples("values", values)
     controls = _samples("controls", controls, (len(values), "any"))
@@ -55,18 +75,36 @@ def controlled_mean(values: NDArray, controls: NDArray, elsewhere: NDArray) -> E
     corrected, coefficient = _regress(flat, controls, elsewhere.mean(0))
     variance = _error(corrected) ** 2 + _error(elsewhere @ coefficient) ** 2
     return Estimate(
-        corrected.mean(0).reshape(values.shape[1:]),
-        np.sqrt(variance).reshape(values.shape[1:]),
-        coefficient.reshape(-1, *values.shape[1:]),
+        mean=corrected.mean(0).reshape(values.shape[1:]),
+        standard_error=np.sqrt(variance).reshape(values.shape[1:]),
+        coefficient=coefficient.reshape(-1, *values.shape[1:]),
     )
 
 
 def multilevel_mean(fine, coarse, many, controls, elsewhere, fewest=_FEWEST) -> Estimate:
     """Mean of a few fine solutions (n, ...), corrected by many coarse ones.
 
-    `coarse` (n, ...) are the same quantities of the same seeds on the coarse grid, `many` (N, ...)
-    those of other seeds. `controls` (N, k) and `elsewhere` (M, k) are descriptors of the seeds of
-    `many`, and of seeds that are not solved. See `corrected_mean` for `fewest`.
+    Parameters
+    ----------
+    fine : (n, ...) array
+        Quantities of the fine solutions, a seed each.
+    coarse : (n, ...) array
+        The same quantities of the same seeds on the coarse grid.
+    many : (N, ...) array
+        Those of other seeds on the coarse grid.
+    controls, elsewhere : (N, k) and (M, k) arrays
+        Descriptors of the seeds of `many`, and of seeds that are not solved.
+    fewest : int
+        Fine seeds from which on a slope is fitted, see `corrected_mean`.
+
+    Returns
+    -------
+    Estimate
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite, or an array has too few samples or the wrong shape.
     """
     fine = _samples("fine", fine)
     coarse = _samples("coarse", coarse, fine.shape)
@@ -115,8 +153,12 @@ def descriptors(spectrum, length, seeds, amplitudes="gaussian", cutoff=8.0) -> N
     i, j, variance = spectrum.modes(length)
     q = dq * np.hypot(i, j)
     low = q <= cutoff * spectrum.q0 * (1 + _SINGULAR)
+    # Expected sums of variance, of |q| times it and of |q|^2 times it over the shorter waves.
     beyond = [float(np.sum(2 * (variance * q**k)[~low])) for k in range(3)]
-    i, j, q, variance = i[low], j[low], q[low], variance[low]
+    i = i[low]
+    j = j[low]
+    q = q[low]
+    variance = variance[low]
     n = fft.next_fast_len(max(16, 4 * int(np.abs([i, j]).max())), real=True)
     counts = [max(1, round(share * n * n)) for share in _SUMMITS]
     rows = []
@@ -145,13 +187,16 @@ def _samples(name: str, given: ArrayLike, shape: tuple = (), fewest: int = 2) ->
 
 def _regress(values: NDArray, controls: NDArray, target: NDArray) -> tuple[NDArray, NDArray]:
     """Values moved to where the controls are at `target`, each by a fit without it; mean slopes."""
-    centre, spread = controls.mean(0), controls.std(0)
+    centre = controls.mean(0)
+    spread = controls.std(0)
     spread = np.where(spread > _SINGULAR * np.abs(centre), spread, np.inf)
     scaled = (controls - centre) / spread
     left, size, right = np.linalg.svd(scaled, full_matrices=False)
     keep = size > _SINGULAR * size[0]
-    left, size, right = left[:, keep], size[keep], right[keep]
-    inverse = right.T / size
+    left = left[:, keep]
+    right = right[keep]
+    # Slopes of the least-squares fit by the pseudo-inverse.
+    inverse = right.T / size[keep]
     slopes = inverse @ (left.T @ values)
     residual = values - values.mean(0) - left @ (left.T @ values)
     leverage = 1 / len(values) + np.sum(left**2, axis=1)
@@ -168,7 +213,8 @@ def _regress(values: NDArray, controls: NDArray, target: NDArray) -> tuple[NDArr
 def _left_out_slopes(fine: NDArray, coarse: NDArray) -> NDArray:
     """Slope of fine against coarse for every sample, fitted without it; 1 if nothing scatters."""
     n = len(fine)
-    x, y = coarse - coarse.mean(0), fine - fine.mean(0)
+    x = coarse - coarse.mean(0)
+    y = fine - fine.mean(0)
     xx = np.sum(x**2, axis=0) - n / (n - 1) * x**2
     xy = np.sum(x * y, axis=0) - n / (n - 1) * x * y
     scatters = xx > _SINGULAR * np.sum(coarse**2, axis=0)
@@ -177,9 +223,10 @@ def _left_out_slopes(fine: NDArray, coarse: NDArray) -> NDArray:
 
 def _left_out_ratios(fine: NDArray, coarse: NDArray) -> NDArray:
     """Ratio of the means of fine and coarse for every sample, without it; 1 if there is none."""
-    x, y = coarse.sum(0) - coarse, fine.sum(0) - fine
-    known = np.abs(x) > _SINGULAR * np.abs(coarse).sum(0)
-    return np.where(known, y / np.where(known, x, 1.0), 1.0)
+    x = coarse.sum(0) - coarse
+    y = fine.sum(0) - fine
+    divides = np.abs(x) > _SINGULAR * np.abs(coarse).sum(0)
+    return np.where(divides, y / np.where(divides, x, 1.0), 1.0)
 
 
 def _error(samples: NDArray) -> NDArray:

@@ -67,8 +67,14 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
                     f"{key}: the errors of {quantity} were not measured, so that no accuracy can "
                     "be promised; give seeds in place of accuracy, or leave it out"
                 )
-        settings, pressures = settings_of(name, config, models), tuple(sorted(case["pressures"]))
-        plan = Plan(settings, quantities, pressures, case["surface"], simulated, name)
+        plan = Plan(
+            settings=settings_of(name, config, models),
+            quantities=quantities,
+            pressures=tuple(sorted(case["pressures"])),
+            surface=case["surface"],
+            simulated=simulated,
+            solved_by=name,
+        )
         earlier = (key for key, other in plans.items() if can_reuse(plan, other))
         plans[name] = replace(plan, solved_by=next(earlier, name))
     return plans
@@ -76,18 +82,19 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
 
 def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Settings:
     """Return the settings of a case: the cheapest for its accuracy, or those of the preset."""
-    case, sampling = config["cases"][name], config["sampling"]
+    case = config["cases"][name]
+    sampling = config["sampling"]
     plain = case.get("sampling", sampling["method"]) == "plain"
     if "accuracy" not in case:
         chosen = preset(config["fidelities"][config["fidelity"]])
         seeds = case.get("seeds", config.get("seeds", chosen.seeds))
         return replace(chosen, seeds=seeds, coarse_seeds=0 if plain else chosen.coarse_seeds)
     problem = Problem(
-        models,
-        Surface.of(config["model_surfaces"][case["surface"]]),
-        sorted(case["pressures"]),
-        columns_of(case.get("quantities", MODELLED)),
-        sampling["descriptor_seeds"],
+        models=models,
+        surface=Surface.of(config["model_surfaces"][case["surface"]]),
+        pressures=sorted(case["pressures"]),
+        columns=columns_of(case.get("quantities", MODELLED)),
+        descriptor_seeds=sampling["descriptor_seeds"],
     )
     accuracy = case["accuracy"]
     try:
@@ -103,15 +110,24 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
 
 def preset(fidelity: Mapping[str, Any]) -> Settings:
     """Return the settings of a preset of the configuration."""
-    chosen = (fidelity[key] for key in ("pixels_per_wavelength", "tolerance", "seeds"))
-    return Settings(*chosen, fidelity.get("coarse_seeds", FEWEST_COARSE))
+    return Settings(
+        pixels_per_wavelength=fidelity["pixels_per_wavelength"],
+        tolerance=fidelity["tolerance"],
+        seeds=fidelity["seeds"],
+        coarse_seeds=fidelity.get("coarse_seeds", FEWEST_COARSE),
+    )
 
 
 def can_reuse(plan: Plan, other: Plan) -> bool:
     """Whether a plan can use the realisations that another one solves."""
-    one, two = (replace(each.settings, seeds=0, coarse_seeds=0) for each in (plan, other))
+    # With one grid and tolerance for both; the numbers of seeds may differ.
+    own = replace(plan.settings, seeds=0, coarse_seeds=0)
+    others = replace(other.settings, seeds=0, coarse_seeds=0)
     return (
-        (plan.surface, one, True) == (other.surface, two, plan.simulated and other.simulated)
+        plan.surface == other.surface
+        and own == others
+        and plan.simulated
+        and other.simulated
         and set(plan.pressures) <= set(other.pressures)
         and other.gaps >= plan.gaps
         and set(plan.measured) <= set(other.measured)
@@ -124,9 +140,11 @@ def coarse_batches(count: int) -> list[str]:
     Files end at the same seeds whatever the number, but for the last: a case that asks for more
     keeps what is solved. 160 seeds are in '1-64', '65-128' and '129-160'.
     """
-    last, parts = 0, []
+    last = 0
+    parts = []
     while last < count:
-        first, last = last + 1, min(max(2 * last, FIRST_FILE), count)
+        first = last + 1
+        last = min(max(2 * last, FIRST_FILE), count)
         parts.append(f"{first}-{last}")
     return parts
 

@@ -51,26 +51,57 @@ def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float
     return float(np.sqrt(square[touching].mean()))
 
 
-def _attractive_area(at: float) -> Column:
-    name, label = "attractive_area", f"attractive area at range {at:g}"
-    text = f"{label} h_rms over nominal area"
-    return Column(f"{name}_{at:g}", text, label, name, quantity=name, at={"range": at})
+def _attractive_area(range: float) -> Column:
+    label = f"attractive area at range {range:g}"
+    return Column(
+        name=f"attractive_area_{range:g}",
+        text=f"{label} h_rms over nominal area",
+        label=label,
+        variable="attractive_area",
+        quantity="attractive_area",
+        at={"range": range},
+    )
 
 
-_AREA = "repulsive contact area over nominal area"
-_DENSITY = "P(u) times h_rms at gap 0.1 h_rms"
-_SLOPE = "rms gradient of the heights within the contact over q0 h_rms"
-_BOTH = ("attractive_area", "gap_density")
 _TABLE = (
-    Column("area", _AREA, "contact area", "area_fraction"),
-    Column("mean_gap", "mean gap over h_rms", "mean gap", "mean_gap"),
+    Column(
+        name="area",
+        text="repulsive contact area over nominal area",
+        label="contact area",
+        variable="area_fraction",
+    ),
+    Column(name="mean_gap", text="mean gap over h_rms", label="mean gap", variable="mean_gap"),
     _attractive_area(0.01),
     _attractive_area(0.1),
-    Column("gap_distribution", _DENSITY, "P(u) at gap 0.1", "gap_density", _BOTH, at={"gap": 0.1}),
-    Column("a_v", "a_V", "a_V", "a_v", ("attractive_area",), file="a_v"),
-    Column("kappa", "kappa_rep", "κ", "kappa", ("area_fraction",), file="kappa"),
     Column(
-        *("contact_slope", _SLOPE, "rms slope within the contact", "contact_slope"),
+        name="gap_distribution",
+        text="P(u) times h_rms at gap 0.1 h_rms",
+        label="P(u) at gap 0.1",
+        variable="gap_density",
+        means=("attractive_area", "gap_density"),
+        at={"gap": 0.1},
+    ),
+    Column(
+        name="a_v",
+        text="a_V",
+        label="a_V",
+        variable="a_v",
+        means=("attractive_area",),
+        file="a_v",
+    ),
+    Column(
+        name="kappa",
+        text="kappa_rep",
+        label="κ",
+        variable="kappa",
+        means=("area_fraction",),
+        file="kappa",
+    ),
+    Column(
+        name="contact_slope",
+        text="rms gradient of the heights within the contact over q0 h_rms",
+        label="rms slope within the contact",
+        variable="contact_slope",
         measure=slope_within_contact,
     ),
 )

@@ -23,9 +23,20 @@ from stickiness.statistics import COVERS, covering_multiple
 # The settings to choose from; errors were measured for these pixels.
 PIXELS = (4, 8, 16)
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-8)
-SEEDS = (*(2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32), *(40, 48, 56, 64, 80, 96, 112, 128))
-COARSE_SEEDS = (*(0, 32, 64, 96, 128, 160, 192, 256, 320, 384), *(512, 640, 768, 1024, 1536, 2048))
-LEAST = Settings(PIXELS[0], TOLERANCES[0], SEEDS[0], COARSE_SEEDS[0])
+# fmt: off
+SEEDS = (
+    2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 80, 96, 112, 128,
+)
+COARSE_SEEDS = (
+    0, 32, 64, 96, 128, 160, 192, 256, 320, 384, 512, 640, 768, 1024, 1536, 2048,
+)
+# fmt: on
+LEAST = Settings(
+    pixels_per_wavelength=PIXELS[0],
+    tolerance=TOLERANCES[0],
+    seeds=SEEDS[0],
+    coarse_seeds=COARSE_SEEDS[0],
+)
 MOST_POINTS = 2048  #: along a side of a grid
 SAME_COST = 1.05  #: ratio of costs that were not measured well enough to tell them apart
 # By how much the error of the worst quantity is widened, see `joint_error`. With 1.1 and models
@@ -63,13 +74,19 @@ def error_parts(problem, settings, pressure, column) -> dict[str, NDArray]:
 
     Here and below the numbers of seeds in the settings may be arrays that broadcast.
     """
-    models, at = problem.models, (column, problem.surface, pressure)
-    pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance
-    return {
-        "discretisation": error_models.single_error(models, "discretisation", *at, pixels=pixels),
-        "solver": error_models.single_error(models, "solver", *at, tolerance=tolerance),
-        "sampling": COVERS * np.sqrt(mean_variance(problem, settings, pressure, column)),
-    }
+    discretisation = error_models.single_error(
+        problem.models,
+        "discretisation",
+        column,
+        problem.surface,
+        pressure,
+        pixels=settings.pixels_per_wavelength,
+    )
+    solver = error_models.single_error(
+        problem.models, "solver", column, problem.surface, pressure, tolerance=settings.tolerance
+    )
+    sampling = COVERS * np.sqrt(mean_variance(problem, settings, pressure, column))
+    return {"discretisation": discretisation, "solver": solver, "sampling": sampling}
 
 
 def predicted_error(problem: Problem, settings: Settings, pressure: float, column: str) -> NDArray:
@@ -80,7 +97,10 @@ def predicted_error(problem: Problem, settings: Settings, pressure: float, colum
 
 def worst_error(problem: Problem, settings: Settings) -> tuple[float, str, float]:
     """Return the error of the worst of all columns and loads, and which has the largest."""
-    errors = [float(predicted_error(problem, settings, *at)) for at in problem.points]
+    errors = [
+        float(predicted_error(problem, settings, pressure, column))
+        for pressure, column in problem.points
+    ]
     pressure, column = problem.points[int(np.argmax(errors))]
     return float(joint_error(errors)), column, pressure
 
@@ -100,7 +120,8 @@ def joint_error(errors: ArrayLike) -> NDArray:
     for _ in range(_BISECTIONS):
         middle = (low + high) / 2
         beyond = np.sum(scipy.special.erfc(middle * share) ** TOGETHER, axis=0) > 0.1**TOGETHER
-        low, high = np.where(beyond, middle, low), np.where(beyond, high, middle)
+        low = np.where(beyond, middle, low)
+        high = np.where(beyond, high, middle)
     return SAFETY * high * largest
 
 
@@ -137,23 +158,41 @@ def _levels(problem, settings, pressure, column):
     models = problem.models
     coarse = min(models["coarse_share", column](surface, pressure), 1.0)
     fine = models["fine_share", column](surface, pressure, settings.pixels_per_wavelength)
-    shares = fine, coarse, math.sqrt(1 - coarse**2)
-    several = np.maximum(settings.coarse_seeds, 2)
-    numbers = np.asarray(settings.seeds), several, problem.descriptor_seeds
-    return [(share**2 / n, n - 1) for share, n in zip(shares, numbers, strict=True)]
+    long_waves = math.sqrt(1 - coarse**2)
+    fine_seeds = np.asarray(settings.seeds)
+    coarse_seeds = np.maximum(settings.coarse_seeds, 2)
+    return [
+        (fine**2 / fine_seeds, fine_seeds - 1),
+        (coarse**2 / coarse_seeds, coarse_seeds - 1),
+        (long_waves**2 / problem.descriptor_seeds, problem.descriptor_seeds - 1),
+    ]
 
 
 def predicted_cost(problem: Problem, settings: Settings) -> NDArray:
     """Return the cost of a case on all its grids, in pairs of transforms of 1024 x 1024 doubles."""
-    models, surface = problem.models, problem.surface
-    pixels, tolerance = settings.pixels_per_wavelength, settings.tolerance / FULL
+    models = problem.models
+    surface = problem.surface
+    # Costs were measured at the tolerance `FULL`; a larger one saves a part, at every load.
+    tolerance = settings.tolerance / FULL
     saved = len(problem.pressures) * models["tolerance_cost", ""](surface, tolerance=tolerance)
+    # A fine seed is solved on its grid and on two coarser ones.
+    pixels = settings.pixels_per_wavelength
     grids = {pixels, pixels // 2, COARSE}
-    one = saved * sum(models["fine_cost", ""](surface, pixels=grid) for grid in grids)
-    many = saved * models["coarse_cost", ""](surface) * np.asarray(settings.coarse_seeds)
-    fixed = problem.descriptor_seeds * models["described_cost", ""](surface)
-    none = np.equal(settings.coarse_seeds, 0)
-    return one * np.asarray(settings.seeds) + np.where(none, 0.0, many + fixed)
+    fine_seed = saved * sum(models["fine_cost", ""](surface, pixels=grid) for grid in grids)
+    coarse_seeds = saved * models["coarse_cost", ""](surface) * np.asarray(settings.coarse_seeds)
+    described = problem.descriptor_seeds * models["described_cost", ""](surface)
+    plain = np.equal(settings.coarse_seeds, 0)
+    multilevel = np.where(plain, 0.0, coarse_seeds + described)
+    return fine_seed * np.asarray(settings.seeds) + multilevel
+
+
+@dataclass(frozen=True, order=True)
+class _Candidate:
+    """Settings with their predicted error and cost, in the order of preference."""
+
+    error: float
+    cost: float
+    settings: Settings
 
 
 def cheapest(
@@ -161,9 +200,27 @@ def cheapest(
 ) -> Settings:
     """Return the cheapest settings predicted to reach an accuracy in all columns at all loads.
 
-    Among settings whose cost is within 5 % of the lowest, the most accurate. `plain` leaves out
-    coarse seeds. `least` has the fewest pixels and seeds, and the largest tolerance that are
-    allowed. An UnreachableError says what could be reached.
+    Among settings whose cost is within 5 % of the lowest, the most accurate.
+
+    Parameters
+    ----------
+    problem : Problem
+        What is to be known, and how errors are predicted.
+    accuracy : float
+        Largest relative error, covering 90 %, of all columns at all loads together (`joint_error`).
+    plain : bool
+        Whether to leave out coarse seeds.
+    least : Settings
+        The fewest pixels and seeds, and the largest tolerance that are allowed.
+
+    Returns
+    -------
+    Settings
+
+    Raises
+    ------
+    UnreachableError
+        If no settings reach the accuracy; the message says what could be reached.
     """
     waves = problem.surface.magnification * problem.surface.window
     coarsest = least.pixels_per_wavelength
@@ -177,17 +234,24 @@ def cheapest(
     tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
     seeds = [n for n in SEEDS if n >= least.seeds]
     coarse = [0] if plain else [n for n in COARSE_SEEDS if n >= least.coarse_seeds]
-    found = []
+    # All settings that are accurate enough.
+    candidates = []
     for pixels, tolerance in itertools.product(grids, tolerances):
         grid = Settings(pixels, tolerance, np.array(seeds)[:, None], np.array(coarse))
-        errors = joint_error([predicted_error(problem, grid, *at) for at in problem.points])
+        errors = joint_error(
+            [
+                predicted_error(problem, grid, pressure, column)
+                for pressure, column in problem.points
+            ]
+        )
         costs = predicted_cost(problem, grid)
         for i, j in np.argwhere(errors <= accuracy):
-            chosen = Settings(pixels, tolerance, seeds[i], coarse[j])
-            found.append((float(costs[i, j]), float(errors[i, j]), chosen))
-    if found:
-        lowest = min(cost for cost, *_ in found)
-        return min((e, c, one) for c, e, one in found if c <= SAME_COST * lowest)[-1]
+            settings = Settings(pixels, tolerance, seeds[i], coarse[j])
+            candidates.append(_Candidate(float(errors[i, j]), float(costs[i, j]), settings))
+    if candidates:
+        lowest = min(candidate.cost for candidate in candidates)
+        # Among the cheapest the most accurate, then the cheapest again.
+        return min(c for c in candidates if c.cost <= SAME_COST * lowest).settings
     best = Settings(grids[-1], TOLERANCES[-1], SEEDS[-1], coarse[-1])
     error, column, pressure = worst_error(problem, best)
     raise UnreachableError(
@@ -203,8 +267,11 @@ def allow_for_few_seeds(problem: Problem, chosen: Settings, accuracy: float) -> 
     `cheapest` uses the true scatter. An answer knows only the standard error of its few seeds, so
     that the error it states is larger.
     """
-    parts = [error_parts(problem, chosen, *at) for at in problem.points]
-    fixed = [math.hypot(one["discretisation"], one["solver"]) for one in parts]
+    # Errors that more seeds do not change.
+    fixed = []
+    for pressure, column in problem.points:
+        parts = error_parts(problem, chosen, pressure, column)
+        fixed.append(math.hypot(parts["discretisation"], parts["solver"]))
     for n in (n for n in SEEDS if n >= max(chosen.seeds, 2)):
         settings = replace(chosen, seeds=n)
         if joint_error(np.hypot(fixed, _stated_sampling(problem, settings))) <= accuracy:
@@ -233,5 +300,9 @@ def seeds_enough(
 
 def _stated_sampling(problem, settings):
     """Sampling error that an answer is expected to state at every point, with Student's t."""
-    points = [(problem, settings, *at) for at in problem.points]
-    return np.array([covering_factor(*at) * math.sqrt(mean_variance(*at)) for at in points])
+    errors = []
+    for pressure, column in problem.points:
+        multiple = covering_factor(problem, settings, pressure, column)
+        variance = mean_variance(problem, settings, pressure, column)
+        errors.append(multiple * math.sqrt(variance))
+    return np.array(errors)

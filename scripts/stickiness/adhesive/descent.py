@@ -8,7 +8,7 @@ barrier that a slow motion would not. Increments are in single precision; every 
 residual, and before it is believed, the pressure is recomputed in double precision.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,14 +28,19 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
     increments in single precision are good enough for the result.
     """
     state = problem.state(gap, elastic)
-    fresh, reference = elastic is None or rough, state.residual
+    fresh = elastic is None or rough  # whether the elastic pressure is free of single precision
+    reference = state.residual
     conjugate = _Conjugate(problem)
-    last_soft, iteration, soft = 0, 0, True
+    iteration = 0
+    soft = True
+    last_soft = 0
     while True:
-        known = rough and state.residual <= tol
-        if not fresh and not known and state.residual <= max(tol, REFRESH * reference):
+        # Recompute the elastic pressure every four decades, and before the end is believed.
+        good_enough = rough and state.residual <= tol
+        if not fresh and not good_enough and state.residual <= max(tol, REFRESH * reference):
             state = refreshed(problem, state)
-            fresh, reference = True, state.residual
+            fresh = True
+            reference = state.residual
             conjugate.forget()
         done = state.residual <= tol or iteration >= max_iterations
         done = done or not np.isfinite(state.residual)
@@ -46,20 +51,23 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
         iteration += 1
         last_soft = iteration if soft else last_soft
         if lower is not None:
-            state, fresh = lower, False
+            state = lower
+            fresh = False
         elif conjugate.restarted:
             break  # nothing but rounding is left to gain
         else:
             conjugate.forget()
     if not fresh and not rough:
         state = refreshed(problem, state)
-    state.iterations, state.last_run = iteration, iteration - last_soft
+    state.iterations = iteration
+    state.last_run = iteration - last_soft
     return state
 
 
 def refreshed(problem, state):
     """State without the rounding of single precision."""
-    gap, mean = state.gap, float(state.gap.mean())
+    gap = state.gap
+    mean = float(gap.mean())
     if problem.mean_gap is not None and mean != problem.mean_gap:
         if problem.wall and mean > 0:
             gap = gap * (problem.mean_gap / mean)  # contact stays contact
@@ -76,9 +84,9 @@ class _Conjugate:
         # A single point is held by the stiffness of a pixel, long waves by the longest wave's.
         self.longest = problem.smoother.shift
         self.stiff_limit = _STIFF_POINT * np.sqrt(self.longest * problem.quick.mean_stiffness)
-        self._direction, self._force, self._image = (
-            np.empty(problem.heights.shape, np.float32) for _ in range(3)
-        )
+        self._direction = np.empty(problem.heights.shape, np.float32)
+        self._force = np.empty_like(self._direction)
+        self._image = np.empty_like(self._direction)
         self._free = None
         self.forget()
 
@@ -91,8 +99,11 @@ class _Conjugate:
 
         After a `soft` step, of negative curvature, edges of contact are not attended to: they move.
         """
-        wall, at_gap, free = self.problem.wall, self.problem.pressure is None, state.free
-        force, direction = state.force, self._direction
+        wall = self.problem.wall
+        at_gap = self.problem.pressure is None
+        free = state.free
+        force = state.force
+        direction = self._direction
         if not wall:  # of every point alone, or in the longest wave
             stiff = state.slope > self.stiff_limit
             self._stiffness = np.where(stiff, state.slope + self.stiff_limit, self.longest)
@@ -100,11 +111,13 @@ class _Conjugate:
         if at_gap:
             force = self._less_mean(force.copy(), free)
         step = self._precondition(force, free, soft)
-        product, cross = sum_blocks(np.vdot, step, force), 0.0
+        # Weight of the last direction by Polak and Ribiere.
+        product = sum_blocks(np.vdot, step, force)
         self.restarted = self._product is None
+        weight = 0.0
         if not self.restarted:
             cross = sum_blocks(np.vdot, step, self._force)
-        weight = 0.0 if self.restarted else max(0.0, (product - cross) / self._product)
+            weight = max(0.0, (product - cross) / self._product)
         if weight > 0:
             direction *= np.float32(weight)
             direction *= free
@@ -122,6 +135,7 @@ class _Conjugate:
         return direction, self.problem.quick.stiffness(direction, out=self._image)
 
     def _precondition(self, force, free, soft):
+        """How far the free points would give way to a force, each and together."""
         smoother = self.problem.smoother
         if not self.problem.wall:
             stiff = self._stiffness > self.stiff_limit
@@ -131,7 +145,8 @@ class _Conjugate:
             step = smoother.apply(force)
         else:
             if self._free is None or not np.array_equal(self._free, free):
-                self._free, self._share = free.copy(), smoother.share_of(free)
+                self._free = free.copy()
+                self._share = smoother.share_of(free)
             step = smoother.apply(force, self._share)
         step *= free
         return self._balance(step, free) if self.problem.pressure is None else step
@@ -154,12 +169,16 @@ class _Conjugate:
 
 def _step(problem, state, direction, image):
     """State of less energy along a direction, if any, and whether curvature was negative."""
-    law, n = problem.law, direction.size
-    slope, *means = _sum_along(direction, image, state)
-    slope = slope * problem.unit / n
-    stiffness, work, softening, hardening = (total / n for total in means)
+    law = problem.law
+    along = _sum_along(direction, image, state)
+    slope = along.slope * problem.unit / direction.size
+    stiffness = along.stiffness / direction.size
+    work = along.work / direction.size
+    softening = along.softening / direction.size
+    hardening = along.hardening / direction.size
     if not slope < 0:
         return None, False
+    # Length of the exact step, where the curvature is positive.
     curvature = stiffness + softening + hardening
     soft = not curvature > 0
     if soft:
@@ -169,10 +188,11 @@ def _step(problem, state, direction, image):
     reach = max(float(state.gap.min()), 0.0) + (law.range if soft else max(law.range, 1.0))
     longest = reach / largest(direction)
     length = min(-slope / curvature, longest) if curvature > -slope / longest else longest
+    # Shorten it until the energy falls, by a parabola through what is known of the energy.
     slack = 8 * np.finfo(float).eps * abs(state.potential)
     for _ in range(_MAX_SHORTENINGS):
         gap = _moved(state.gap, direction, length)
-        if any(np.any(gap[s] < problem.lowest(state.gap[s])) for s in spans(gap.shape)):
+        if _is_too_low(problem, state, gap):
             gap, elastic, change = _cut_short(problem, state, gap)
         else:
             elastic = _moved(state.elastic, image, length)
@@ -186,19 +206,38 @@ def _step(problem, state, direction, image):
     return None, soft
 
 
+def _is_too_low(problem, state, gap):
+    """Whether a step ends below the lowest gaps anywhere."""
+    return any(np.any(gap[s] < problem.lowest(state.gap[s])) for s in spans(gap.shape))
+
+
+@dataclass(frozen=True)
+class _AlongDirection:
+    """Sums over the grid of what happens along a direction."""
+
+    slope: float  #: of the energy, in the problem's unit
+    stiffness: float  #: elastic curvature
+    work: float  #: of the law's traction
+    softening: float  #: curvature of the law's potential where it is negative
+    hardening: float  #: and where it is positive
+
+
 def _sum_along(direction, image, state):
-    """Slope along a direction, stiffness, work of the law, its curvature down and up, summed."""
-    sums = np.zeros(5)
+    """Sum up slope and curvatures of the energy along a direction, block by block."""
+    slope = stiffness = work = softening = hardening = 0.0
     for span in spans(direction.shape):
         part = direction[span]
-        slope, stiffness = np.vdot(part, state.force[span]), np.vdot(part, image[span])
+        slope += float(np.vdot(part, state.force[span]))
+        stiffness += float(np.vdot(part, image[span]))
         curvature = part.astype(float)
-        work = np.vdot(curvature, state.traction[span])
+        work += float(np.vdot(curvature, state.traction[span]))
         curvature *= curvature
         curvature *= state.slope[span]
-        total, hardening = curvature.sum(), np.maximum(curvature, 0, out=curvature).sum()
-        sums += slope, stiffness, work, total - hardening, hardening
-    return sums.tolist()
+        total = curvature.sum()
+        positive = np.maximum(curvature, 0, out=curvature).sum()
+        softening += float(total - positive)
+        hardening += float(positive)
+    return _AlongDirection(slope, stiffness, work, softening, hardening)
 
 
 def _moved(field, direction, length):

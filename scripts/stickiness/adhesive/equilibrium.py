@@ -16,7 +16,7 @@ from stickiness.adhesive.problem import FrozenTraction, balanced, lowered
 from stickiness.adhesive.softening_descent import quick_descent
 from stickiness.repulsive import solver
 from stickiness.repulsive.active_set import PREDICTION, Problem
-from stickiness.repulsive.convolution import COUNT
+from stickiness.repulsive.convolution import count_points
 from stickiness.repulsive.half_space import coarsen, interpolate, sample
 
 _FEW_ITERATIONS = 8  # iterations below which convergence says little about stability
@@ -35,7 +35,9 @@ def relax(problem, gap, tol, max_iterations, closing=True):
     """
     run = _relax_smooth if problem.law.smooth else _relax_frozen
     observe = _observer(problem)
-    spent, state, convolved = 0, None, COUNT.points
+    state = None
+    spent = 0
+    points_before = count_points()
     if gap is None:
         fine = min(problem.heights.shape) >= _MIN_POINTS_TO_COARSEN
         if fine and problem.wall and problem.law.smooth and problem.pressure is not None:
@@ -55,13 +57,14 @@ def relax(problem, gap, tol, max_iterations, closing=True):
         if mode is None:
             break
         gap = _left(problem, state, mode, closing)
-    state.fft_pairs = (COUNT.points - convolved) / state.gap.size
+    state.fft_pairs = (count_points() - points_before) / state.gap.size
     return state
 
 
 def _observer(problem):
     """Function that tells of a state, and notes, whether tension has parted the surfaces."""
-    law, pull = problem.law, -(problem.pressure or 0.0)
+    law = problem.law
+    pull = -(problem.pressure or 0.0)
 
     def observe(state):
         nearest = float(state.gap.min()) if pull > 0 else 0.0
@@ -73,23 +76,29 @@ def _observer(problem):
 
 
 def _relax_smooth(problem, gap, tol, max_iterations, observe):
+    """State of a smooth law: by the quick descent if there is a wall and it finishes."""
     spent = 0
     if problem.wall:
         state, finished = quick_descent(problem, gap, tol, max_iterations, observe)
         if finished:
             return state
-        gap, spent = state.gap, state.iterations
+        gap = state.gap
+        spent = state.iterations
     state = descend(problem, gap, tol, max_iterations - spent, observe)
     state.iterations += spent
     return state
 
 
 def _relax_frozen(problem, gap, tol, max_iterations, observe):
-    law, state = problem.law, problem.state(gap)
+    """State of a law with a jump: its traction is frozen, and anew until its points stay."""
+    law = problem.law
+    state = problem.state(gap)
     inside = state.gap <= law.range
-    aim, spent = None, 0
+    aim = None
+    spent = 0
     refreshed_at = state.residual  # where the elastic pressure was last exact
     while True:
+        # Relax with the traction at the points within the range, at first not to the tolerance.
         frozen = replace(problem, law=FrozenTraction(law.maugis_stress * inside, law.range))
         if aim is None:
             residual = frozen.state(state.gap, state.elastic).residual
@@ -100,11 +109,19 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
             state = refreshed(frozen, state)
             refreshed_at = state.residual
         final = aim <= tol
-        left = max_iterations - spent
-        state = descend(frozen, state.gap, aim, left, observe, state.elastic, rough=not final)
+        state = descend(
+            frozen,
+            state.gap,
+            tol=aim,
+            max_iterations=max_iterations - spent,
+            observer=observe,
+            elastic=state.elastic,
+            rough=not final,
+        )
         spent += state.iterations
         if state.separated or spent >= max_iterations or not state.residual <= aim:
             break
+        # Points that have crossed the range since.
         changed = (state.gap <= law.range) != inside
         if not final and changed.any():
             # Only where the gap is farther from the range than it may be from equilibrium.
@@ -137,24 +154,32 @@ def _unstable_mode(problem, state):
     softening = np.where(open_points, np.maximum(-state.slope, 0), 0)
     if not softening.any():
         return None
-    waves = [np.cos(2 * np.pi * np.arange(n) / n) for n in softening.shape]
-    # A prescribed mean gap leaves a uniform load no work to do.
-    load = softening / softening.max() * (1 + 0.1 * np.add.outer(*waves))
+    # A prescribed mean gap leaves a uniform load no work to do: it is varied by long waves.
+    n0, n1 = softening.shape
+    wave0 = np.cos(2 * np.pi * np.arange(n0) / n0)
+    wave1 = np.cos(2 * np.pi * np.arange(n1) / n1)
+    load = softening / softening.max() * (1 + 0.1 * np.add.outer(wave0, wave1))
 
     def constrained(field):
         """Part of a field on open points, without a mean if the mean gap is prescribed."""
         field = field * open_points
         return balanced(field, open_points) if problem.pressure is None else field
 
+    # Conjugate gradients on the curvature of the energy, until one direction has a negative one.
     residual = constrained(-load.astype(np.float32))
-    direction, product = None, 0.0
+    direction = None
+    product = 0.0
     first = float(np.abs(residual).max())
     for _ in range(_MAX_PROBES):
         image = constrained(problem.smoother.apply(residual))
-        last, product = product, float(np.vdot(image, residual))
+        last_product = product
+        product = float(np.vdot(image, residual))
         if not product > 0:
             return None
-        direction = -image if direction is None else direction * np.float32(product / last) - image
+        if direction is None:
+            direction = -image
+        else:
+            direction = direction * np.float32(product / last_product) - image
         stress = problem.quick.stiffness(direction) + state.slope * direction
         curvature = float(np.vdot(direction, stress))
         if curvature < 0:
@@ -208,7 +233,12 @@ def _without_adhesion(problem, max_iterations):
     """Gap without adhesion, wider than any with it: a descent from it ends on the approach."""
     mean_gap = problem.mean_gap
     if problem.pressure is not None:
-        alone = Problem(problem.heights, problem.sides, problem.pressure, problem.solid)
+        alone = Problem(
+            heights=problem.heights,
+            sides=problem.sides,
+            load=problem.pressure,
+            solid=problem.solid,
+        )
         return solver.press(alone, _START_TOLERANCE).gap
     gap = mean_gap - problem.heights
     if gap.min() >= 0:

@@ -109,18 +109,30 @@ def path(
     sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
     for name, value in sizes.items():
         number(name, value)
-    options = {"tol": tol, "max_iterations": max_iterations, "solid": solid}
-    last = solver.solve(heights, length, law, **{control: values[0]}, start=start, **options)
+    last = solver.solve(
+        heights,
+        length,
+        law,
+        pressure=values[0] if control == "pressure" else None,
+        mean_gap=values[0] if control == "mean_gap" else None,
+        start=start,
+        tol=tol,
+        max_iterations=max_iterations,
+        solid=solid,
+    )
     yield PathPoint(last)
     follower = _Follower(
         first=last,
         scaled=solver.Scaled.of(grid("heights", heights), last.length, law, solid),
         control=control,
-        effort=(tol, max_iterations),
+        effort=solver.Effort(tol, max_iterations),
         span=float(np.ptp(values)),
         left=max_states - 1,
         scale=_LEAST_SCALE * law.adhesion_length,
-        **sizes,
+        balance=balance,
+        smallest_jump=smallest_jump,
+        located=located,
+        steps=steps,
     )
     for target in values[1:]:
         for point in follower.leg(last, target):
@@ -137,7 +149,7 @@ class _Follower:
     first: Adhesion
     scaled: solver.Scaled
     control: str
-    effort: tuple  #: tolerance and most iterations of a state
+    effort: solver.Effort  #: of every state
     span: float  #: between the largest and the smallest value of the control
     left: int  #: states that may still be computed
     scale: float  #: largest change of elastic plus interaction energy so far [E* length]
@@ -152,8 +164,10 @@ class _Follower:
         closing = (target > value) == (self.control == "pressure")
         longest = abs(target - value) / self.steps
         finest = longest / _SUBSTEPS[self.first.law.smooth]
-        # `end` is the target, or a value before it that could not be reached in balance.
-        before, step, end, failures = None, longest, target, 0
+        step = longest
+        before = None  # the state before this one, on the same branch
+        end = target  # or a value before it that could not be reached in balance
+        failures = 0
         while value != target:
             trial = self._next_value(value, end, step, failures)
             successor = self._solve(state, trial, APPROACH if closing else SEPARATION)
@@ -161,12 +175,18 @@ class _Follower:
             width = abs(trial - value)
             allowed = max(self.smallest_jump, self.balance) if width <= finest else self.balance
             if abs(dissipated) <= allowed * self.scale:
+                # In balance: go on, by a step whose error of fourth order is just allowed.
                 yield PathPoint(successor, work=work, dissipated=dissipated)
                 growth = 0.8 * (self.balance * self.scale / max(abs(dissipated), 1e-300)) ** 0.25
                 step = min(longest, width * min(2.0, max(growth, 0.2)))
-                before, state, value = state, successor, trial
+                before = state
+                state = successor
+                value = trial
             elif width > self._width(trial):
-                end, failures, step = trial, failures + 1, width / 2
+                # Out of balance: approach the place by halves.
+                end = trial
+                failures += 1
+                step = width / 2
                 continue
             elif successor is None:
                 yield PathPoint(state, "pull-off", (value, trial), 0.0, math.inf)
@@ -174,9 +194,13 @@ class _Follower:
             else:
                 event = "jump-in" if closing else "jump-out"
                 yield PathPoint(successor, event, (value, trial), work, dissipated)
-                before, state, value, step = None, successor, trial, longest
+                before = None
+                state = successor
+                value = trial
+                step = longest
             if trial == end:
-                end, failures = target, 0
+                end = target
+                failures = 0
 
     def _next_value(self, value, end, step, failures):
         """Next value towards an end: by the step, or by halves if the end is known to fail."""
@@ -197,8 +221,11 @@ class _Follower:
             text = "max_states do not suffice for this path: raise it"
             raise solver.ConvergenceError(text, state)
         self.left -= 1
-        control = {self.control: value}
-        gap = self.scaled.first_gap(state, control.get("mean_gap"))
+        if self.control == "pressure":
+            control = solver.Control(pressure=value)
+        else:
+            control = solver.Control(mean_gap=value)
+        gap = self.scaled.first_gap(state, control.mean_gap)
         try:
             return solver.relax_from(self.scaled, gap, branch, control, self.effort)
         except PullOffError:
@@ -224,7 +251,8 @@ class _Follower:
 
 def _integral(points):
     """Integral between the last two points, on the parabola if there are three."""
-    (x1, y1), (x2, y2) = points[-2:]
+    x1, y1 = points[-2]
+    x2, y2 = points[-1]
     step = x2 - x1
     total = step * (y1 + y2) / 2
     if len(points) == 3:

@@ -59,7 +59,8 @@ class Smoother:
             out *= share
         if self.halved:
             row = np.empty(out.shape[1] + 1, np.float32)
-            coarse, out = out, np.empty_like(field)
+            coarse = out
+            out = np.empty_like(field)
             _spread(coarse, self._constant, field, out, row)
         return out
 

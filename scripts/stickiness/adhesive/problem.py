@@ -64,22 +64,45 @@ class Problem:
         if elastic is None:
             elastic = self.exact.stiffness(gap + self.heights)
         traction, slope, potential = self._evaluate(gap)
-        fields = gap.ravel(), elastic.ravel(), traction.ravel()
+        flat_gap = gap.ravel()
+        flat_elastic = elastic.ravel()
+        flat_traction = traction.ravel()
         pressure = self.pressure
         if pressure is None:
-            total, count, least = _unloaded(*fields, self.wall)
+            total, count, least = _unloaded(flat_gap, flat_elastic, flat_traction, self.wall)
             # In full contact the least pressure that keeps it.
             pressure = -total / count if count else -least
-        free, force = np.empty(gap.shape, bool), np.empty(gap.shape, np.float32)
-        _react(*fields, pressure, self.unit, self.wall, free.ravel(), force.ravel())
-        return State(gap, elastic, traction, slope, free, force, potential / gap.size, pressure)
+        free = np.empty(gap.shape, bool)
+        force = np.empty(gap.shape, np.float32)
+        _react(
+            flat_gap,
+            flat_elastic,
+            flat_traction,
+            pressure,
+            self.unit,
+            self.wall,
+            free.ravel(),
+            force.ravel(),
+        )
+        return State(
+            gap=gap,
+            elastic=elastic,
+            traction=traction,
+            slope=slope,
+            free=free,
+            force=force,
+            potential=potential / gap.size,
+            pressure=pressure,
+        )
 
     def _evaluate(self, gap):
         """Traction and slope of the law on a grid, and the sum of its potential."""
         if isinstance(self.law, FrozenTraction):
             work = sum_blocks(lambda stress, open_by: (stress * open_by).sum(), self.law.field, gap)
             return self.law.field, np.broadcast_to(0.0, gap.shape), work
-        traction, slope, total = np.empty(gap.shape), np.empty(gap.shape), 0.0
+        traction = np.empty(gap.shape)
+        slope = np.empty(gap.shape)
+        total = 0.0
         for span in spans(gap.shape):
             traction[span], slope[span], potential = self.law.evaluate(gap[span])
             total += float(potential.sum())
@@ -142,7 +165,9 @@ def _react(gap, elastic, traction, pressure, unit, wall, free, force):
 @compiled
 def _unloaded(gap, elastic, traction, wall):
     """Sum and count of reactions without load on open points, and the least on all points."""
-    total, count, least = 0.0, 0, np.inf
+    total = 0.0
+    count = 0
+    least = np.inf
     for i in range(gap.size):
         reaction = elastic[i] + traction[i]
         if gap[i] > 0 or not wall:

@@ -22,7 +22,9 @@ _PUT_OFF_FORCE = 0.3  # residual over the force on points behind the wall at whi
 _MAX_SHORTENINGS = 30
 _ROUNDING = 1e-7  # relative error of a sum of energies in single precision
 _LAST_ROUND_SHARE = 0.8  # of the tolerance that a last round aims for
-_NONE, _HALF = np.float32(0), np.float32(0.5)
+# Numbers of single precision, for the compiled loops.
+_NONE = np.float32(0)
+_HALF = np.float32(0.5)
 
 
 def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False):
@@ -32,12 +34,15 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
     or comes to nothing, or, if `convex`, at the first direction of negative curvature. `observer`
     is called with the state at every round; descent stops when it returns true.
     """
-    state, steps, finished = problem.state(gap), _Steps(problem), True
+    state = problem.state(gap)
+    steps = _Steps(problem)
+    finished = True
     while finished:
         done = state.residual <= tol or steps.count >= max_iterations
         done = done or not np.isfinite(state.residual)
         if done or (observer is not None and observer(state)):
             break
+        # A round in single precision, and the state that it leads to in double precision.
         steps.begin(state)
         goal = max(_ROUND_REDUCTION * state.residual, _LAST_ROUND_SHARE * tol)
         steps.descend(goal, max_iterations, convex)
@@ -46,22 +51,28 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
             moved = _moved(problem, state, steps)
         finished = moved is not None
         state = moved if finished else state
-    state.iterations, state.last_run = steps.count, steps.count - steps.last_soft
+    state.iterations = steps.count
+    state.last_run = steps.count - steps.last_soft
     return state, finished
 
 
 def _moved(problem, state, steps):
     """State after a round; None if the energy rose."""
     gap = np.empty_like(state.gap)
-    gaps = state.gap.ravel(), gap.ravel()
-    total = _move_gap(*gaps, steps.change, problem.unit, steps.above)
+    total = _move_gap(state.gap.ravel(), gap.ravel(), steps.change, problem.unit, steps.above)
     if problem.mean_gap is not None and total > 0:
         # In proportion: contact stays contact, edges keep their shape.
         gap *= problem.mean_gap * gap.size / total
-    other = problem.state(gap)
-    pressures = state.elastic.ravel(), other.elastic.ravel(), state.pressure
-    change = _sum_work_between(*gaps, *pressures) / gap.size + other.potential - state.potential
-    return other if change <= 8 * np.finfo(float).eps * abs(state.potential) else None
+    moved = problem.state(gap)
+    work = _sum_work_between(
+        state.gap.ravel(),
+        gap.ravel(),
+        state.elastic.ravel(),
+        moved.elastic.ravel(),
+        state.pressure,
+    )
+    change = work / gap.size + moved.potential - state.potential
+    return moved if change <= 8 * np.finfo(float).eps * abs(state.potential) else None
 
 
 class _Steps:
@@ -74,28 +85,50 @@ class _Steps:
     """
 
     def __init__(self, problem):
-        self.problem, self.law, self.unit = problem, problem.law, problem.unit
-        self.shape, self.at_gap = problem.heights.shape, problem.pressure is None
+        self.problem = problem
+        self.law = problem.law
+        self.unit = problem.unit
+        self.shape = problem.heights.shape
+        self.at_gap = problem.pressure is None
         self.pixel = problem.quick.mean_stiffness
         size = problem.heights.size
-        fields = [convolution.aligned_zeros(size, np.float32) for _ in range(13)]
-        # `change` of the gap in a round, over the unit of pressure; `lowest` closes the gap.
-        self.change, self.lowest, self.traction, self.slope, *fields = fields
-        self.new_traction, self.new_slope, *fields = fields
-        # `force` is the reaction on free points, `last_force` that one step before.
-        self.reaction, self.force, self.last_force, *fields = fields
-        self.direction, self.image, self.step, self.cut_image = fields
+
+        def field():
+            return convolution.aligned_zeros(size, np.float32)
+
+        # Change of the gap in a round, over the unit of pressure, and the one that closes the gap.
+        self.change = field()
+        self.lowest = field()
+        # Traction of the law and its slope, at the last step and at the next.
+        self.traction = field()
+        self.slope = field()
+        self.new_traction = field()
+        self.new_slope = field()
+        # Reaction, the part of it on free points, and that one step before.
+        self.reaction = field()
+        self.force = field()
+        self.last_force = field()
+        # Direction and its image under the stiffness; a step cut short, and its image.
+        self.direction = field()
+        self.image = field()
+        self.step = field()
+        self.cut_image = field()
         # Points that take part, and those above the wall.
-        self.free, self.above = np.empty((2, size), bool)
+        self.free = np.empty(size, bool)
+        self.above = np.empty(size, bool)
         # Steps so far, and up to the last direction of negative curvature; `soft` tells whether
         # the round ended at one, along which the tangent of the law is no guide.
-        self.count = self.last_soft = 0
-        self.product, self.soft = 0.0, False
+        self.count = 0
+        self.last_soft = 0
+        self.soft = False
+        self.product = 0.0
 
     def begin(self, state):
         """Begin a round at a state; directions stay conjugate to those of the last one."""
         self.linear = state.residual < _LINEAR_RESIDUAL and not self.soft
-        self.residual, self.behind, self.soft = state.residual, 0.0, False
+        self.soft = False
+        self.residual = state.residual
+        self.behind = 0.0  # force on points behind the wall
         self.change[...] = 0
         self.lowest[...] = state.gap.ravel() / -self.unit
         reaction = state.elastic + state.traction
@@ -103,8 +136,9 @@ class _Steps:
         reaction /= self.unit
         self.reaction[...] = reaction.ravel()
         self.slope[...] = state.slope.ravel()
-        self.free[...], self.above[...] = state.free.ravel(), state.gap.ravel() > 0
-        self.force, self.last_force = self.last_force, self.force
+        self.free[...] = state.free.ravel()
+        self.above[...] = state.gap.ravel() > 0
+        self._swap_forces()
         self.force[...] = state.force.ravel()
         self.free_points = np.count_nonzero(self.free)
         self.share = self.problem.smoother.share_of(self.free.reshape(self.shape))
@@ -128,10 +162,13 @@ class _Steps:
                     break  # nothing but rounding is left to gain
                 self.product = 0.0
                 continue
-            curvature, longest = stiffness + softening, max(self.law.range, 1.0)
+            curvature = stiffness + softening
+            longest = max(self.law.range, 1.0)
             if not curvature > 0:
-                curvature, longest = stiffness, self.law.range
-                self.last_soft, self.soft = self.count, self.linear or convex
+                curvature = stiffness
+                longest = self.law.range
+                self.last_soft = self.count
+                self.soft = self.linear or convex
                 self.share = None  # edges of contact move
             longest /= self.unit * largest(self.direction)
             # A uniform direction has no stiffness.
@@ -142,18 +179,23 @@ class _Steps:
     def _turn(self):
         """Turn the direction; weight of the last one, slope of the energy, curvature by the law."""
         step = self.problem.smoother.apply(self.force.reshape(self.shape), self.share).ravel()
-        total, product, last_product, *forces = _sum_over_free(
+        total, product, cross, force, last_force = _sum_over_free(
             step, self.free, self.force, self.last_force
         )
         mean = self._mean(total)
-        last, self.product = self.product, product - mean * forces[0]
-        gain = self.product - (last_product - mean * forces[1])
-        weight = max(0.0, gain / last) if last > 0 else 0.0
+        # Weight of the last direction by Polak and Ribiere, of forces and steps without a mean.
+        last_product = self.product
+        self.product = product - mean * force
+        gain = self.product - (cross - mean * last_force)
+        weight = max(0.0, gain / last_product) if last_product > 0 else 0.0
         total, count = _turn_direction(
             self.direction, np.float32(weight), step, np.float32(mean), self.free, self.above
         )
         mean = np.float32(total / count if self.at_gap and count else 0)
-        return weight, *_settle_direction(self.direction, mean, self.above, self.force, self.slope)
+        slope, softening = _settle_direction(
+            self.direction, mean, self.above, self.force, self.slope
+        )
+        return weight, slope, softening
 
     def _advance(self, slope, length):
         """Go along the direction; returns whether the round may go on."""
@@ -188,9 +230,12 @@ class _Steps:
 
     def _evaluate(self, step, factor, traction, slope):
         """Traction and slope of the law after a step; returns the sum of its potential."""
-        gap, total = traction, 0.0  # a block of gaps makes room for tractions
+        gap = traction  # a block of gaps makes room for tractions
         _find_gaps(step, np.float32(factor), self.change, self.lowest, np.float32(self.unit), gap)
-        gap, traction, slope = (field.reshape(self.shape) for field in (gap, traction, slope))
+        gap = gap.reshape(self.shape)
+        traction = traction.reshape(self.shape)
+        slope = slope.reshape(self.shape)
+        total = 0.0
         for span in spans(self.shape):
             traction[span], slope[span], potential = self.law.evaluate(gap[span])
             total += float(potential.sum())
@@ -198,24 +243,31 @@ class _Steps:
 
     def _go(self, step, image, factor):
         """Make a step; returns whether it is short enough for the present tangent."""
-        fields = self.change, self.reaction, self.free
         if self.linear:
-            total = _apply_step_linearly(step, factor, image, *fields, self.slope)
+            total = _apply_step_linearly(
+                step, factor, image, self.change, self.reaction, self.free, self.slope
+            )
         else:
-            tractions = self.traction, self.new_traction
-            total = _apply_step(step, factor, image, *fields, tractions, np.float32(self.unit))
-            self.traction, self.new_traction = self.new_traction, self.traction
-            self.slope, self.new_slope = self.new_slope, self.slope
-            self.potential = self.new_potential
+            tractions = (self.traction, self.new_traction)
+            unit = np.float32(self.unit)
+            total = _apply_step(
+                step, factor, image, self.change, self.reaction, self.free, tractions, unit
+            )
+            self._accept_law()
         if step is self.step:  # no rounding where it ends at the wall
             np.copyto(self.change, self.lowest, where=self.free & ~self.above & (step < 0))
         # Free points that the wall would have to pull, put off those behind it; new forces.
-        self.force, self.last_force = self.last_force, self.force
+        self._swap_forces()
         height = self.step  # scratch: not in use any more
-        mean = np.float32(self._mean(total))
         self.free_points, changed = _release_points(
-            *(self.reaction, mean, self.change, self.lowest),
-            *(self.above, self.free, self.force, height),
+            self.reaction,
+            np.float32(self._mean(total)),
+            self.change,
+            self.lowest,
+            self.above,
+            self.free,
+            self.force,
+            height,
         )
         self.residual = largest(self.force)
         self.behind = max(-float(height.min()), 0.0) * self.pixel
@@ -225,6 +277,16 @@ class _Steps:
             not self.linear
             or self.unit * largest(self.change) <= _MAX_LINEAR_CHANGE * self.law.range
         )
+
+    def _swap_forces(self):
+        """Keep the force as the last one, and make room for a new one."""
+        self.force, self.last_force = self.last_force, self.force
+
+    def _accept_law(self):
+        """Take traction, slope and potential of the law as they are after the step."""
+        self.traction, self.new_traction = self.new_traction, self.traction
+        self.slope, self.new_slope = self.new_slope, self.slope
+        self.potential = self.new_potential
 
     def _mean(self, total):
         """Mean over free points, which a prescribed mean gap leaves no work to do."""
@@ -280,7 +342,8 @@ def _sum_over_free(step, free, force, last_force):
 @compiled
 def _turn_direction(direction, weight, step, mean, free, above):
     """Turn a direction against a step about its mean; its sum, and the count of points above."""
-    total, count = 0.0, 0
+    total = 0.0
+    count = 0
     for i in range(direction.size):
         part = weight * direction[i] - (step[i] - mean) if free[i] else _NONE
         if above[i]:
@@ -316,7 +379,8 @@ def _count_deeper(bound, direction, length, change, lowest):
 @compiled
 def _cut_at_wall(step, direction, length, change, lowest, above):
     """Step that ends at the wall, or where a point behind it lies; its sum, and points above."""
-    total, count = 0.0, 0
+    total = 0.0
+    count = 0
     for i in range(step.size):
         least = lowest[i] - change[i]
         least = least if least < 0 else _NONE

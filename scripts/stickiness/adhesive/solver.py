@@ -17,7 +17,8 @@ from stickiness.repulsive.solver import Contact, ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.traction_laws import TractionLaw, check_law
 
-APPROACH, SEPARATION = "approach", "separation"
+APPROACH = "approach"
+SEPARATION = "separation"
 _DEEPEST = 0.9  # of the range: penetration of a start, or in the mean, without a wall
 # Pixel over epsilon^2/l_a above which edges of contact are a matter of the grid alone. At 2 a
 # sphere of Tabor parameter 5 holds 20 % too much.
@@ -120,6 +121,11 @@ def solve(
         `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
         of the backing.
 
+    Returns
+    -------
+    Adhesion
+        State of equilibrium, in the caller's units.
+
     Raises
     ------
     ValueError
@@ -144,6 +150,7 @@ def solve(
     max_iterations = integer("max_iterations", max_iterations, least=1)
     check_law(law)
     control = _check_control(pressure, mean_gap, law)
+    effort = Effort(tol=tol, max_iterations=max_iterations)
     scaled = Scaled.of(heights, lengths, law, check_solid(solid))
     _check_start(start, heights.shape, mean_gap)
     warn_of_heights(scaled.rms_height, lengths[0])
@@ -151,49 +158,77 @@ def solve(
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
     lost = scaled.rms_height > 0 and _check_edges(lengths[0] / heights.shape[0], law, scaled)
-    gap, branch, unloaded = None, APPROACH, None
+    gap = None
+    branch = APPROACH
+    unloaded = None
     if isinstance(start, str) and start == SEPARATION:
-        gap, branch = np.zeros(heights.shape), SEPARATION
+        gap = np.zeros(heights.shape)
+        branch = SEPARATION
     elif start is not None and not isinstance(start, str):
-        gap, branch = scaled.first_gap(start, mean_gap), getattr(start, "branch", APPROACH)
+        gap = scaled.first_gap(start, mean_gap)
+        branch = getattr(start, "branch", APPROACH)
     elif pressure is not None and pressure < 0:
+        # Under tension nothing holds the surfaces together that were not in contact before.
         unloaded = relax(scaled.problem(pressure=0.0), None, tol, max_iterations)
         gap = unloaded.gap
-    found = relax_from(scaled, gap, branch, control, (tol, max_iterations), unloaded)
-    if lost and 0 < found.repulsive_area_fraction < 1:
+    adhesion = relax_from(scaled, gap, branch, control, effort, unloaded)
+    if lost and 0 < adhesion.repulsive_area_fraction < 1:
         raise ValueError(lost)
-    return found
+    return adhesion
+
+
+@dataclass(frozen=True)
+class Control:
+    """What is prescribed, in the caller's units: one of the two, the other is None."""
+
+    pressure: float | None = None
+    mean_gap: float | None = None
+
+    @property
+    def name(self):
+        """Name of what is prescribed."""
+        return "pressure" if self.mean_gap is None else "mean_gap"
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How well a state is to be solved, and how long that may take."""
+
+    tol: float
+    max_iterations: int
 
 
 def relax_from(scaled, gap, branch, control, effort, unloaded=None):
     """State that a descent from a gap in scaled units, or None, ends in; errors as of `solve`.
 
-    `effort`: tolerance and most iterations; `unloaded`: state whose iterations count, too.
+    The iterations of the state `unloaded`, if any, count, too.
     """
-    problem, closing = scaled.problem(**control), branch == APPROACH
-    state = relax(problem, gap, *effort, closing)
+    problem = scaled.problem(pressure=control.pressure, mean_gap=control.mean_gap)
+    state = relax(problem, gap, effort.tol, effort.max_iterations, closing=branch == APPROACH)
     if unloaded is not None:
         state.iterations += unloaded.iterations
         state.fft_pairs += unloaded.fft_pairs
     result = scaled.adhesion(state, branch, control)
     if state.separated:
         raise PullOffError(
-            f"pressure = {control['pressure']!r} pulls the surfaces apart: they hold less on this "
+            f"pressure = {control.pressure!r} pulls the surfaces apart: they hold less on this "
             f"branch (the strength of the law is {scaled.law.strength:.6g}); "
             "control mean_gap instead",
             result,
         )
-    if not state.residual <= effort[0]:
+    if not state.residual <= effort.tol:
         raise ConvergenceError(
             f"residual {state.residual:.2e} after {state.iterations} iterations exceeds tol = "
-            f"{effort[0]:.2e}: raise max_iterations, or tol if it is near rounding",
+            f"{effort.tol:.2e}: raise max_iterations, or tol if it is near rounding",
             result,
         )
     imbalance = state.residual * problem.unit * scaled.stress
     largest = max(np.abs(result.pressure).max(), scaled.flattening * scaled.stress)
     if imbalance > 0.1 * largest > 0:
         text = f"{imbalance:.2g} E* is out of balance, the largest pressure is {largest:.2g} E*: "
-        raise ConvergenceError(f"{text}lower tol = {effort[0]:.2e}, or take a longer range", result)
+        raise ConvergenceError(
+            f"{text}lower tol = {effort.tol:.2e}, or take a longer range", result
+        )
     return result
 
 
@@ -215,17 +250,19 @@ def _check_edges(pixel, law, scaled):
 
 
 def _check_control(pressure, mean_gap, law):
+    """Return the `Control` of checked values."""
     if (pressure is None) == (mean_gap is None):
         raise ValueError(
             f"exactly one of pressure and mean_gap must be given, got {pressure!r}, {mean_gap!r}"
         )
-    name, value = ("pressure", pressure) if mean_gap is None else ("mean_gap", mean_gap)
-    array = numbers(name, value)
+    control = Control(pressure, mean_gap)
+    value = pressure if mean_gap is None else mean_gap
+    array = numbers(control.name, value)
     if array.ndim or not np.isfinite(array):
-        raise ValueError(f"{name} must be a finite number, got {value!r}")
+        raise ValueError(f"{control.name} must be a finite number, got {value!r}")
     if mean_gap is not None and mean_gap < _lowest_gap(law):
         raise ValueError(f"mean_gap must be at least {_lowest_gap(law)!r}, got {mean_gap!r}")
-    return {name: value}
+    return control
 
 
 def _check_start(start, shape, mean_gap):
@@ -265,14 +302,28 @@ class Scaled:
         """Scale heights, law and solid."""
         mean, rms = measure_scale(heights)
         height = rms if rms > 0 else law.range
-        scaled = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
-        length = law.adhesion_length * lengths[0] / height**2
-        scaled_law = replace(law, adhesion_length=length, range=law.range / height)
-        sides, solid = (1.0, lengths[1] / lengths[0]), solid.in_unit(lengths[0])
-        problem = Problem(scaled, sides, scaled_law, scaled_law.strength, solid)
-        flattening = float(np.sqrt(np.mean(problem.exact.stiffness(scaled) ** 2)))
-        problem = replace(problem, unit=max(flattening, scaled_law.strength))
-        return cls(problem, law, lengths, height, rms, flattening)
+        scaled_heights = (heights - mean) / height if rms > 0 else np.zeros(heights.shape)
+        scaled_law = replace(
+            law,
+            adhesion_length=law.adhesion_length * lengths[0] / height**2,
+            range=law.range / height,
+        )
+        problem = Problem(
+            heights=scaled_heights,
+            sides=(1.0, lengths[1] / lengths[0]),
+            law=scaled_law,
+            unit=scaled_law.strength,
+            solid=solid.in_unit(lengths[0]),
+        )
+        flattening = float(np.sqrt(np.mean(problem.exact.stiffness(scaled_heights) ** 2)))
+        return cls(
+            scaled=replace(problem, unit=max(flattening, scaled_law.strength)),
+            law=law,
+            lengths=lengths,
+            height=height,
+            rms_height=rms,
+            flattening=flattening,
+        )
 
     @property
     def stress(self):
@@ -295,37 +346,49 @@ class Scaled:
         gap = np.maximum(gap, lowest)
         if mean_gap is None:
             return gap
-        mean, old = mean_gap / self.height, float(gap.mean())
-        if law.hard_wall and old > 0 and gap.min() == 0:  # contact stays contact
-            return gap * (mean / old)
-        return lowered(gap + max(mean - old, 0.0), mean, lowest)
+        wanted = mean_gap / self.height
+        mean = float(gap.mean())
+        if law.hard_wall and mean > 0 and gap.min() == 0:  # contact stays contact
+            return gap * (wanted / mean)
+        return lowered(gap + max(wanted - mean, 0.0), wanted, lowest)
 
     def adhesion(self, state, branch, control):
-        """`Adhesion` in the caller's units; `control` is in these, too."""
-        law, gap = self.scaled.law, state.gap
+        """`Adhesion` in the caller's units, those of `control`."""
+        law = self.scaled.law
+        gap = state.gap
         net = np.empty(gap.shape)
-        fields = gap, state.elastic, state.traction, self.scaled.heights, net
-        sums = _sum_up(*(f.ravel() for f in fields), state.pressure, law.hard_wall, law.range)
-        repulsion, attraction, elastic, *areas = (value / gap.size for value in sums)
+        repulsion, attraction, elastic, touching, compressed, near = _sum_up(
+            gap.ravel(),
+            state.elastic.ravel(),
+            state.traction.ravel(),
+            self.scaled.heights.ravel(),
+            net.ravel(),
+            state.pressure,
+            law.hard_wall,
+            law.range,
+        )
         net *= self.stress
-        energy = self.height * self.stress
+        energy = self.height * self.stress  # unit of energies per area
+        mean_pressure = control.pressure
+        if mean_pressure is None:
+            mean_pressure = state.pressure * self.stress
         return Adhesion(
             pressure=net,
             gap=gap * self.height,
-            mean_pressure=float(control.get("pressure", state.pressure * self.stress)),
-            repulsive_pressure=repulsion * self.stress,
-            adhesive_pressure=attraction * self.stress,
-            repulsive_area_fraction=areas[0],
-            net_repulsive_area_fraction=areas[1],
-            adhesive_area_fraction=areas[2],
+            mean_pressure=float(mean_pressure),
+            repulsive_pressure=repulsion / gap.size * self.stress,
+            adhesive_pressure=attraction / gap.size * self.stress,
+            repulsive_area_fraction=touching / gap.size,
+            net_repulsive_area_fraction=compressed / gap.size,
+            adhesive_area_fraction=near / gap.size,
             mean_gap=float(gap.mean()) * self.height,
-            elastic_energy=elastic / 2 * energy,
+            elastic_energy=elastic / gap.size / 2 * energy,
             interaction_energy=state.potential * energy,
             residual=state.residual,
             iterations=state.iterations,
             fft_pairs=state.fft_pairs,
             branch=branch,
-            control=next(iter(control)),
+            control=control.name,
             law=self.law,
             length=self.lengths,
             rms_height=self.rms_height,

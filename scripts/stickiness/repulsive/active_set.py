@@ -46,8 +46,14 @@ class Problem:
 
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""
-        kind = self.heights.shape, self.sides, dtype, self.solid, self.periodic
-        return half_space.half_space(*kind, kept=self.heights.size <= _LARGEST_KEPT)
+        return half_space.half_space(
+            shape=self.heights.shape,
+            lengths=self.sides,
+            dtype=dtype,
+            solid=self.solid,
+            periodic=self.periodic,
+            kept=self.heights.size <= _LARGEST_KEPT,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +73,8 @@ class _Field:
     """A field that is zero but at some points, replaced by its image under an operator."""
 
     def __init__(self, operator, memory):
-        self.operator, self.shape = operator, operator.shape
+        self.operator = operator
+        self.shape = operator.shape
         self.image = memory.view(operator.dtype)[: self.shape[0] * self.shape[1]]
 
     def apply(self, operation, points, values, rows_in, rows_out=None):
@@ -83,8 +90,11 @@ class _Grid:
     """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
 
     def __init__(self, problem, rough, tol=0.0):
-        self.heights, self.shape = problem.heights, problem.heights.shape
-        self.solid, self.sides, self.periodic = problem.solid, problem.sides, problem.periodic
+        self.heights = problem.heights
+        self.shape = problem.heights.shape
+        self.sides = problem.sides
+        self.solid = problem.solid
+        self.periodic = problem.periodic
         self.active = np.zeros(self.heights.size, bool)
         # One array in double precision, or two in single: an image is read before the next is made.
         memory = convolution.aligned_zeros(self.heights.size, np.float64)
@@ -127,91 +137,181 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
     its memory is free, from one of the "pressure" (any positive mean), or from a uniform pressure
     on the highest points. `rough`: single precision suffices, `tol` is well above 1e-5.
     """
-    gap, pressure = guess.pop("gap", None), guess.get("pressure")
-    heights, load = problem.heights, problem.load
     sure = problem.solid == HALF_SPACE and problem.periodic
     max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
     grid = _Grid(problem, rough, tol)
-    field = grid.exact if problem.periodic and pressure is not None else grid.quick
-    total = load * heights.size
+    field = grid.exact if problem.periodic and "pressure" in guess else grid.quick
+    contact = _first_contact(problem, grid, guess)
+    if contact.points.size == problem.heights.size and problem.periodic:
+        full = _full_contact(grid, problem.load)
+        if full.pressure.min() >= 0:
+            return full
+    dilute = dilute_contact.is_worthwhile(grid, contact.points.size)
+    candidates = None
+    best = None
+    iterations = 0
+    stalled = 0
+    while True:
+        # Measure the gap in single precision, and once more in double before it is believed.
+        contact.measure(field)
+        if contact.residual <= tol and field is not grid.exact:
+            field = grid.exact
+            continue
+
+        # Keep the best iterate, and end where it is good enough or no better one is in sight.
+        stalled += 1
+        if best is None or contact.residual < best.residual:
+            best = contact.iterate()
+            stalled = 0
+        settled = contact.residual <= tol or contact.below.size + contact.points.size == 1
+        if settled or iterations >= max_iterations or stalled > max_stalled:
+            break
+
+        # Where few points touch, correct the pressure among those that may touch.
+        if dilute and stalled < _MAX_STALLED_DILUTE:
+            candidates = dilute_contact.select_candidates(
+                grid, candidates, contact.points, contact.below, field.image, contact.shift
+            )
+        else:
+            candidates = None
+        dilute = candidates is not None
+        if dilute:
+            iterations += contact.correct_among(
+                candidates, field, goal=0.3 * tol, limit=max_iterations - iterations
+            )
+            # Such a correction gains a factor of 100.
+            field = grid.quick if contact.residual > 10 * grid.single_limit else grid.exact
+            continue
+
+        # Otherwise correct it on the contact set: admit what penetrates, close the gap in contact,
+        # release what is under tension.
+        if stalled and stalled % _STALLED_UPDATES_TO_TIGHTEN == 0:
+            contact.reduction /= 10
+        admitted = contact.admit_penetrating(field)
+        iterations += contact.correct(tol, limit=max_iterations - iterations)
+        contact.release_tension()
+        contact.changed += admitted
+        field = grid.quick if contact.residual > grid.single_limit else grid.exact
+    candidates = None  # frees memory
+    contact.precondition = None
+    return _state(grid, best, field, contact.pressure, iterations)
+
+
+@dataclass(frozen=True, eq=False)
+class _Iterate:
+    """Contact set with its pressure, and how well it meets the contact conditions."""
+
+    points: np.ndarray
+    pressure: np.ndarray
+    shift: float
+    residual: float
+
+
+class _Contact:
+    """Contact set, flat and increasing `points`, and the `pressure` on it, which updates change."""
+
+    def __init__(self, grid, points, pressure, total):
+        self.grid = grid
+        self.points = points
+        self.pressure = pressure
+        self.total = total  # of the pressure over all points
+        self.precondition = None  # of this set, made when it is needed
+        self.changed = points.size  # points that the last update admitted or released
+        self.reduction = _REDUCTION_WHILE_CHANGING
+
+    def measure(self, field):
+        """Measure the gap, whose image stays in `field`, and by how much it is violated."""
+        self.shift, self.gaps, self.below, self.residual = _gap(
+            self.grid, field, self.points, self.pressure
+        )
+
+    def iterate(self):
+        """Return what was measured last, without the gap."""
+        return _Iterate(self.points, self.pressure, self.shift, self.residual)
+
+    def correct_among(self, candidates, field, goal, limit):
+        """Correct set and pressure among few candidates; returns the number of iterations."""
+        gap = field.image[candidates.points].astype(float) + self.shift
+        self.points, self.pressure, count = candidates.correct_pressure(
+            self.points, self.pressure, gap, goal, limit
+        )
+        return count
+
+    def admit_penetrating(self, field):
+        """Admit, without pressure, points that penetrate deep; returns their number."""
+        rms_gap = np.sqrt(self.gaps @ self.gaps / self.gaps.size)
+        deepest_allowed = -dilute_contact.ADMITTED_PENETRATION * rms_gap
+        admitted = self.below[field.image[self.below] + self.shift < deepest_allowed]
+        if admitted.size:
+            self.gaps = None  # frees memory
+            places = np.searchsorted(self.points, admitted)
+            self.points = np.insert(self.points, places, admitted)
+            # In the precision of the grid, be it single.
+            pressure = self.pressure.astype(self.grid.exact.image.dtype, copy=False)
+            self.pressure = np.insert(pressure, places, 0).astype(float)
+            gaps = sharing.take(field.image, self.points)
+            self.gaps = gaps.astype(float, copy=False) + self.shift
+            self.precondition = None
+        self.changed += admitted.size
+        return admitted.size
+
+    def correct(self, tol, limit):
+        """Change the pressure so as to close the gap in contact; returns the number of iterations.
+
+        Points may come under tension. The gap is given up, which frees its memory.
+        """
+        if self.precondition is None:
+            self.precondition = Preconditioner(self.grid, self.points)
+        # A set that still changes much is not worth a small gap.
+        spread = float(np.std(self.gaps))
+        reduction = self.reduction
+        if self.changed <= _FEW_CHANGES * self.points.size:
+            reduction = min(reduction, _REDUCTION_NEARLY_SETTLED)
+        goal = max(reduction * spread, 0.1 * tol) if self.changed else 0.5 * tol
+        # In single precision, of numbers about one.
+        scale = spread or 1.0
+        residuals = np.empty(self.gaps.size, np.float32)
+        np.subtract(float(self.gaps.mean()), self.gaps, out=residuals, casting="same_kind")
+        residuals /= np.float32(scale)
+        self.gaps = None
+        change, count = close_gap(
+            precondition=self.precondition,
+            compliance=self.precondition.compliance,
+            residual=residuals,
+            goal=goal / scale,
+            largest=self.changed == 0,
+            limit=limit,
+        )
+        # The load stays: the change has no mean.
+        change = np.multiply(change, scale, dtype=float)
+        change -= change.mean()
+        change += self.pressure
+        self.pressure = change
+        return count
+
+    def release_tension(self):
+        """Release the points under tension, and balance the load."""
+        keep = self.pressure > 0
+        self.changed = self.points.size - int(np.count_nonzero(keep))
+        if self.changed:
+            self.points = self.points[keep]
+            self.pressure = self.pressure[keep]
+            self.pressure *= self.total / self.pressure.sum()
+            self.precondition = None
+
+
+def _first_contact(problem, grid, guess):
+    """First contact set and pressure, from a guess of gap or pressure, or from heights alone."""
+    total = problem.load * problem.heights.size
+    gap = guess.pop("gap", None)
     if gap is not None:
-        points, pressure = _predicted_from_gap(grid, gap, load)
-        gap = None  # frees the memory
-    elif pressure is not None:
-        points, pressure = _predicted_from_pressure(grid, pressure, total)
+        points, pressure = _predicted_from_gap(grid, gap, problem.load)
+    elif "pressure" in guess:
+        points, pressure = _predicted_from_pressure(grid, guess["pressure"], total)
     else:
         points = _highest(problem)
         pressure = np.full(points.size, total / points.size)
-    if points.size == heights.size and problem.periodic:
-        full = _full_contact(grid, load)
-        if full.pressure.min() >= 0:
-            return full
-    dilute = dilute_contact.is_worthwhile(grid, points.size)
-    best = precondition = candidates = None
-    iterations, stalled, loose, changed = 0, 0, _REDUCTION_WHILE_CHANGING, points.size
-    while True:
-        shift, gaps, below, residual = _gap(grid, field, points, pressure)
-        if residual <= tol and field is not grid.exact:
-            field = grid.exact
-            continue
-        stalled += 1
-        if best is None or residual < best[-1]:
-            best, stalled = (points, pressure, shift, residual), 0
-        settled = residual <= tol or below.size + points.size == 1
-        if settled or iterations >= max_iterations or stalled > max_stalled:
-            break
-        if dilute and stalled < _MAX_STALLED_DILUTE:
-            at = points, below, field.image, shift
-            candidates = dilute_contact.select_candidates(grid, candidates, *at)
-        else:
-            candidates = None
-        if dilute := candidates is not None:
-            local = field.image[candidates.points].astype(float) + shift
-            points, pressure, count = candidates.correct_pressure(
-                points, pressure, local, 0.3 * tol, max_iterations - iterations
-            )
-            iterations += count
-            # such a correction gains a factor of 100
-            field = grid.quick if residual > 10 * grid.single_limit else grid.exact
-            continue
-        if stalled and stalled % _STALLED_UPDATES_TO_TIGHTEN == 0:
-            loose /= 10
-        admitted = below[
-            field.image[below] + shift
-            < -dilute_contact.ADMITTED_PENETRATION * np.sqrt(gaps @ gaps / gaps.size)
-        ]
-        if admitted.size:
-            gaps = None  # frees memory
-            points, pressure, gaps = _joined(grid, field, points, pressure, admitted, shift)
-            precondition = None
-        changed += admitted.size
-        if precondition is None:
-            precondition = Preconditioner(grid, points)
-        spread, few = float(np.std(gaps)), changed <= _FEW_CHANGES * points.size
-        reduction = min(loose, _REDUCTION_NEARLY_SETTLED) if few else loose
-        goal = max(reduction * spread, 0.1 * tol) if changed else 0.5 * tol
-        scale = spread or 1.0
-        residuals = np.empty(gaps.size, np.float32)
-        np.subtract(float(gaps.mean()), gaps, out=residuals, casting="same_kind")
-        residuals /= np.float32(scale)
-        gaps = None  # frees memory
-        operators, left = (precondition, precondition.compliance), max_iterations - iterations
-        change, count = close_gap(*operators, residuals, goal / scale, changed == 0, left)
-        iterations += count
-        change = np.multiply(change, scale, dtype=float)
-        change -= change.mean()
-        change += pressure
-        pressure, change, residuals = change, None, None
-        keep = pressure > 0
-        changed = points.size - int(np.count_nonzero(keep))
-        if changed:
-            points, pressure = points[keep], pressure[keep]
-            pressure *= total / pressure.sum()
-            precondition = None
-        changed += admitted.size
-        field = grid.quick if residual > grid.single_limit else grid.exact
-    candidates = precondition = None  # frees memory
-    return _state(grid, best, field, pressure, iterations)
+    return _Contact(grid, points, pressure, total)
 
 
 def _full_contact(grid, load):
@@ -223,7 +323,15 @@ def _full_contact(grid, load):
     residual = float(np.abs(misfit).max())
     pressure += load
     misfit[...] = 0
-    return State(pressure, misfit, 0.0, 1.0, residual, 0, grid.pairs)
+    return State(
+        pressure=pressure,
+        gap=misfit,
+        shift=0.0,
+        area_fraction=1.0,
+        residual=residual,
+        iterations=0,
+        fft_pairs=grid.pairs,
+    )
 
 
 def _gap(grid, field, points, pressure):
@@ -245,8 +353,9 @@ def _gap(grid, field, points, pressure):
 
 def _highest(problem):
     """Points that may touch, for want of a guess: the highest, many of them; all at a high load."""
-    heights, sure = problem.heights, problem.periodic and problem.solid == HALF_SPACE
-    # at small loads
+    heights = problem.heights
+    sure = problem.periodic and problem.solid == HALF_SPACE
+    # Share of the area in contact at small loads, A/A0 = 2 p/(E* h'_rms).
     area = 2 * problem.load / (half_space.measure_slope(heights, problem.sides) or 1.0)
     count = int(_FIRST_SET_FACTOR * area * heights.size) + 1
     if not sure or count > _LARGEST_FIRST_SET * heights.size:
@@ -256,11 +365,17 @@ def _highest(problem):
 
 def _predicted_from_gap(grid, gap, load):
     """Contact set and pressure that a guess of the gap implies: inside contact both are good."""
-    operator, surface, pressure = grid.quick.operator, grid.quick.image, grid.scratch  # free yet
+    operator = grid.quick.operator
+    # Two scratch fields that nothing uses yet.
+    surface = grid.quick.image
+    pressure = grid.scratch
+    # The pressure that displaces the solid by gap plus heights, without its mean.
     gap = gap.ravel()
     sharing.evaluate(np.add, surface, gap, grid.heights.ravel())
     operator.stiffness(surface.reshape(grid.shape), pressure.reshape(grid.shape))
-    weight, mean = np.float32(PREDICTION * operator.mean_stiffness), np.float32(load)
+    # Contact is where p > c k g.
+    weight = np.float32(PREDICTION * operator.mean_stiffness)
+    mean = np.float32(load)
     points = sharing.find(lambda c: pressure[c] + mean > np.maximum(gap[c] * weight, 0), gap.size)
     if points.size == 0:
         points = np.array([np.argmax(pressure)])
@@ -269,10 +384,12 @@ def _predicted_from_gap(grid, gap, load):
 
 
 def _predicted_from_pressure(grid, pressure, total):
+    """Contact set and pressure by a guess of the pressure, which implies the gap."""
     flat = pressure.ravel()
     points = np.flatnonzero(flat > 0)
     field = grid.exact if grid.periodic else grid.quick
     shift, *_ = _gap(grid, field, points, _balanced(flat[points], total))
+    # Contact is where p > c k g, with the mean of the guess.
     threshold = field.image
     threshold += threshold.dtype.type(shift)
     threshold *= PREDICTION * field.operator.mean_stiffness * (flat.sum() / total)
@@ -282,6 +399,7 @@ def _predicted_from_pressure(grid, pressure, total):
 
 
 def _balanced(pressure, total):
+    """Pressure scaled to a total; a uniform one if there is none."""
     pressure = pressure.astype(float, copy=False)  # single precision would upset the balance
     force = pressure.sum()
     if force > 0:
@@ -289,23 +407,24 @@ def _balanced(pressure, total):
     return np.full(pressure.size, total / pressure.size)
 
 
-def _joined(grid, field, points, pressure, extra, shift):
-    at = np.searchsorted(points, extra)
-    points = np.insert(points, at, extra)
-    # In the precision of the grid, be it single.
-    pressure = np.insert(pressure.astype(grid.exact.image.dtype, copy=False), at, 0).astype(float)
-    return points, pressure, sharing.take(field.image, points).astype(float, copy=False) + shift
-
-
-def _state(grid, best, field, last, iterations):
-    touching, pressure, shift, residual = best
+def _state(grid, best, field, last_pressure, iterations):
+    """Fields on the grid of the best iterate, whose gap and residual are in double precision."""
+    shift = best.shift
+    residual = best.residual
     # The image may belong to a later, worse iterate, or be in single precision.
-    if pressure is not last or field is not grid.exact:
-        shift, *_, residual = _gap(grid, grid.exact, touching, pressure)
+    if best.pressure is not last_pressure or field is not grid.exact:
+        shift, _, _, residual = _gap(grid, grid.exact, best.points, best.pressure)
     gap = grid.exact.image
-    filled = np.zeros_like(gap)
+    pressure = np.zeros_like(gap)
     sharing.evaluate(lambda g: np.maximum(g + g.dtype.type(shift), 0), gap, gap)
-    sharing.put(gap, touching, 0)
-    sharing.put(filled, touching, pressure)
-    fields, area = (filled.reshape(grid.shape), gap.reshape(grid.shape)), touching.size / gap.size
-    return State(*fields, shift, area, residual, iterations, grid.pairs)
+    sharing.put(gap, best.points, 0)
+    sharing.put(pressure, best.points, best.pressure)
+    return State(
+        pressure=pressure.reshape(grid.shape),
+        gap=gap.reshape(grid.shape),
+        shift=shift,
+        area_fraction=best.points.size / gap.size,
+        residual=residual,
+        iterations=iterations,
+        fft_pairs=grid.pairs,
+    )

@@ -27,14 +27,20 @@ _ALIGNED = 64  # bytes
 _U = np.uint64  # an index that cannot be negative: the compiler need not check
 
 
-class _Count(threading.local):
+class _OfThread(threading.local):
     """Points of all convolutions of this thread so far, and memory of their spectra by shape."""
 
     def __init__(self):
-        self.points, self.memory = 0, WeakValueDictionary()
+        self.points = 0
+        self.memory = WeakValueDictionary()
 
 
-COUNT = _Count()
+_OF_THREAD = _OfThread()
+
+
+def count_points():
+    """Points of all convolutions of this thread so far: differences measure its work."""
+    return _OF_THREAD.points
 
 
 class Convolution:
@@ -49,13 +55,15 @@ class Convolution:
     """
 
     def __init__(self, shape, dtype):
-        self.shape, self._dtype = shape, np.dtype(dtype)
+        self.shape = shape
+        self._dtype = np.dtype(dtype)
         self._packed = self._dtype == np.float32 and shape[1] % 2 == 0
         self._modes = shape[1] // 2 + (not self._packed)
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
         self._benches = {}  # one for each of the threads that share the work
-        groups = list((_mirrored if self._packed else _consecutive)(self._modes, shape[0]))
+        group_columns = _mirrored if self._packed else _consecutive
+        groups = list(group_columns(self._modes, shape[0]))
         self._widest = max(group.size for group in groups)
         ends = np.cumsum([group.size for group in groups]).tolist()  # of their rows in a symbol
         self._parts = [
@@ -64,9 +72,9 @@ class Convolution:
         # Convolutions of a shape share the memory of their spectra: none uses it between calls.
         rows = -(-shape[0] // 8) * 8
         size = rows * _stride(self._modes) * self._numbers.itemsize
-        memory = COUNT.memory.get(shape)
+        memory = _OF_THREAD.memory.get(shape)
         if memory is None or memory.size < size:
-            memory = COUNT.memory[shape] = aligned_zeros(size, np.uint8)
+            memory = _OF_THREAD.memory[shape] = aligned_zeros(size, np.uint8)
         self._memory = memory  # a view would not keep it, but what it is a view of
         self._flat = memory[:size].view(self._numbers)
         self._spectrum = self._flat.reshape(rows, -1)
@@ -80,7 +88,8 @@ class Convolution:
         """
         if not self._packed:
             return np.ascontiguousarray(values, self._dtype)
-        direct, crossed = np.empty((2, self._modes, values.shape[1]), self._dtype)
+        direct = np.empty((self._modes, values.shape[1]), self._dtype)
+        crossed = np.empty_like(direct)
         # Half the sum, half the difference, and twice for a transform of half the points.
         for group, rows in self._parts:
             angle = np.pi * group[:, None] / self._modes
@@ -96,7 +105,7 @@ class Convolution:
         wanted, all by default. Both arrays may be the corner of the grid that holds these rows:
         `field` is zero beyond, and `out` gets no more.
         """
-        COUNT.points += self.shape[0] * self.shape[1]
+        _OF_THREAD.points += self.shape[0] * self.shape[1]
         rows_in = np.arange(len(field)) if rows_in is None else rows_in
         rows_out = np.arange(len(out)) if rows_out is None else rows_out
         if rows_in.size < self.shape[0]:
@@ -173,8 +182,10 @@ class Convolution:
         usable = usable and step * self._rows % _ALIGNED == 0
         for start in range(0, rows.size, self._rows):
             block = rows[start : start + self._rows]
-            first, last = int(block[0]), int(block[-1])
-            together, whole = last - first + 1 == block.size, block.size == self._rows
+            first = int(block[0])
+            last = int(block[-1])
+            together = last - first + 1 == block.size
+            whole = block.size == self._rows
             direct = usable and together and whole and first * step % _ALIGNED == 0
             # A slice copies nothing.
             yield slice(first, last + 1) if together else block, block.size, direct
@@ -184,10 +195,12 @@ class Convolution:
         _turn(self._moved, group, bench.moved, False)
         bench.columns_forward.execute()
         if self._packed:
-            factors = (factor[rows] for factor in symbol)
-            _combine(*factors, bench.after, bench.product, self.shape[0])
+            direct, crossed = symbol
+            _combine(direct[rows], crossed[rows], bench.after, bench.product, self.shape[0])
         else:
-            n, half, values = self.shape[0], symbol.shape[1], bench.after[: group.size]
+            n = self.shape[0]
+            half = symbol.shape[1]
+            values = bench.after[: group.size]
             values[:, :half] *= symbol[rows]
             values[:, half:n] *= symbol[rows, n - half : 0 : -1]
         bench.columns_backward.execute()
@@ -200,11 +213,12 @@ def _turn(spectrum, group, strip, back):
     for start in range(0, spectrum.shape[0], 8):
         for r in range(group.size):
             for k in range(8):
-                at, column = _U(start + k), _U(group[r])
+                row = _U(start + k)
+                column = _U(group[r])
                 if back:
-                    spectrum[at, column] = strip[r, at]
+                    spectrum[row, column] = strip[r, row]
                 else:
-                    strip[r, at] = spectrum[at, column]
+                    strip[r, row] = spectrum[row, column]
 
 
 @compiled
@@ -215,14 +229,18 @@ def _combine(direct, crossed, values, product, n):
     """
     rows, half = direct.shape
     for r in range(rows):
-        a, b, z, back, out = direct[r], crossed[r], values[r], values[rows - 1 - r], product[r]
+        a = direct[r]
+        b = crossed[r]
+        z = values[r]
+        back = values[rows - 1 - r]
+        out = product[r]
         mirror = back[0]
         for k in range(n):
             if k > 0:
                 mirror = back[_U(n - k)]
-            at = _U(k if k < half else n - k)
+            m = _U(k if k < half else n - k)
             out[k] = complex(
-                a[at] * z[k].real + b[at] * mirror.imag, a[at] * z[k].imag + b[at] * mirror.real
+                a[m] * z[k].real + b[m] * mirror.imag, a[m] * z[k].imag + b[m] * mirror.real
             )
 
 
@@ -239,7 +257,8 @@ def _consecutive(modes, length):
 
 def _mirrored(modes, length):
     """The same, closed under k -> -k modulo `modes`; each is the mirror of its end."""
-    width, start = max(8, _STRIP // length), 1
+    width = max(8, _STRIP // length)
+    start = 1
     yield np.array([0])
     while 2 * (start + width) <= modes:
         first = np.arange(start, start + width)

@@ -8,6 +8,8 @@ of the points, between cubic B-splines (Essmann et al., J. Chem. Phys. 103:8577,
 10.1063/1.470117). It is accurate to 1 %; `active_set` measures the true gap after a correction.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy import fft, sparse
 
@@ -47,14 +49,18 @@ def _points(grid):
 
 
 def select_candidates(grid, last, points, below, image, shift):
-    """Candidates, unless too many: the `last` ones, unless some that penetrate are missing."""
+    """Candidates, unless too many: the `last` ones, unless some that penetrate are missing.
+
+    `points` are in contact and those `below` penetrate; `image` plus `shift` is the gap.
+    """
     if last is not None and np.isin(below, last.points, assume_unique=True).all():
         return last
+    # Points with a small gap may touch next, those in contact or among the last ones anyway.
     likely = image < _CANDIDATE_GAP * np.std(image[points]) - shift
     likely[points] = True
     if last is not None:
         likely[last.points] = True
-        vars(last).clear()  # frees memory
+        last.clear()
     likely = np.flatnonzero(likely)
     if not is_worthwhile(grid, likely.size):
         return None
@@ -62,33 +68,46 @@ def select_candidates(grid, last, points, below, image, shift):
     if grid.periodic:
         split = half_space.keep(_Split, grid.shape, tuple(grid.sides), grid.solid)
     else:  # on the rectangle that holds the points
-        row, column = row - row.min(), column - column.min()
-        pixel = tuple(a / n for a, n in zip(grid.sides, grid.shape, strict=True))
+        row = row - row.min()
+        column = column - column.min()
+        pixel = tuple(side / n for side, n in zip(grid.sides, grid.shape, strict=True))
         split = _FreeSplit((int(row.max()) + 1, int(column.max()) + 1), pixel)
-    pairs = _pair(row, column, split, _MAX_PAIRS * _points(grid))
-    if pairs is None:
+    # Short waves between near pairs, the stiffness that preconditions, and long waves.
+    neighbours = _Neighbours(row, column, split.cell)
+    near = _symmetric(split.near, _REACH, neighbours, most=_MAX_PAIRS * _points(grid))
+    if near is None:
         return None
-    return Candidates(grid, likely, split, _splines((row, column), split), *pairs)
+    beside = _symmetric(split.beside, _BESIDE, neighbours, most=np.inf)
+    splines = _splines(row, column, split)
+    return Candidates(grid, likely, split, splines, near, beside)
 
 
 class Candidates:
     """Points that may touch (flat, increasing), and the approximate compliance among them."""
 
     def __init__(self, grid, points, split, splines, near, beside):
-        self.points, self._near, self._beside = points, near, beside
-        self._grid, self._split = grid, split
+        self.points = points
+        self._grid = grid
+        self._split = split
         self._portion = np.prod(split.shape) / grid.heights.size
-        self._splines, self._transpose = splines, splines.T
+        self._splines = splines
+        self._transpose = splines.T
+        self._near = near
+        self._beside = beside
+
+    def clear(self):
+        """Free the memory of candidates that are not used any more."""
+        vars(self).clear()
 
     def compliance(self, pressure):
         """Displacement of all candidates, in single precision."""
         self._grid.spent += self._split.share * self._portion
         image = self._splines @ self._split.convolve(self._transpose @ pressure)
-        return _multiply(self._near, pressure, image)
+        return self._near.multiply(pressure, image)
 
     def stiffness(self, gap):
         """Pressure for a gap in contact, short waves only: a preconditioner."""
-        return _multiply(self._beside, gap, 0)
+        return self._beside.multiply(gap, 0)
 
     def correct_pressure(self, points, pressure, gap, goal, limit):
         """Correct a pressure on some candidates so as to close the `gap`, given at all of them.
@@ -96,40 +115,54 @@ class Candidates:
         Returns points, pressure and the number of iterations, about `limit` at most.
         """
         active = np.isin(self.points, points, assume_unique=True)
-        before, count = np.zeros(self.points.size), 0
+        before = np.zeros(self.points.size)
         before[active] = pressure
-        after, gap = before.copy(), gap - gap[active].mean()
+        after = before.copy()
+        count = 0
+        # The compliance is good to 1 %: a correction cannot do much better than that.
+        gap = gap - gap[active].mean()
+        gap_before = gap.copy()
         largest = float(np.abs(gap[active]).max())
         if goal < _BEST_REDUCTION * largest:
             goal = _USUAL_REDUCTION * largest
-        image = gap.copy()
         for _ in range(_MAX_SET_CHANGES):
+            # Admit points that penetrate deep.
             joined = gap < -max(ADMITTED_PENETRATION * float(np.std(gap[active])), goal)
             settled = not (joined & ~active).any() and np.abs(gap[active]).max() <= goal
             if settled or count >= limit:
                 break
-            touched, active = active, active | joined
+            touched = active
+            active = touched | joined
+            # Close the gap in contact, in single precision and scaled to one.
             misfit = gap[active].mean() - gap[active]
             scale = float(np.abs(misfit).max()) or 1.0
             misfit = (misfit / scale).astype(np.float32)
             reduction = max(_REDUCTION_WHILE_CHANGING, 0.5 * goal / scale)
-            operators = (self._among(of, active) for of in (self.stiffness, self.compliance))
-            change, more = close_gap(*operators, misfit, reduction, True, limit - count)
+            change, more = close_gap(
+                precondition=self._among(self.stiffness, active),
+                compliance=self._among(self.compliance, active),
+                residual=misfit,
+                goal=reduction,
+                largest=True,
+                limit=limit - count,
+            )
             count += more
             after[active] += (change - change.mean(dtype=float)) * scale
             steady = not (joined & ~touched).any() and after[active].min() > 0
             if steady and np.abs(misfit).max() * scale <= goal:
                 break
+            # Release points under tension, balance the load, and find the new gap.
             active = after > 0
             after[~active] = 0
             after *= pressure.sum() / after.sum()
-            gap = image + self.compliance((after - before).astype(np.float32))
+            gap = gap_before + self.compliance((after - before).astype(np.float32))
             gap -= gap[active].mean()
         return self.points[active], after[active], count
 
     def _among(self, operator, active):
         """An operator on all candidates as one on those that touch."""
-        touching, field = np.flatnonzero(active), np.zeros(active.size, np.float32)
+        touching = np.flatnonzero(active)
+        field = np.zeros(active.size, np.float32)
 
         def apply(values):
             field[touching] = values
@@ -144,19 +177,21 @@ class _Split:
     share = 1 / _SPACING**2  # of the points of the grid, in a convolution
 
     def __init__(self, shape, sides, solid):
-        self.shape = self.cell = shape
+        self.shape = shape
+        self.cell = shape
         self.coarse = tuple(fft.next_fast_len(-(-n // _SPACING), real=True) for n in shape)
         self.places = [(m / n, 0) for m, n in zip(self.coarse, shape, strict=True)]
         width = _SPLIT_WIDTH * max(a / m for a, m in zip(sides, self.coarse, strict=True))
-        # Near pairs do not feel how large the cell is.
+        # Short waves: near pairs do not feel how large the cell is.
         patch = [_TABLE * a / n for a, n in zip(sides, shape, strict=True)]
         q = half_space.effective_wavenumbers(_PATCH, patch, solid)
         self.near = _tabulate(_invert(q) * (1 - _long(_PATCH, patch, width)), _REACH)
         self.beside = _tabulate(q / 2, _BESIDE)
+        # Long waves, on the coarse grid.
         symbol = _invert(half_space.effective_wavenumbers(self.coarse, sides, solid))
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
-        symbol /= np.outer(*blur) * (shape[0] * shape[1])
+        symbol /= np.outer(blur[0], blur[1]) * (shape[0] * shape[1])
         self._convolution = convolution.Convolution(self.coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
         self._image = np.zeros(self.coarse, np.float32)
@@ -174,7 +209,8 @@ class _FreeSplit(free_edges.Split):
 
     def __init__(self, shape, pixel):
         super().__init__(shape, pixel, np.float32, free_edges.COARSE)
-        self.cell = shape[0] + _REACH, shape[1] + _REACH  # a period that brings no points together
+        # A period that brings no points together.
+        self.cell = (shape[0] + _REACH, shape[1] + _REACH)
         rest = self.rest([_REACH] * 2)
         self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)
         q = half_space.wavenumbers(_PATCH, [_TABLE * a for a in pixel])
@@ -188,57 +224,102 @@ def _long(shape, lengths, width):
 
 
 def _invert(q):
+    """Compliance 2/q of a wave, zero for the mean."""
     return np.divide(2, q, out=np.zeros_like(q), where=q > 0)
 
 
 def _tabulate(symbol, reach):
     """Kernel of a symbol, of which one quadrant is given, as `_truncate_kernel` returns it."""
-    return _truncate_kernel(np.fft.irfft2(np.concatenate([symbol, symbol[-2:0:-1]]), _PATCH), reach)
+    whole = np.concatenate([symbol, symbol[-2:0:-1]])
+    return _truncate_kernel(np.fft.irfft2(whole, _PATCH), reach)
 
 
 def _truncate_kernel(kernel, reach):
-    """Kernel within a reach, on the half of a square that holds every pair once; its diagonal."""
+    """Kernel within a reach, on the half of a square that holds every pair once."""
     kernel = kernel.astype(np.float32)
-    first, second = np.arange(_REACH + 1)[:, None], np.arange(-_REACH, _REACH + 1)
-    return np.where(np.hypot(first, second) <= reach, kernel[first, second], 0), kernel[0, 0]
+    down = np.arange(_REACH + 1)[:, None]
+    across = np.arange(-_REACH, _REACH + 1)
+    beside = np.where(np.hypot(down, across) <= reach, kernel[down, across], 0)
+    return _NearKernel(beside=beside, diagonal=kernel[0, 0])
 
 
-def _multiply(matrix, values, image):
-    """Add to an image the product of values and a symmetric matrix: two halves and diagonal."""
-    *halves, diagonal = matrix
-    first, second = sharing.share(lambda _, half: half @ values, halves, halves[0].nnz)
-    return image + first + second + diagonal * values
+@dataclass(frozen=True, eq=False)
+class _NearKernel:
+    """Displacement by pressure on a pixel, of its neighbours and of itself."""
+
+    beside: np.ndarray  #: by rows down, and by columns from `_REACH` to the left on
+    diagonal: np.float32
 
 
-def _pair(row, column, split, most):
-    """Matrices of the near compliance and of the stiffness next by; None of too many pairs."""
-    (height, period), size = split.cell, row.size
-    # Rows go on beyond both ends of the cell, so that neighbours follow one another there too.
-    left, right = np.flatnonzero(column >= period - _REACH), np.flatnonzero(column < _REACH)
-    width = period + 2 * _REACH
-    index = np.concatenate([np.arange(size, dtype=np.int32), left, right], dtype=np.int32)
-    places = row[index] * np.int32(width) + column[index] + np.int32(_REACH)
-    places[size : size + left.size] -= np.int32(period)
-    places[size + left.size :] += np.int32(period)
-    order = np.argsort(places, kind="stable")
-    where = places[order], index[order], row, column, height, width
-    near = _symmetric(split.near, _REACH, where, most)
-    return None if near is None else (near, _symmetric(split.beside, _BESIDE, where, np.inf))
+@dataclass(frozen=True, eq=False)
+class _SymmetricMatrix:
+    """Sparse symmetric matrix: the half above the diagonal, its transpose, a constant diagonal."""
+
+    upper: sparse.csr_array
+    lower: sparse.csc_array
+    diagonal: np.float32
+
+    def multiply(self, values, image):
+        """Add the product with some values to an image."""
+        halves = (self.upper, self.lower)
+        upper, lower = sharing.share(lambda _, half: half @ values, halves, self.upper.nnz)
+        return image + upper + lower + self.diagonal * values
 
 
-def _symmetric(kernel_and_diagonal, reach, where, most):
-    """Half of a matrix of pairs within reach, its transpose and the diagonal; None of too many."""
-    kernel, diagonal = kernel_and_diagonal
-    starts = np.zeros(where[2].size + 1, np.int64)
-    none = np.empty(0, np.int32), np.empty(0, np.float32)
-    _find_pairs(*where, kernel, reach, starts, *none)
+class _Neighbours:
+    """Points in the order of rows that go on beyond both ends of the cell.
+
+    Neighbours across the boundary then follow one another, too. `places` are the flat indices in
+    these wider rows, and `index` says which points these are.
+    """
+
+    def __init__(self, row, column, cell):
+        self.row = row
+        self.column = column
+        self.height, period = cell
+        self.width = period + 2 * _REACH
+        left = np.flatnonzero(column >= period - _REACH)
+        right = np.flatnonzero(column < _REACH)
+        index = np.concatenate([np.arange(row.size, dtype=np.int32), left, right], dtype=np.int32)
+        places = row[index] * np.int32(self.width) + column[index] + np.int32(_REACH)
+        places[row.size : row.size + left.size] -= np.int32(period)
+        places[row.size + left.size :] += np.int32(period)
+        order = np.argsort(places, kind="stable")
+        self.places = places[order]
+        self.index = index[order]
+
+    def find_pairs(self, kernel, reach, starts, columns, values):
+        """Fill in `starts` of rows and, if not empty, `columns` and `values` of a matrix."""
+        _find_pairs(
+            self.places,
+            self.index,
+            self.row,
+            self.column,
+            self.height,
+            self.width,
+            kernel,
+            reach,
+            starts,
+            columns,
+            values,
+        )
+
+
+def _symmetric(kernel, reach, neighbours, most):
+    """Matrix of the pairs within reach; None of more than `most`."""
+    size = neighbours.row.size
+    # Count the pairs of every point, then list them.
+    starts = np.zeros(size + 1, np.int64)
+    columns = np.empty(0, np.int32)
+    values = np.empty(0, np.float32)
+    neighbours.find_pairs(kernel.beside, reach, starts, columns, values)
     if starts[-1] > most:
         return None
-    columns, values = (np.empty(starts[-1], part.dtype) for part in none)
-    _find_pairs(*where, kernel, reach, starts, columns, values)
-    size = starts.size - 1
+    columns = np.empty(starts[-1], np.int32)
+    values = np.empty(starts[-1], np.float32)
+    neighbours.find_pairs(kernel.beside, reach, starts, columns, values)
     upper = sparse.csr_array((values, columns, starts.astype(np.int32)), shape=(size, size))
-    return upper, upper.T, diagonal
+    return _SymmetricMatrix(upper=upper, lower=upper.T, diagonal=kernel.diagonal)
 
 
 @compiled
@@ -248,39 +329,44 @@ def _find_pairs(places, index, row, column, height, width, kernel, reach, starts
     `places` are the flat indices of the points, and of some again beyond the ends of rows, and
     `index` says which points these are.
     """
-    first, total = np.zeros(reach + 1, np.int64), 0
+    first = np.zeros(reach + 1, np.int64)  # where the run of the last point began, by row
+    total = 0
     for k in range(row.size):
         for down in range(reach + 1):
             # In every row the neighbours are a run of points: half a disk holds every pair once.
             half = int(np.sqrt(reach**2 - down**2))
             place = (row[k] + down) % height * width + column[k] + _REACH
             begin = place - half if down > 0 else place + 1
-            at = first[down]  # of the last point, not far from here
-            while at > 0 and places[at - 1] >= begin:
-                at -= 1
-            while at < places.size and places[at] < begin:
-                at += 1
-            first[down] = at
-            while at < places.size and places[at] <= place + half:
+            m = first[down]  # not far from here
+            while m > 0 and places[m - 1] >= begin:
+                m -= 1
+            while m < places.size and places[m] < begin:
+                m += 1
+            first[down] = m
+            while m < places.size and places[m] <= place + half:
                 if columns.size > 0:
-                    columns[total] = index[at]
-                    values[total] = kernel[down, places[at] - place + _REACH]
+                    columns[total] = index[m]
+                    values[total] = kernel[down, places[m] - place + _REACH]
                 total += 1
-                at += 1
+                m += 1
         starts[k + 1] = total
 
 
-def _splines(at_axes, split):
+def _splines(row, column, split):
     """Cubic B-splines around the points of the coarse grid, at some of the fine one: a row each."""
-    columns, weights = np.zeros((1, 1), np.int32), np.ones((1, 1), np.float32)
-    size, coarse = at_axes[0].size, split.coarse
-    for m, (ratio, first), at in zip(coarse, split.places, at_axes, strict=True):
-        left, t = np.divmod(at[:, None] * ratio + first, 1)
+    columns = np.zeros((1, 1), np.int32)
+    weights = np.ones((1, 1), np.float32)
+    axes = zip((row, column), split.places, split.coarse, strict=True)
+    for position, (ratio, first), m in axes:
+        left, t = np.divmod(position[:, None] * ratio + first, 1)
         u = 1 - t
-        w = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6
-        here = (left.astype(np.int32) + np.arange(-1, 3, dtype=np.int32)) % np.int32(m)
-        columns = (columns[:, :, None] * np.int32(m) + here[:, None]).reshape(size, -1)
-        weights = (weights[:, :, None] * w.astype(np.float32)[:, None]).reshape(size, -1)
+        # The four splines that overlap a point, and the coarse points that they are around.
+        spline = np.hstack([u**3, 4 + 3 * t**3 - 6 * t**2, 4 + 3 * u**3 - 6 * u**2, t**3]) / 6
+        around = (left.astype(np.int32) + np.arange(-1, 3, dtype=np.int32)) % np.int32(m)
+        # Outer product with those of the other axis.
+        columns = (columns[:, :, None] * np.int32(m) + around[:, None]).reshape(row.size, -1)
+        product = weights[:, :, None] * spline.astype(np.float32)[:, None]
+        weights = product.reshape(row.size, -1)
     starts = np.arange(0, columns.size + 1, columns.shape[1], dtype=np.int32)
-    shape = size, coarse[0] * coarse[1]
+    shape = (row.size, split.coarse[0] * split.coarse[1])
     return sparse.csr_array((weights.ravel(), columns.ravel(), starts), shape=shape)

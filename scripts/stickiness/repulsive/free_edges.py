@@ -40,32 +40,41 @@ class Split:
     """Displacement by few pixels, on a grid of pixels with the given sides, zero far away."""
 
     def __init__(self, shape, pixel, dtype, accuracy):
-        self.shape, self.pixel, self.dtype, self.accuracy = shape, pixel, np.dtype(dtype), accuracy
-        order, longest = accuracy.order, max(pixel)
-        self._width = accuracy.width * SPACING * longest
+        self.shape = shape
+        self.pixel = pixel
+        self.dtype = np.dtype(dtype)
+        self.accuracy = accuracy
+        order = accuracy.order
+        self._width = accuracy.width * SPACING * max(pixel)
         self.coarse = tuple((n - 1) // SPACING + order for n in shape)
         padded = tuple(2 * fft.next_fast_len(m + _MARGIN, real=True) for m in self.coarse)
         self.share = padded[0] * padded[1] / (shape[0] * shape[1])
         spline = interpolate.BSpline.basis_element(np.arange(order + 1))
-        smooth = self._smooth([np.arange(q // 2 + 1) * SPACING for q in padded])
-        blur = [_blur(spline(np.arange(1, order)), q) ** 2 for q in padded]
+        # The smooth part without the blur by splines, once when spread and once when interpolated.
+        smooth = self._smooth([np.arange(m // 2 + 1) * SPACING for m in padded])
+        blur = [_blur(spline(np.arange(1, order)), m) ** 2 for m in padded]
         self._convolution = convolution.Convolution(padded, self.dtype)
-        self._symbol = even_symbol(self._convolution, smooth, np.outer(*blur))
+        self._symbol = even_symbol(self._convolution, smooth, np.outer(blur[0], blur[1]))
         phase = np.arange(SPACING)[:, None] / SPACING
         self._weights = spline(phase + order - 1 - np.arange(order)).astype(dtype)
-        self._field, self._image = np.zeros((2, *self.coarse), dtype)
+        self._field = np.zeros(self.coarse, dtype)
+        self._image = np.zeros(self.coarse, dtype)
 
     def _smooth(self, pixels):
         """Mean of ``erf(r/w)/(pi r)`` over a pixel, by Gauss's rule, times its area."""
+        x, y = pixels
+        side0, side1 = self.pixel
+        limit = 6 * self._width  # beyond which erf is 1
+        near = np.s_[: np.sum(x * side0 < limit), : np.sum(y * side1 < limit)]
         nodes, weights = np.polynomial.legendre.leggauss(3)
-        (x, y), limit, total = pixels, 6 * self._width, 0.0
-        near = np.s_[: np.sum(x * self.pixel[0] < limit), : np.sum(y * self.pixel[1] < limit)]
-        for (a, u), (b, v) in product(zip(nodes / 2, weights / 2, strict=True), repeat=2):
-            r = np.add.outer(((x + a) * self.pixel[0]) ** 2, ((y + b) * self.pixel[1]) ** 2)
+        rule = list(zip(nodes / 2, weights / 2, strict=True))
+        total = 0.0
+        for (node0, weight0), (node1, weight1) in product(rule, repeat=2):
+            r = np.add.outer(((x + node0) * side0) ** 2, ((y + node1) * side1) ** 2)
             np.sqrt(r, out=r)
             np.maximum(r, 1e-9 * self._width, out=r)  # in the middle the quotient has a limit
             smooth = special.erf(r[near] / self._width)
-            np.divide(u * v, r, out=r)
+            np.divide(weight0 * weight1, r, out=r)
             r[near] *= smooth
             total += r
         return total * (self.pixel[0] * self.pixel[1] / np.pi)
@@ -83,7 +92,8 @@ class Split:
         rest = self.rest(reach)
         down = np.arange(reach[0] + 1) * self.pixel[0]
         half = (np.sqrt(limit**2 - down**2) / self.pixel[1]).astype(np.int64)
-        return np.hstack([rest[:, :0:-1], rest]).astype(self.dtype), half
+        whole_rows = np.hstack([rest[:, :0:-1], rest])
+        return whole_rows.astype(self.dtype), half
 
     def convolve(self, field):
         """Smooth part on the coarse grid; the next call overwrites the result."""
@@ -100,11 +110,12 @@ class Split:
         _spread(points, values, self._weights, self.shape[1], self._field)
         self.convolve(self._field)
         starts = np.searchsorted(points, np.arange(self.shape[0] + 1) * self.shape[1])
-        near = starts, points % self.shape[1], values, *self._near
+        columns = points % self.shape[1]
+        rest, half = self._near
 
         def fill(rows):
             _interpolate(self._image, self._weights, rows.start, rows.stop, out)
-            _add_rest(*near, rows.start, rows.stop, out)
+            _add_rest(starts, columns, values, rest, half, rows.start, rows.stop, out)
 
         sharing.spread(fill, *self.shape)
 
@@ -116,8 +127,8 @@ def displace_by_pixel(shape, pixel):
     corners, of ``x asinh(y/x) + y asinh(x/y)`` (Love, Phil. Trans. R. Soc. A 228:377, 1929). At a
     distance of m pixels the difference loses some ``m**2`` times the rounding.
     """
-    x, y = ((np.arange(m + 1) - 0.5) * side for m, side in zip(shape, pixel, strict=True))
-    x, y = x[:, None], y[None, :]
+    x = ((np.arange(shape[0] + 1) - 0.5) * pixel[0])[:, None]
+    y = ((np.arange(shape[1] + 1) - 0.5) * pixel[1])[None, :]
     corners = x * np.arcsinh(y / np.abs(x)) + y * np.arcsinh(x / np.abs(y))
     return np.diff(np.diff(corners, axis=0), axis=1) / np.pi
 
@@ -131,7 +142,8 @@ def even_symbol(operator, quadrant, divisor=1.0):
 
 def _blur(values, size):
     """Half of the spectrum of a B-spline, given between its ends, on a periodic axis."""
-    wave, middle = np.arange(size // 2 + 1) * (2 * np.pi / size), values.size // 2
+    wave = np.arange(size // 2 + 1) * (2 * np.pi / size)
+    middle = values.size // 2
     return np.cos(np.outer(wave, np.arange(values.size) - middle)) @ values
 
 
@@ -159,13 +171,15 @@ def _interpolate(coarse, weights, begin, end, out):
     for i in range(begin, end):
         row[:] = 0
         for u in range(order):
-            weight, part = weights[i % spacing, u], coarse[i // spacing + u]
+            weight = weights[i % spacing, u]
+            part = coarse[i // spacing + u]
             for j in range(row.size):
                 row[j] += weight * part[j]
         for f in range(spacing):
             fine[:] = 0
             for v in range(order):
-                weight, part = weights[f, v], row[v:]
+                weight = weights[f, v]
+                part = row[v:]
                 for j in range(fine.size):
                     fine[j] += weight * part[j]
             part = out[i, f::spacing]
@@ -175,12 +189,15 @@ def _interpolate(coarse, weights, begin, end, out):
 @compiled
 def _add_rest(starts, columns, values, near, half, begin, end, out):
     """Add to some rows the rest near each point; `starts`: the first point in each row."""
-    reach, middle = near.shape[0] - 1, near.shape[1] // 2
+    reach = near.shape[0] - 1
+    middle = near.shape[1] // 2
     for i in range(begin, end):
         for k in range(max(0, i - reach), min(out.shape[0], i + reach + 1)):
-            kernel, width = near[abs(i - k)], half[abs(i - k)]
+            kernel = near[abs(i - k)]
+            width = half[abs(i - k)]
             for t in range(starts[k], starts[k + 1]):
-                first, value = max(0, columns[t] - width), values[t]
+                first = max(0, columns[t] - width)
+                value = values[t]
                 row = out[i, first : columns[t] + width + 1]
                 part = kernel[middle - columns[t] + first :]
                 for j in range(row.size):

@@ -7,6 +7,7 @@ doi 10.1115/1.2833523), and a layer by S times that, see `solids`.
 
 import math
 import threading
+from dataclasses import dataclass
 from functools import cache, cached_property, lru_cache
 
 import numpy as np
@@ -18,7 +19,9 @@ from stickiness.repulsive import convolution, free_edges, sharing
 from stickiness.repulsive.free_edges import displace_by_pixel
 from stickiness.solids import HALF_SPACE
 
-_FEW, _MANY = 12, 24  # kept of one kind, of all threads: many operators of half-spaces
+# Objects kept of one kind, of all threads: many operators of half-spaces, few others.
+_FEW = 12
+_MANY = 24
 _PATCH = 64  # pixels along the sides of a grid whose mean stiffness is that of any
 
 
@@ -40,8 +43,9 @@ def clear_caches():
 
 def wavenumbers(shape, lengths):
     """Magnitudes ``|q|`` of one quadrant of wave vectors, ``(n0 // 2 + 1, n1 // 2 + 1)``."""
-    axes = zip(shape, lengths, strict=True)
-    return np.hypot.outer(*(2 * np.pi * np.fft.rfftfreq(n, length / n) for n, length in axes))
+    q0 = 2 * np.pi * np.fft.rfftfreq(shape[0], lengths[0] / shape[0])
+    q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
+    return np.hypot.outer(q0, q1)
 
 
 def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
@@ -54,6 +58,14 @@ def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
     return q
 
 
+@dataclass(frozen=True, eq=False)
+class _Kernel:
+    """A convolution, and the symbol of what a field is convolved with."""
+
+    convolution: convolution.Convolution
+    symbol: object
+
+
 class HalfSpace:
     """Compliance ``2 S/|q|`` of a periodic solid and its inverse, the stiffness, but for q = 0.
 
@@ -62,20 +74,21 @@ class HalfSpace:
     """
 
     def __init__(self, shape, lengths, dtype, solid):
-        self.dtype, self.shape, self.lengths, self.solid = np.dtype(dtype), shape, lengths, solid
+        self.dtype = np.dtype(dtype)
+        self.shape = shape
+        self.lengths = lengths
+        self.solid = solid
         self.pairs = 0
         n0, n1 = shape
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
         q = effective_wavenumbers(shape, lengths, solid).T
         # Waves mirror one another but for the first and a last along each axis.
-        across, along = (
-            np.where(np.arange(m) % (n / 2), 2.0, 1.0)
-            for m, n in zip(q.shape, (n1, n0), strict=True)
-        )
+        across = np.where(np.arange(q.shape[0]) % (n1 / 2), 2.0, 1.0)
+        along = np.where(np.arange(q.shape[1]) % (n0 / 2), 2.0, 1.0)
         self.mean_stiffness = float(across @ q @ along) / (2 * n0 * n1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
-        self._compliance = self._convolution, self._convolution.symbol(q)
+        self._compliance = _Kernel(self._convolution, self._convolution.symbol(q))
 
     # Made on demand: some methods do not need it, and in double precision hardly any the stiffness.
     @cached_property
@@ -86,7 +99,7 @@ class HalfSpace:
     def _stiffness(self):
         q = effective_wavenumbers(self.shape, self.lengths, self.solid).T
         q /= 2 * self.shape[0] * self.shape[1]
-        return self._convolution, self._convolution.symbol(q)
+        return _Kernel(self._convolution, self._convolution.symbol(q))
 
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
         """Displacement under a pressure [E*], in the unit of `lengths` and, if periodic, of mean 0.
@@ -99,11 +112,10 @@ class HalfSpace:
         """Pressure [E*], of zero mean, that causes a displacement."""
         return self._convolve(self._stiffness, displacement, out, rows_in, rows_out)
 
-    def _convolve(self, kernel, field, out, *rows):
-        operator, symbol = kernel
+    def _convolve(self, kernel, field, out, rows_in, rows_out):
         out = np.zeros(self.shape, self.dtype) if out is None else out
-        operator.apply(symbol, field, out, *rows)
-        self.pairs += math.prod(operator.shape) / math.prod(self.shape)
+        kernel.convolution.apply(kernel.symbol, field, out, rows_in, rows_out)
+        self.pairs += math.prod(kernel.convolution.shape) / math.prod(self.shape)
         return out
 
 
@@ -117,7 +129,10 @@ class FreeHalfSpace(HalfSpace):
     """
 
     def __init__(self, shape, lengths, dtype, solid):
-        self.dtype, self.shape, self.lengths, self.solid = np.dtype(dtype), shape, lengths, solid
+        self.dtype = np.dtype(dtype)
+        self.shape = shape
+        self.lengths = lengths
+        self.solid = solid
         self.pairs = 0
         self._pixel = tuple(a / n for a, n in zip(lengths, shape, strict=True))
         patch = [_PATCH * a for a in self._pixel]
@@ -130,7 +145,7 @@ class FreeHalfSpace(HalfSpace):
         operator = convolution.Convolution(padded, self.dtype)
         # The kernel is even along both axes: a cosine transform of a quadrant has its spectrum.
         quadrant = displace_by_pixel([m // 2 + 1 for m in padded], self._pixel)
-        return operator, free_edges.even_symbol(operator, quadrant)
+        return _Kernel(operator, free_edges.even_symbol(operator, quadrant))
 
     @cached_property
     def _split(self):
@@ -147,8 +162,9 @@ def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True
     """`HalfSpace` or `FreeHalfSpace` of a grid; if `kept`, for the next call of the same thread."""
     kind = HalfSpace if periodic else FreeHalfSpace
     most = _MANY if periodic and solid == HALF_SPACE else _FEW
-    grid = tuple(shape), tuple(lengths), np.dtype(dtype), solid
-    return keep(kind, *grid, most=most) if kept else kind(*grid)
+    if not kept:
+        return kind(tuple(shape), tuple(lengths), np.dtype(dtype), solid)
+    return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid, most=most)
 
 
 def check_length(length, shape):
@@ -226,7 +242,9 @@ def _double(start, stop, field, fine):
                 near = field[k, j] + field[(k + 1) % m0, j]
                 far = field[(k - 1) % m0, j] + field[(k + 2) % m0, j]
                 line[j + 1] = (9 * near - far) / 16
-        line[0], line[m1 + 1], line[m1 + 2] = line[m1], line[1], line[2]
+        line[0] = line[m1]
+        line[m1 + 1] = line[1]
+        line[m1 + 2] = line[2]
         for j in range(m1):
             fine[i, 2 * j] = line[j + 1]
             fine[i, 2 * j + 1] = (9 * (line[j + 1] + line[j + 2]) - line[j] - line[j + 3]) / 16
@@ -235,6 +253,7 @@ def _double(start, stop, field, fine):
 def _resample(field, n, axis):
     """Sample at n points the cubics through any four neighbours."""
     m = field.shape[axis]
+    # Lagrange's polynomials through the points -1, 0, 1 and 2, at t between 0 and 1.
     position = np.arange(n) * (m / n)
     left = np.floor(position).astype(int)
     t = position - left

@@ -24,21 +24,26 @@ def close_gap(precondition, compliance, residual, goal, largest, limit):
     In single precision until the rms residual (or the `largest`) is down to `goal`. Both operators
     are on these points. Overwrites `residual`.
     """
-    change, count = np.zeros(residual.size, np.float32), 1
+    change = np.zeros(residual.size, np.float32)
+    count = 1
     if residual.size == 1 or not residual.any():
         return change, count
     goal = max(goal, _SMALLEST_REDUCTION)
-    direction, product = None, 1.0
+    direction = None
+    product = 1.0
     while True:
+        # Preconditioned residual, without the mean that would change the load.
         z = precondition(residual)
         z -= z.mean()
-        previous, product = product, float(residual @ z)
+        last_product = product
+        product = float(residual @ z)
         if not product > 0:  # nothing but rounding is left
             break
+        # Conjugate direction, and the step along it that minimises the energy.
         if direction is None:
             direction = z
         else:
-            direction *= np.float32(product / previous)
+            direction *= np.float32(product / last_product)
             direction += z
         image = compliance(direction)
         step = np.float32(product / float(direction @ image))
@@ -57,7 +62,8 @@ class Preconditioner:
     """Stiffness between an extension of the residual beyond contact and its transpose."""
 
     def __init__(self, grid, points):
-        self.grid, self.quick = grid, grid.quick
+        self.grid = grid
+        self.quick = grid.quick
         self.points = points
         self.rows = grid.rows(points)
         self.mean = None
@@ -75,18 +81,22 @@ class Preconditioner:
 
     def __call__(self, residual):
         """Approximate pressure for a displacement of the points, both in single precision."""
-        quick, points = self.quick, self.points
+        quick = self.quick
+        points = self.points
         stiffness = quick.operator.stiffness
         if self.mean is None:
             image = quick.apply(stiffness, points, residual, self.rows, self.rows)
             return sharing.take(image, points)
         scratch = self.grid.scratch
-        field, image = scratch.reshape(quick.shape), quick.image.reshape(quick.shape)
+        field = scratch.reshape(quick.shape)
+        image = quick.image.reshape(quick.shape)
+        # Extend the displacement beyond contact by weighted means.
         sharing.evaluate(lambda: 0, scratch)
         sharing.put(scratch, points, residual)
         self.mean.gather(field)
         self.mean.spread(self.weights, image)
         sharing.put(quick.image, points, residual)
+        # Stiffness, and the transpose of the extension.
         stiffness(image, field)
         self.mean.gather(field, self.weights)
         pressure = self.mean.at(points)
@@ -96,8 +106,8 @@ class Preconditioner:
 
     def compliance(self, values):
         """Displacement of the points under a pressure on them, both in single precision."""
-        quick, rows = self.quick, self.rows
-        image = quick.apply(quick.operator.compliance, self.points, values, rows, rows)
+        compliance = self.quick.operator.compliance
+        image = self.quick.apply(compliance, self.points, values, self.rows, self.rows)
         return sharing.take(image, self.points)
 
 
@@ -107,33 +117,49 @@ class _Mean:
     def __init__(self, shape, sides):
         coarse = tuple(-(-n // _SPACING) for n in shape)
         self._axes = [_interpolation(n, m) for n, m in zip(shape, coarse, strict=True)]
-        self._transposed = [_transpose(*by, m) for by, m in zip(self._axes, coarse, strict=True)]
-        steps = [a / m for a, m in zip(sides, coarse, strict=True)]
+        self._transposed = [
+            _transpose(left, right, t, m)
+            for (left, right, t), m in zip(self._axes, coarse, strict=True)
+        ]
+        # Inverse square of the distance on the coarse grid.
+        steps = [side / m for side, m in zip(sides, coarse, strict=True)]
         axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
         square[0, 0] = 1 / _SELF_WEIGHT
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
         self._convolution = convolution.Convolution(coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol[: coarse[0] // 2 + 1].T)
-        self._field, self._image = np.zeros((2, *coarse), np.float32)
+        self._field = np.zeros(coarse, np.float32)
+        self._image = np.zeros(coarse, np.float32)
 
     def gather(self, field, weights=None):
         """Take the sums of a field in single precision, or of its product with weights."""
-        given, out = (field, weights, *self._transposed), self._field
-        size = len(out), _SPACING * field.shape[1]
-        sharing.spread(lambda rows: _add_to_coarse(rows.start, *given, out[rows]), *size)
+        axis0, axis1 = self._transposed
+
+        def add(rows):
+            _add_to_coarse(rows.start, field, weights, axis0, axis1, self._field[rows])
+
+        sharing.spread(add, size=len(self._field), width=_SPACING * field.shape[1])
         self._convolution.apply(self._symbol, self._field, self._image)
 
     def spread(self, weights, out):
         """Sums at all points of a grid, times weights if any."""
-        given = self._image, *self._axes, weights
-        sharing.spread(lambda rows: _interpolate(rows.start, *given, out[rows]), *out.shape)
+        axis0, axis1 = self._axes
+
+        def fill(rows):
+            _interpolate(rows.start, self._image, axis0, axis1, weights, out[rows])
+
+        sharing.spread(fill, size=out.shape[0], width=out.shape[1])
 
     def at(self, points):
         """Sums at some points, given by flat indices."""
+        axis0, axis1 = self._axes
         out = np.empty(points.size, np.float32)
-        given = self._image, *self._axes
-        sharing.spread(lambda c: _interpolate_at(points[c], *given, out[c]), points.size)
+
+        def fill(chunk):
+            _interpolate_at(points[chunk], self._image, axis0, axis1, out[chunk])
+
+        sharing.spread(fill, points.size)
         return out
 
 
@@ -146,25 +172,30 @@ def _interpolation(n, m):
 
 def _transpose(left, right, t, m):
     """For each of m points those interpolated from it, and with what weights; a row each."""
-    to, weights = np.concatenate([left, right]), np.concatenate([1 - t, t])
-    order = np.argsort(to, kind="stable")
-    count = np.bincount(to, minlength=m)
-    place = np.arange(to.size) - np.repeat(np.cumsum(count) - count, count)
+    source = np.concatenate([left, right])
+    weights = np.concatenate([1 - t, t])
+    # Sorted by the point that they come from; `place` counts within each of these.
+    order = np.argsort(source, kind="stable")
+    count = np.bincount(source, minlength=m)
+    place = np.arange(source.size) - np.repeat(np.cumsum(count) - count, count)
     points = np.zeros((m, count.max()), np.int64)
     shares = np.zeros(points.shape, np.float32)
-    points[to[order], place], shares[to[order], place] = order % left.size, weights[order]
+    points[source[order], place] = order % left.size
+    shares[source[order], place] = weights[order]
     return points, shares
 
 
 @compiled
 def _add_to_coarse(first, field, weights, axis0, axis1, coarse):
     """Transpose of an interpolation of a field, or times weights: rows from a first one on."""
-    (points0, shares0), (points1, shares1) = axis0, axis1
+    points0, shares0 = axis0
+    points1, shares1 = axis1
     row = np.empty(field.shape[1], field.dtype)
     for a in range(coarse.shape[0]):
         row[:] = 0
         for k in range(points0.shape[1]):
-            i, share = points0[first + a, k], shares0[first + a, k]
+            i = points0[first + a, k]
+            share = shares0[first + a, k]
             for j in range(row.size):
                 row[j] += share * (field[i, j] if weights is None else field[i, j] * weights[i, j])
         for b in range(coarse.shape[1]):
@@ -177,8 +208,10 @@ def _add_to_coarse(first, field, weights, axis0, axis1, coarse):
 @compiled
 def _interpolate(first, coarse, axis0, axis1, weights, out):
     """Interpolate rows, from a first one on; times weights of the whole grid if any."""
-    (left0, right0, t0), (left1, right1, t1) = axis0, axis1
-    beside, before = np.empty((2, left1.size), coarse.dtype), -1
+    left0, right0, t0 = axis0
+    left1, right1, t1 = axis1
+    beside = np.empty((2, left1.size), coarse.dtype)
+    before = -1
     for i in range(out.shape[0]):
         if left0[first + i] != before:  # the next coarse row, stretched, or at first two of them
             for k in range(-1 if i == 0 else 0, 1):
@@ -196,14 +229,17 @@ def _interpolate(first, coarse, axis0, axis1, weights, out):
 @compiled
 def _interpolate_at(points, coarse, axis0, axis1, out):
     """Interpolate at some points, given by flat and increasing indices."""
-    (left0, right0, t0), (left1, right1, t1) = axis0, axis1
-    i, begin = 0, 0
+    left0, right0, t0 = axis0
+    left1, right1, t1 = axis1
+    i = 0
+    begin = 0
     for k in range(points.size):
         if points[k] >= begin + left1.size:
             i = points[k] // left1.size
             begin = i * left1.size
         j = points[k] - begin
-        a, b = left1[j], right1[j]
+        a = left1[j]
+        b = right1[j]
         upper = coarse[left0[i], a] + t1[j] * (coarse[left0[i], b] - coarse[left0[i], a])
         lower = coarse[right0[i], a] + t1[j] * (coarse[right0[i], b] - coarse[right0[i], a])
         out[k] = upper + t0[i] * (lower - upper)

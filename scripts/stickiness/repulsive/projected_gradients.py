@@ -7,6 +7,8 @@ there it may cycle, or hardly gain. The method of Polonsky and Keer (Wear 231:20
 preconditions it, with directions of Polak and Ribiere: hundreds of iterations instead of thousands.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from stickiness.repulsive.active_set import State
@@ -17,33 +19,57 @@ _JOINING = 1e-6  # of the mean pressure, for points that join: what they carry i
 def relax(problem, pressure, tol, max_iterations):
     """Find pressure and gap, as `active_set.relax` does, from a pressure of any positive mean."""
     operator = problem.operator(np.float64)
-    before, best, iterations = operator.pairs, None, 0
+    pairs_before = operator.pairs
     pressure = np.maximum(pressure, 0.0)
     pressure *= problem.load / pressure.mean()
-    old, direction, last = np.zeros_like(pressure), np.zeros_like(pressure), np.inf
+    best = None
+    iterations = 0
+    last_gap = np.zeros_like(pressure)
+    last_product = np.inf
+    direction = np.zeros_like(pressure)
     while True:
         gap, touching, shift, residual = _gap(problem, operator, pressure)
-        if best is None or residual < best[0]:
-            best = residual, shift, pressure.copy(), gap.copy()
+        if best is None or residual < best.residual:
+            best = _Iterate(pressure.copy(), gap.copy(), shift, residual)
         if residual <= tol or iterations >= max_iterations:
             break
+        # The stiffness preconditions the gap in contact, which is the gradient of the energy.
         gap_in_contact = gap * touching
         fall = operator.stiffness(gap_in_contact)
         fall *= touching
         fall[touching] -= fall[touching].mean()
+        # Direction of Polak and Ribiere.
         product = float(np.vdot(gap_in_contact, fall))
-        weight = max(0.0, (product - float(np.vdot(old, fall))) / last)
+        weight = max(0.0, (product - float(np.vdot(last_gap, fall))) / last_product)
         direction *= weight
         direction *= touching
         direction += fall
-        old, iterations = gap_in_contact, iterations + 1
-        last = product if _step(problem, operator, pressure, gap, direction) else np.inf
-    residual, shift, pressure, gap = best
-    touching = pressure > 0
-    np.maximum(gap, 0.0, out=gap)
+        conjugate = _step(problem, operator, pressure, gap, direction)
+        last_gap = gap_in_contact
+        last_product = product if conjugate else np.inf
+        iterations += 1
+    touching = best.pressure > 0
+    gap = np.maximum(best.gap, 0.0)
     gap[touching] = 0
-    area, pairs = float(np.mean(touching)), operator.pairs - before
-    return State(pressure, gap, shift, area, residual, iterations, pairs)
+    return State(
+        pressure=best.pressure,
+        gap=gap,
+        shift=best.shift,
+        area_fraction=float(np.mean(touching)),
+        residual=best.residual,
+        iterations=iterations,
+        fft_pairs=operator.pairs - pairs_before,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Iterate:
+    """Pressure, its gap, and how well they meet the contact conditions."""
+
+    pressure: np.ndarray
+    gap: np.ndarray
+    shift: float
+    residual: float
 
 
 def _gap(problem, operator, pressure):

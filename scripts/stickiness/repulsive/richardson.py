@@ -59,17 +59,40 @@ RULES = {
 def estimate(
     quantity: str, values: Sequence[Values], part: Values, edges: Values, climbs: Values = np.inf
 ) -> Estimate:
-    """Continuum limit of a quantity of `RULES` measured with sub-pixel edges, and its error.
+    """Continuum limit of a quantity measured with sub-pixel edges, and its error.
 
-    `values` are those on two or three grids, from coarse to fine. On the finest, `part` is what
-    sub-pixel edges contribute: the value less the one counted in pixels for areas; for the mean gap
-    that of the contact area times the `subpixel.edge_gap`; for the gap density the density times
-    the relative part of the attractive area. `edges` is the number of pixel sides between contact
-    and gap, and `climbs` the range over the edge gap, for attractive areas. For the mean of several
-    surfaces pass means and the *sum* of `edges`: the error's random part falls with their number.
+    For the mean of several surfaces pass means and the *sum* of `edges`: the error's random part
+    falls with their number.
 
-    >>> found = estimate("area_fraction", [0.0630, 0.0620], part=-0.003, edges=3000)
-    >>> round(float(found.value), 4), round(float(found.error), 4)
+    Parameters
+    ----------
+    quantity : str
+        One of `RULES`.
+    values : sequence
+        Its values on two or three grids, from coarse to fine, each half as fine as the next.
+    part : float or array
+        What sub-pixel edges contribute on the finest grid: for areas the value less the one counted
+        in pixels; for the mean gap that of the contact area times the `subpixel.edge_gap`; for the
+        gap density the density times the relative part of the attractive area.
+    edges : float or array
+        Number of pixel sides between contact and gap on the finest grid.
+    climbs : float or array
+        Range over the edge gap, for attractive areas.
+
+    Returns
+    -------
+    Estimate
+        Value and error, of the shape that the arguments broadcast to.
+
+    Raises
+    ------
+    ValueError
+        If the quantity is not in `RULES`, or a number is missing, not finite or negative.
+
+    Examples
+    --------
+    >>> area = estimate("area_fraction", [0.0630, 0.0620], part=-0.003, edges=3000)
+    >>> round(float(area.value), 4), round(float(area.error), 4)
     (0.062, 0.0005)
     """
     if quantity not in RULES:
@@ -80,11 +103,13 @@ def estimate(
         raise ValueError("values and part must be finite, got NaN or infinite ones")
     nonnegative(edges=edges, climbs=climbs)
     rule = RULES[quantity]
+    # The last change, and with three grids the one that the last but one lets expect.
     change = values[-1] - values[-2]
     square = change**2
     if len(values) == 3:
         expected = (values[-2] - values[-3]) / 2**rule.order
         square = (square + expected**2) / 2
+    # How far the range is below those that the grid resolves, from 0 to 1.
     unresolved = np.maximum(1 - np.asarray(1.0) * climbs / rule.resolved, 0.0)
     extra = max(rule.unresolved_part - rule.part, 0.0)
     share = rule.part + extra * (unresolved > 0)

@@ -18,7 +18,8 @@ _ROWS = 32  # … or rows
 class _Team(threading.local):
     """Threads that help this one."""
 
-    helpers, pool = 0, None
+    helpers = 0
+    pool = None
 
 
 _TEAM = _Team()
@@ -27,13 +28,16 @@ _TEAM = _Team()
 @contextmanager
 def threads(count):
     """Let `share` use this many threads, within a ``with`` block and for this thread only."""
-    before = _TEAM.helpers, _TEAM.pool
+    helpers_before = _TEAM.helpers
+    pool_before = _TEAM.pool
     with ThreadPoolExecutor(max(1, count - 1)) as pool:  # starts no thread before its first task
-        _TEAM.helpers, _TEAM.pool = count - 1, pool
+        _TEAM.helpers = count - 1
+        _TEAM.pool = pool
         try:
             yield
         finally:
-            _TEAM.helpers, _TEAM.pool = before
+            _TEAM.helpers = helpers_before
+            _TEAM.pool = pool_before
 
 
 def share(work, parts, points):
@@ -41,7 +45,8 @@ def share(work, parts, points):
 
     No two threads are the same worker: they count from zero.
     """
-    parts, results = list(parts), {}
+    parts = list(parts)
+    results = {}
     todo = iter(range(len(parts)))  # whoever is free takes the next
 
     def run(worker):

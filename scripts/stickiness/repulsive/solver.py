@@ -29,9 +29,11 @@ _MAX_LOAD_CHANGE = 0.005
 _MAX_TOLERANCE = 0.1  # of h_rms: beyond this no solution is worth the name
 # Iterations with active sets on a layer or with free edges: either tens do, or more gain little.
 _MAX_UNSURE_ITERATIONS = 150
-# Of h_rms, at most and in single precision at least, and of the rms step from point to point: a
-# guess for the next grid needs no more.
-_COARSE_TOLERANCES, _COARSE_TOLERANCE_OF_STEP = (1e-4, 3e-3), 0.05
+# Tolerance on a coarser grid, over the rms step from point to point: a guess for the next grid
+# needs no more. The limits are over h_rms; single precision gives the lower one.
+_COARSE_TOLERANCE_OF_STEP = 0.05
+_LEAST_COARSE_TOLERANCE = 1e-4
+_LARGEST_COARSE_TOLERANCE = 3e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,6 +133,11 @@ def solve(
         is the same, bit by bit, for any number. Many solutions at once, each on one thread, are the
         better use of many cores.
 
+    Returns
+    -------
+    Contact
+        Pressure, gap and the numbers that follow from them.
+
     Raises
     ------
     ValueError
@@ -180,10 +187,12 @@ def solve(
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
         warn_of_pressure(pressure, half_space.measure_slope(heights, lengths) * stiffening)
     with sharing.threads(threads):
-        scale = half_space.measure_scale(heights)
-        warn_of_heights(scale[1], lengths[0])
-        problem = active_set.Problem(heights, lengths, pressure, solid, bool(periodic))
-        return press(problem, tol, start, max_iterations, scale)
+        mean, rms = half_space.measure_scale(heights)
+        warn_of_heights(rms, lengths[0])
+        problem = active_set.Problem(
+            heights=heights, sides=lengths, load=pressure, solid=solid, periodic=bool(periodic)
+        )
+        return press(problem, tol, start, max_iterations, scale=(mean, rms))
 
 
 def press(problem, tol, start=None, limit=1000, scale=None):
@@ -191,34 +200,27 @@ def press(problem, tol, start=None, limit=1000, scale=None):
 
     `scale`: what `half_space.measure_scale` returns, if it is known.
     """
-    heights, lengths, pressure = problem.heights, problem.sides, problem.load
-    periodic, (mean, rms) = problem.periodic, scale or half_space.measure_scale(heights)
-    if pressure == 0 or (rms == 0 and periodic):  # no contact, or full contact of a flat
-        top = float(heights.max() if rms > 0 else heights.flat[0])
-        gap = top - heights if rms > 0 else np.zeros(heights.shape)
-        area, field = float(pressure > 0), np.full(heights.shape, pressure)
-        state = active_set.State(field, gap, top, area, 0.0, 0, 0.0)
+    heights = problem.heights
+    mean, rms = scale or half_space.measure_scale(heights)
+    if problem.load == 0 or (rms == 0 and problem.periodic):
+        state = _state_at_once(problem, rms)
     else:
-        unit = rms if rms > 0 else pressure * lengths[0]  # a flat punch only sinks in
-        scaled = np.empty(heights.shape)
-        sharing.evaluate(lambda h: (h - mean) / unit, scaled.ravel(), heights.ravel())
-        load, sides = pressure * (lengths[0] / unit), (1.0, lengths[1] / lengths[0])
-        solid = problem.solid.in_unit(lengths[0])
-        problem = replace(problem, heights=scaled, sides=sides, load=load, solid=solid)
+        unit = rms if rms > 0 else problem.load * problem.sides[0]  # a flat punch only sinks in
         guess = {"pressure": start.pressure} if start is not None and start.area_fraction else None
-        state = _relax(problem, guess, tol, limit)
-        # Nothing else refers to these fields: they may be large, and are scaled in place.
-        field, gap = (np.asarray(values, dtype=float) for values in (state.pressure, state.gap))
-        field *= unit / lengths[0]
-        gap *= unit
-        state = replace(state, pressure=field, gap=gap, shift=state.shift * unit + mean)
+        state = _relax_in_unit(problem, guess, tol, limit, mean, unit)
     contact = Contact(
-        **vars(state),
-        mean_pressure=pressure,
+        pressure=state.pressure,
+        gap=state.gap,
+        shift=state.shift,
+        area_fraction=state.area_fraction,
+        residual=state.residual,
+        iterations=state.iterations,
+        fft_pairs=state.fft_pairs,
+        mean_pressure=problem.load,
         mean_gap=float(state.gap.mean()),
-        length=lengths,
+        length=problem.sides,
         rms_height=rms,
-        approach=np.nan if periodic else float(heights.max()) - state.shift,
+        approach=np.nan if problem.periodic else float(heights.max()) - state.shift,
     )
     if not state.residual <= tol:
         raise ConvergenceError(
@@ -229,6 +231,42 @@ def press(problem, tol, start=None, limit=1000, scale=None):
     return contact
 
 
+def _state_at_once(problem, rms):
+    """State that needs no iteration: no contact without load, and full contact of a flat."""
+    heights = problem.heights
+    top = float(heights.max() if rms > 0 else heights.flat[0])
+    return active_set.State(
+        pressure=np.full(heights.shape, problem.load),
+        gap=top - heights if rms > 0 else np.zeros(heights.shape),
+        shift=top,
+        area_fraction=float(problem.load > 0),
+        residual=0.0,
+        iterations=0,
+        fft_pairs=0.0,
+    )
+
+
+def _relax_in_unit(problem, guess, tol, limit, mean, unit):
+    """Solve with heights about their mean in a unit and lengths in the first side; state as is."""
+    side = problem.sides[0]
+    scaled = np.empty(problem.heights.shape)
+    sharing.evaluate(lambda h: (h - mean) / unit, scaled.ravel(), problem.heights.ravel())
+    scaled_problem = replace(
+        problem,
+        heights=scaled,
+        sides=(1.0, problem.sides[1] / side),
+        load=problem.load * (side / unit),
+        solid=problem.solid.in_unit(side),
+    )
+    state = _relax(scaled_problem, guess, tol, limit)
+    # Nothing else refers to these fields: they may be large, and are scaled in place.
+    pressure = np.asarray(state.pressure, dtype=float)
+    pressure *= unit / side
+    gap = np.asarray(state.gap, dtype=float)
+    gap *= unit
+    return replace(state, pressure=pressure, gap=gap, shift=state.shift * unit + mean)
+
+
 def load_path(
     heights: ArrayLike,
     length: float | tuple[float, float],
@@ -236,10 +274,33 @@ def load_path(
     tol: float = 1e-8,
     **options: Any,
 ) -> Iterator[Contact]:
-    """Solve one surface at several mean pressures [E*]; yields one `Contact` for each, in order.
+    """Solve one surface at several mean pressures, in the order given.
 
     A solution at nearly the same pressure is the start of the next; beyond a relative change of
-    0.5 % coarser grids predict the contact better. The other arguments are those of `solve`.
+    0.5 % coarser grids predict the contact better.
+
+    Parameters
+    ----------
+    heights, length, tol
+        As for `solve`.
+    pressures : iterable of float
+        Mean pressures in units of E*.
+    **options
+        Further arguments of `solve`, except `start`.
+
+    Yields
+    ------
+    Contact
+        One for each pressure.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> wave = 0.01 * np.cos(2 * np.pi * np.arange(64) / 64)[:, None] * np.ones(64)
+    >>> for contact in load_path(wave, length=1.0, pressures=[0.01, 0.02]):
+    ...     print(f"{contact.area_fraction:.2f}")
+    0.39
+    0.61
     """
     last = None
     for pressure in pressures:
@@ -256,11 +317,13 @@ def _relax(problem, guess, tol, limit):
     guess = guess or _guess_from_coarser_grids(problem, work)
     first_limit = min(limit, _MAX_UNSURE_ITERATIONS) if unsure else limit
     state = active_set.relax(problem, guess, tol=tol, max_iterations=first_limit)
-    iterations, pairs = state.iterations, state.fft_pairs
+    iterations = state.iterations
+    pairs = state.fft_pairs
     if unsure and not state.residual <= tol and iterations < limit:
         pressure = np.asarray(state.pressure, dtype=float)
         state = projected_gradients.relax(problem, pressure, tol, limit - iterations)
-        iterations, pairs = iterations + state.iterations, pairs + state.fft_pairs
+        iterations += state.iterations
+        pairs += state.fft_pairs
     pairs += sum(work) / problem.heights.size
     return replace(state, iterations=iterations, fft_pairs=pairs)
 
@@ -275,16 +338,20 @@ def _guess_from_coarser_grids(problem, work):
         return {}
     if problem.periodic:
         coarse_shape = tuple(half_space.coarsen(n) for n in shape)
-        heights, sides = half_space.sample(problem.heights, coarse_shape), problem.sides
+        heights = half_space.sample(problem.heights, coarse_shape)
+        sides = problem.sides
     else:
         heights = half_space.average_pixels(problem.heights)
+        # Of an odd number of pixels the last one extends beyond the rectangle.
         sides = tuple(
-            a * 2 * m / n for a, m, n in zip(problem.sides, heights.shape, shape, strict=True)
+            side * 2 * m / n for side, m, n in zip(problem.sides, heights.shape, shape, strict=True)
         )
     coarse = replace(problem, heights=heights, sides=sides)
     guess = _guess_from_coarser_grids(coarse, work)
     step = half_space.measure_slope(heights, heights.shape)
-    tol = np.clip(_COARSE_TOLERANCE_OF_STEP * step, *_COARSE_TOLERANCES)
+    tol = np.clip(
+        _COARSE_TOLERANCE_OF_STEP * step, _LEAST_COARSE_TOLERANCE, _LARGEST_COARSE_TOLERANCE
+    )
     state = active_set.relax(coarse, guess, tol=tol, max_iterations=200, rough=True)
     work.append(state.fft_pairs * heights.size)
     if problem.periodic:

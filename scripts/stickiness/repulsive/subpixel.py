@@ -9,6 +9,8 @@ lines along both axes (Cavalieri); on a line, s is interpolated linearly between
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -91,21 +93,28 @@ def attractive_area(
     weights = sides / sides.sum() if sides.any() else np.array([0.5, 0.5])
     length = np.zeros(levels.size)
     edges = []
-    grids = (array.reshape(-1, *array.shape[-2:]) for array in (gap, contact))
-    for field, touching in zip(*grids, strict=True):
+    gaps = gap.reshape(-1, *gap.shape[-2:])
+    contacts = contact.reshape(-1, *contact.shape[-2:])
+    for field, touching in zip(gaps, contacts, strict=True):
         s = np.cbrt(np.maximum(field, 0.0)) ** 2
-        found = [_edges(s, touching, axis) for axis in (0, 1)]
+        edges_by_axis = [_edges(s, touching, axis) for axis in (0, 1)]
         # A point opens on the grid when the edge is still 0.2 pixels short of it, with next to no
         # gap: it gets the one that the edge law has there.
-        for index, _, _, lifted in found:
-            np.maximum.at(s, index, lifted)
+        for at_edges in edges_by_axis:
+            np.maximum.at(s, at_edges.index, at_edges.lifted)
         for axis, weight in enumerate(weights):
-            rows, mask = (s, touching) if axis == 1 else (s.T, touching.T)
+            # Intervals between open neighbours, block by block of lines along the axis.
+            rows = s if axis == 1 else s.T
+            mask = touching if axis == 1 else touching.T
             step = max(1, _BLOCK // rows.shape[1])
-            for part in (slice(start, start + step) for start in range(0, rows.shape[0], step)):
-                length += weight * _between_open_points(rows[part], mask[part], levels)
-            index, distance, second, _ = found[axis]
-            edges.append([distance, s[index], second, np.full(distance.size, weight)])
+            for start in range(0, rows.shape[0], step):
+                block = slice(start, start + step)
+                length += weight * _between_open_points(rows[block], mask[block], levels)
+            # Intervals between an edge and the first open point, of all grids together below.
+            at_edges = edges_by_axis[axis]
+            first = s[at_edges.index]
+            line_weights = np.full(first.size, weight)
+            edges.append([at_edges.distance, first, at_edges.second, line_weights])
     length += _beside_edges(np.concatenate(edges, axis=1), levels)
     area = length[inverse].reshape(eps.shape) / gap.size
     return area if eps.ndim else float(area)
@@ -153,51 +162,74 @@ def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArr
     """Length up to every level of the intervals between open neighbours, along the last axis."""
     end = levels.size
     node = np.searchsorted(levels, s.ravel()).reshape(s.shape)  # first level that s is within
-    following = np.roll(contact, -1, axis=1)
-    both = ~(contact | following)
-    one, other = node[both], np.roll(node, -1, axis=1)[both]
-    whole = np.bincount(np.maximum(one, other), minlength=end + 1)[:end].cumsum().astype(float)
-    crossed = one != other
-    low, high = s[both][crossed], np.roll(s, -1, axis=1)[both][crossed]
-    low, high = np.minimum(low, high), np.maximum(low, high)
-    first, last = np.minimum(one, other)[crossed], np.maximum(one, other)[crossed]
+    both_open = ~(contact | np.roll(contact, -1, axis=1))
+    left_node = node[both_open]
+    right_node = np.roll(node, -1, axis=1)[both_open]
+    # Both ends are within the level: the interval counts as a whole.
+    upper_node = np.maximum(left_node, right_node)
+    whole = np.bincount(upper_node, minlength=end + 1)[:end].cumsum().astype(float)
+    # Levels between the ends: a part of it does.
+    crossed = left_node != right_node
+    left = s[both_open][crossed]
+    right = np.roll(s, -1, axis=1)[both_open][crossed]
+    low = np.minimum(left, right)
+    high = np.maximum(left, right)
     # A step of rounding size has no length below its top that could matter.
     steep = high - low > _LEVEL * high
-    low, rate, first, last = low[steep], 1 / (high - low)[steep], first[steep], last[steep]
-    # Between `first` and `last` an interval holds (level - low) rate: sums of rates and offsets.
-    rates, offsets = (
-        (
-            np.bincount(first, weights=w, minlength=end + 1)
-            - np.bincount(last, weights=w, minlength=end + 1)
-        )[:end].cumsum()
-        for w in (rate, low * rate)
-    )
-    return whole + levels * rates - offsets
+    rate = 1 / (high - low)[steep]
+    low = low[steep]
+    first = np.minimum(left_node, right_node)[crossed][steep]
+    last = upper_node[crossed][steep]
+
+    def sum_up(weights):
+        """Sum of weights, for every level, over the intervals that it crosses."""
+        begun = np.bincount(first, weights=weights, minlength=end + 1)
+        ended = np.bincount(last, weights=weights, minlength=end + 1)
+        return (begun - ended)[:end].cumsum()
+
+    # Between `first` and `last` an interval holds (level - low) rate.
+    return whole + levels * sum_up(rate) - sum_up(low * rate)
 
 
-def _edges(s: NDArray, contact: NDArray, axis: int) -> tuple:
-    """Find the edges on lines along an axis and how far they are from the first open points.
+@dataclass(frozen=True, eq=False)
+class _Edges:
+    """Edges of contact on the lines along one axis, each at its first open point."""
 
-    Returns indices of the first open points, their distances from the edge in pixels, s of the
-    points beyond (NaN where the gap closes again), and s of the first points by the edge law (zero
-    where the solution's is as good), all of one length.
-    """
-    parts = []
+    index: tuple  #: rows and columns of the first open points
+    distance: NDArray  #: of these from the edge, in pixels
+    second: NDArray  #: s of the points beyond, NaN where the gap closes again
+    lifted: NDArray  #: s of the first points by the edge law, zero where the solution's is as good
+
+
+def _edges(s: NDArray, contact: NDArray, axis: int) -> _Edges:
+    """Find the edges on lines along an axis and how far they are from the first open points."""
+    rows = []
+    columns = []
+    seconds = []
     for step in (1, -1):
-        index = np.nonzero(contact & ~np.roll(contact, -step, axis))
-        beyond = [list(index), list(index)]
-        for k in (0, 1):
-            beyond[k][axis] = (index[axis] + (k + 1) * step) % s.shape[axis]
-        near, far = (tuple(each) for each in beyond)
-        parts.append((*near, s[near], np.where(contact[far], 0.0, s[far])))
-    row, column, first, second = (np.concatenate(each) for each in zip(*parts, strict=True))
+        # The last point in contact, and the two points beyond it.
+        last = np.nonzero(contact & ~np.roll(contact, -step, axis))
+        near = list(last)
+        near[axis] = (last[axis] + step) % s.shape[axis]
+        far = list(last)
+        far[axis] = (last[axis] + 2 * step) % s.shape[axis]
+        rows.append(near[0])
+        columns.append(near[1])
+        seconds.append(np.where(contact[tuple(far)], 0.0, s[tuple(far)]))
+    index = (np.concatenate(rows), np.concatenate(columns))
+    first = s[index]
+    second = np.concatenate(seconds)
     rises = second > first
     ratio = np.divide(first, second, out=np.zeros_like(first), where=rises)
     distance = np.where(rises, np.interp(ratio, _RATIO, _DISTANCE), _MEAN_DISTANCE)
     low = rises & (ratio < _LOW)
-    lifted = np.where(low, second * distance / (1 + distance), 0.0)
-    # Where the gap closes again there is no second point to tell the slope.
-    return (row, column), distance, np.where(rises, second, np.nan), lifted
+    return _Edges(
+        index=index,
+        distance=distance,
+        # Where the gap closes again there is no second point to tell the slope.
+        second=np.where(rises, second, np.nan),
+        lifted=np.where(low, second * distance / (1 + distance), 0.0),
+    )
 
 
 def _beside_edges(edges: NDArray, levels: NDArray) -> NDArray:
