@@ -12,22 +12,27 @@ TOLERANCE = 1e-6  # of the residual: far below what a picture shows
 
 def main(job):
     surface = read_first(job.input.surfaces)
-    adhesion, shown = job.params.adhesion, job.params.adhesion["maps"]
-    heights, length = surface.height.values, float(surface.window_length)
-    given = {name: shown[name] for name in ("adhesion_length_over_range", "range_over_h_rms")}
-    law = scaled_law(adhesion, adhesion["law"], **given)
+    adhesion = job.params.adhesion
+    shown = adhesion["maps"]
+    heights = surface.height.values
+    length = float(surface.window_length)
+    point = {name: shown[name] for name in ("adhesion_length_over_range", "range_over_h_rms")}
+    law = scaled_law(adhesion, adhesion["law"], **point)
     pressures = np.sort(np.array(shown["pressures"], dtype=float))
     # Loads grow: each state is where a press would find it on loading.
     states = []
     for pressure in pressures:
-        given_load = {"pressure": pressure, "start": states[-1] if states else None}
-        states.append(adhesive.solve(heights, length, law, **given_load, tol=TOLERANCE))
+        previous = states[-1] if states else None
+        state = adhesive.solve(
+            heights, length, law, pressure=pressure, start=previous, tol=TOLERANCE
+        )
+        states.append(state)
     text = "repulsion less attraction over E* q0 h_rms"
     texts = {"contact_pressure": text, **{n: STATE[n] for n in ("residual", "iterations")}}
     dataset = gather_fields(states, pressures, surface, TOLERANCE, **texts)
     title = "gap and pressure fields of one realisation in adhesive contact"
-    made = {"law": adhesion["law"], "q0_h_rms": roughness(adhesion), **given}
-    parameters = {**datasets.parameters(surface), **made}
+    settings = {"law": adhesion["law"], "q0_h_rms": roughness(adhesion), **point}
+    parameters = {**datasets.parameters(surface), **settings}
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -7,7 +7,7 @@ contact. Areas are those at a gap of zero; ``_net`` is the compressed part, whic
 slowly.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -52,8 +52,7 @@ SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 # Pixels across the zone of attraction below which an attraction is a statement about the grid.
 NARROWEST = 1.5
 AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT sum that without adhesion
-COVERED = 0.9  # confidence of the upper limit of a count of pixels
-LEFT = {
+ERROR_TEXTS = {
     "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
     "solver": "by the tolerance, as measured on the load; of strong attraction by the branch",
     "sampling": "Student's t of the standard error; of full simulation not less than what the "
@@ -63,43 +62,55 @@ LEFT = {
     "at equal area instead of equal mean gap changes, or what a straight line leaves out",
 }
 FEW = f"DMT sum, {MISSING}, a single seed, or too few loads"
-OTHERS = {
-    "model": "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
-    "residual": "largest residual of all realisations",
-    "iterations": "mean iterations on the fine grid",
-    "zone_strength": "width of the zone of attraction over range^2/adhesion length",
+AVERAGE_VARIABLES = {
+    "model": (
+        "1",
+        "dmt: attraction over the gaps without adhesion; full: boundary elements with it",
+        FEW,
+    ),
+    "residual": ("1", "largest residual of all realisations", FEW),
+    "iterations": ("1", "mean iterations on the fine grid", FEW),
+    "zone_strength": ("1", "width of the zone of attraction over range^2/adhesion length", FEW),
+    **{name: (*text[:2], FEW) for name, text in describe_errors(ALL, plain=True).items()},
+    "dmt_error": ("1", "measured relative error of the DMT sum in 1/kappa_ad", OUTSIDE),
 }
-VARIABLES = {name: ("1", text, FEW) for name, text in OTHERS.items()}
-VARIABLES |= {name: (*text[:2], FEW) for name, text in describe_errors(ALL, plain=True).items()}
-VARIABLES["dmt_error"] = ("1", "measured relative error of the DMT sum in 1/kappa_ad", OUTSIDE)
 
 
 def main(job):
+    # The DMT sum of every point.
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
     errors = {"dmt_valid": job.params.jtb, "dmt_error": job.params.dmt_error}
     dmt_sum.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
     limit = datasets.read(job.output.limit)
-    full = xr.DataArray(np.array(job.params.full), dims=AXES)
-    made, seeds, states = datasets.parameters(ensemble), [], None
     dataset = take_dmt_sum(limit)
+
+    # Full simulations at the points that ask for them.
+    full = xr.DataArray(np.array(job.params.full), dims=AXES)
+    origin = datasets.parameters(ensemble)
+    seeds = []
+    states = None
     if job.input.realisations:
         states = read_all(job.input.realisations, ["external_pressure"])
-        made, seeds = datasets.parameters(states), states.seed.values.tolist()
-        solved = average(states, full, ensemble, limit, made)
+        origin = datasets.parameters(states)
+        seeds = states.seed.values.tolist()
+        solved = average(states, full, ensemble, limit, origin)
         for name in dataset.keys() & solved.keys():
             chosen = full if "pressure" in dataset[name].dims else full.any("pressure")
             solved[name] = solved[name].where(chosen, dataset[name])
         dataset = dataset.assign(solved)
+
     dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))
     dataset["model"] = (AXES, np.where(full, "full", "dmt"))
     strength = limit.adhesion_length_over_range / limit.q0_h_rms
     dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
-    dataset = conventions.annotate(dataset, **VARIABLES)
+    dataset = conventions.annotate(dataset, **AVERAGE_VARIABLES)
     for name in [name for name in ALL if name in dataset]:
-        dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], LEFT))
+        dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], ERROR_TEXTS))
     title = "adhesive contact averaged over realisations, by the model chosen"
-    parameters = {**made, **datasets.parameters(limit), "seeds": seeds}
+    parameters = {**origin, **datasets.parameters(limit), "seeds": seeds}
     datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
+
+    # The edges of contact, compared with the model that verdicts use.
     edges = xr.Dataset()
     if states:
         alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
@@ -109,7 +120,7 @@ def main(job):
 
 
 def take_dmt_sum(limit):
-    """The averages by the DMT sum, in which all areas are that without adhesion."""
+    """Take the averages from the DMT sum: every area is the one without adhesion."""
     none = xr.zeros_like(limit.inverse_kappa)
     dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
     dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
@@ -123,95 +134,160 @@ def take_dmt_sum(limit):
     return dataset
 
 
-def average(states, full, ensemble, limit, made):
-    """Means over the realisations: full simulations, or the DMT sum where there are none."""
+@dataclass(frozen=True)
+class Masks:
+    """Where the averages of a set hold, along the axes of the set."""
+
+    reported: xr.DataArray  # points that every seed and grid resolves, or that need no solution
+    full: xr.DataArray  # points at which a full simulation is wanted
+    linear: xr.DataArray  # loads whose area is in proportion to the load
+
+    def choose(self, name):
+        """Points at which an average of this name is reported."""
+        if name in RATIOS:
+            return self.reported & self.full
+        if name in FITS:
+            return (self.reported | ~self.linear).all("pressure")
+        return self.reported
+
+
+def average(states, full, ensemble, limit, parameters):
+    """Average the realisations: full simulations, or the DMT sum where there are none.
+
+    Every average ``NAME`` comes with its errors by source, ``NAME_error``. `limit` is the DMT sum
+    of the set, `parameters` are those of the file of the states.
+    """
     adhesion = datasets.parameters(limit)
-    missing = states.external_pressure.isnull() & states.area_alone.notnull()
-    whole = ~missing.any(["seed", "resolution"]) | ~full
-    both = adhesion_sets.seeds_on_both(states)
-    pixel = xr.DataArray(made["pixel"], dims=AXES[2])
-    wide = zone_width(ensemble, states) >= NARROWEST * pixel
+    seeds = adhesion_sets.seeds_on_both(states)
+    reported = find_reported(states, full, ensemble, parameters)
+
+    # Where no full simulation is wanted, the DMT sum stands in its place.
     states = add_dmt(states, full)
-    in_limit = dmt_sum.find_linear(adhesion, ensemble)
-    linear = in_limit & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
+    linear_alone = dmt_sum.find_linear(adhesion, ensemble)
+    linear = linear_alone & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
+    masks = Masks(reported=reported, full=full, linear=linear)
+
+    # What is compared with the contact without adhesion: at equal area and at equal mean gap.
     states = add_slopes(states, ensemble, linear)
-    alone = ensemble.sel(seed=states.seed).isel(resolution=[-2, -1])
-    alone = alone.assign_coords(resolution=states.resolution)  # the grids may be finer
-    weak, fall = weak_attraction(adhesion, alone), states.pressure - states.external_pressure
-    states["weak_ratio"] = ratio_of_means(fall, weak.sel(pressure=states.pressure))
-    states["dmt_ratio_at_gap"] = ratio_of_means(fall, states.attraction_dmt)
-    # A mean over the seeds that happen to be solved would leave out the stickiest ones.
-    reported = whole & (wide | ~full)
-    resolved = dict.fromkeys(STATES | SLOPES, reported) | dict.fromkeys(RATIOS, reported & full)
-    resolved |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
-    # Of the coarsest solutions: of these seeds, and of many more.
-    quantities = partial(controls_of, adhesion, in_limit)
-    controls = coarse(ensemble, quantities)
-    twins = controls and quantities(ensemble.sel(seed=states.seed)).isel(resolution=0, drop=True)
+    states = add_ratios_at_gap(states, ensemble, adhesion)
+
+    # The same with as much more area as the number of turned pixels cannot rule out.
+    enlarged = add_slopes(add_pixels(states, parameters), ensemble, linear)
+
+    controls = find_controls(ensemble, states.seed, adhesion, linear_alone)
     solver = solver_error(states)
-    fuller = add_slopes(add_pixels(states, made), ensemble, linear)
-    dataset, source = xr.Dataset(), xr.DataArray(list(SOURCES), dims="source", name="source")
+    source = xr.DataArray(list(SOURCES), dims="source", name="source")
+    dataset = xr.Dataset()
     for name in ALL:
-        values, more = states[name].where(resolved[name]), None
+        values = states[name].where(masks.choose(name))
         # What adhesion takes off the pressure is in proportion to the control.
         fixed = values.pressure if name == "external_pressure" else 0.0
-        if controls and name in twins:
-            more = replace(controls, values=controls.values[name], twin=twins[name])
-        dataset = add_errors(dataset, name, values - fixed, more, plain=True)
+        dataset = add_errors(dataset, name, values - fixed, controls.get(name), plain=True)
         dataset[name] = dataset[name] + fixed
         value = dataset[name]
-        at_worst = solver.max(set(solver.dims) - set(value.dims))
-        unseen = abs(fine(fuller[name] - states[name]).mean("seed"))
-        # For the seeds solved in full, which is more than enough for multilevel means.
-        sampling = students_t(both.size) * dataset[f"{name}_standard_error"]
-        model = 0.0
-        if f"{name}_equal_area" in states:
-            model = fine(states[f"{name}_equal_area"] - states[name]).sel(seed=both)
-            model = model.mean("seed", skipna=False)
-        elif name == "weak_ratio":
-            error = limit.attraction_weak_error.sel(source="model", drop=True)
-            model = error / limit.attraction_weak * value
-        elif name in FITS:
-            model = linearity_error(dataset[name.removesuffix("_fit")], linear)
-        parts = {
-            "discretisation": dataset[f"{name}_discretisation_error"]
-            * (SLOW if name in NET else 1.0),
-            "solver": at_worst * (abs(value) + fixed),
-            "sampling": np.maximum(sampling, unseen),
+        unseen = abs(fine(enlarged[name] - states[name]).mean("seed"))
+        errors = {
+            "discretisation": grid_error(dataset, name),
+            "solver": worst_solver_error(solver, value) * (abs(value) + fixed),
+            "sampling": sampling_error(dataset, name, seeds, unseen),
             "bandwidth": 0.0,
-            "model": abs(model),
+            "model": abs(model_error(dataset, name, states, seeds, limit, linear)),
         }
-        parts = [(xr.zeros_like(value) + parts[s]).transpose(*value.dims) for s in SOURCES]
+        parts = [(xr.zeros_like(value) + errors[s]).transpose(*value.dims) for s in SOURCES]
         dataset[f"{name}_error"] = xr.concat(parts, source)
     residual = states.residual.max(["seed", "resolution"])
     return dataset.assign(residual=residual, iterations=fine(states.iterations).mean("seed"))
 
 
-def controls_of(adhesion, linear, solved):
-    """What goes with states and slopes in the DMT sum, of an ensemble or its coarse solutions."""
-    pressures, _, ranges = adhesion_sets.axes(adhesion)
-    found = quantities_of(adhesion, linear, solved)
-    alone, like = solved.sel(pressure=pressures), xr.zeros_like(found.attraction)
-    within = alone.attractive_area.rename(range=ranges.name).interp({ranges.name: ranges})
-    areas = dict.fromkeys(AREAS, alone.area_fraction) | {"attractive_area": within}
-    states = {"external_pressure": -found.attraction} | {n: a + like for n, a in areas.items()}
-    return xr.Dataset(states | {name: found[control] for name, control in CONTROLS.items()})
+def find_reported(states, full, ensemble, parameters):
+    """Points whose average is reported: solved for all seeds, on a grid that resolves the edge."""
+    # A mean over the seeds that happen to be solved would leave out the stickiest ones.
+    missing = states.external_pressure.isnull() & states.area_alone.notnull()
+    solved = ~missing.any(["seed", "resolution"]) | ~full
+    pixel = xr.DataArray(parameters["pixel"], dims=AXES[2])
+    wide = zone_width(ensemble, states) >= NARROWEST * pixel
+    return solved & (wide | ~full)
 
 
-def add_pixels(states, made):
-    """States with as much more area as the count of turned pixels cannot rule out.
+def find_controls(ensemble, seeds, adhesion, linear):
+    """Control variates by name: the DMT sum of coarse solutions, of these seeds and of many more.
 
-    That is the upper limit of a Poisson count: 2.3 if no pixel turned, of which scatter knows
-    nothing. Where pixels turn in strips along the edges, scatter is larger and is the error.
+    Empty if the ensemble has no coarse solutions.
     """
-    pixels = fine(states.area_alone).count("seed") * adhesion_sets.count_points(made)
+    quantities = partial(controls_of, adhesion, linear)
+    controls = coarse(ensemble, quantities)
+    if controls is None:
+        return {}
+    twins = quantities(ensemble.sel(seed=seeds)).isel(resolution=0, drop=True)
+    return {
+        name: replace(controls, values=controls.values[name], twin=twins[name]) for name in twins
+    }
+
+
+def grid_error(dataset, name):
+    """Error by the grid: the last change, widened for quantities that converge slowly."""
+    change = dataset[f"{name}_discretisation_error"]
+    return change * (SLOW if name in NET else 1.0)
+
+
+def worst_solver_error(solver, value):
+    """Relative error by the solver, the largest along dimensions that the value lacks."""
+    return solver.max(set(solver.dims) - set(value.dims))
+
+
+def sampling_error(dataset, name, seeds, unseen):
+    """Error that covers 90 %: Student's t, and at least what the turned pixels leave open."""
+    # For the seeds solved in full, which is more than enough for multilevel means.
+    sampling = students_t(seeds.size) * dataset[f"{name}_standard_error"]
+    return np.maximum(sampling, unseen)
+
+
+def model_error(dataset, name, states, seeds, limit, linear):
+    """Change of a quantity by another way of comparing with contact without adhesion; 0 if none."""
+    if f"{name}_equal_area" in states:
+        # Equal area in place of equal mean gap.
+        change = fine(states[f"{name}_equal_area"] - states[name]).sel(seed=seeds)
+        return change.mean("seed", skipna=False)
+    if name == "weak_ratio":
+        error = limit.attraction_weak_error.sel(source="model", drop=True)
+        return error / limit.attraction_weak * dataset[name]
+    if name in FITS:
+        return linearity_error(dataset[name.removesuffix("_fit")], linear)
+    return 0.0
+
+
+def controls_of(adhesion, linear, solved):
+    """The DMT sum of states and slopes, from an ensemble or from its coarse solutions."""
+    pressures, _, ranges = adhesion_sets.axes(adhesion)
+    sums = quantities_of(adhesion, linear, solved)
+    alone = solved.sel(pressure=pressures)
+    zero = xr.zeros_like(sums.attraction)
+    within = alone.attractive_area.rename(range=ranges.name).interp({ranges.name: ranges})
+    controls = {
+        "external_pressure": -sums.attraction,
+        "attractive_area": within + zero,
+        **dict.fromkeys(AREAS, alone.area_fraction + zero),
+        **{name: sums[control] for name, control in CONTROLS.items()},
+    }
+    return xr.Dataset(controls)
+
+
+def add_pixels(states, parameters):
+    """Add to the states the area that the count of turned pixels cannot rule out.
+
+    A pixel has turned if adhesion draws it into contact. The added area is the upper limit of a
+    Poisson count: 2.3 pixels if none turned, which the scatter between seeds cannot show. Where
+    pixels turn in strips along the edges, the scatter is larger than this.
+    """
+    covered = 0.9  # confidence of the limit
+    pixels = fine(states.area_alone).count("seed") * adhesion_sets.count_points(parameters)
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
-    unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, COVERED) - turned
+    unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, covered) - turned
     return states.assign({n: states[n] + unseen / pixels for n in STATES if "area" in n})
 
 
 def add_dmt(states, full):
-    """States, by the DMT sum where no full simulation is wanted."""
+    """Replace states by the DMT sum where no full simulation is wanted."""
     limit = {
         "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,
@@ -223,43 +299,64 @@ def add_dmt(states, full):
 
 
 def add_slopes(states, ensemble, linear):
-    """Add what compares area and load with and without adhesion."""
+    """Add 1/kappa and 1/kappa_ad, from areas and loads with and without adhesion."""
     curve = fine(ensemble.area_fraction).sel(seed=states.seed)
+    external = states.external_pressure
+
+    # Load over area: without adhesion, with it, and with the compressed area alone.
     alone = states.pressure / states.area_alone
-    external, area = states.external_pressure, states.repulsive_area
-    held, net = external / area, external / states.net_repulsive_area
+    adhesive = external / states.repulsive_area
+    compressed = external / states.net_repulsive_area
     slopes = {
-        "inverse_kappa": held / states.rms_slope,
-        "inverse_kappa_net": net / states.rms_slope,
-        "inverse_kappa_ad": (1 - held / alone) / 2,
-        "inverse_kappa_ad_net": (1 - net / alone) / 2,
+        "inverse_kappa": adhesive / states.rms_slope,
+        "inverse_kappa_net": compressed / states.rms_slope,
+        "inverse_kappa_ad": (1 - adhesive / alone) / 2,
+        "inverse_kappa_ad_net": (1 - compressed / alone) / 2,
         "inverse_kappa_ad_direct": states.attraction / states.repulsive_pressure / 2,
         "inverse_kappa_ad_equal_area": (1 - external / pressure_at(states, curve)) / 2,
     }
-    fit = fit_slope(external, area, linear)
+
+    # The same from straight lines through the origin.
+    fit = fit_slope(external, states.repulsive_area, linear)
     fit_alone = fit_slope(states.pressure, states.area_alone, linear)
     slopes["inverse_kappa_fit"] = fit / states.rms_slope
     slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
+
     limit = states.attraction_dmt / states.pressure / 2
     for ending in ("", "_equal_area"):
         slopes[f"dmt_ratio{ending}"] = ratio_of_means(slopes[f"inverse_kappa_ad{ending}"], limit)
     return states.assign(slopes)
 
 
+def add_ratios_at_gap(states, ensemble, adhesion):
+    """Add the fall of the pressure at equal mean gap, over its weak limit and the DMT sum."""
+    alone = ensemble.sel(seed=states.seed).isel(resolution=[-2, -1])
+    alone = alone.assign_coords(resolution=states.resolution)  # the grids may be finer
+    weak = weak_attraction(adhesion, alone).sel(pressure=states.pressure)
+    fall = states.pressure - states.external_pressure
+    return states.assign(
+        weak_ratio=ratio_of_means(fall, weak),
+        dmt_ratio_at_gap=ratio_of_means(fall, states.attraction_dmt),
+    )
+
+
 def ratio_of_means(values, limit):
-    """Ratio of the means over seeds, as samples that scatter about it to first order."""
+    """Ratio of two means over seeds, as one sample a seed.
+
+    The samples average to the ratio, and scatter about it as the ratio does to first order.
+    """
     mean_limit = limit.where(values.notnull()).mean("seed")
     best = values.mean("seed") / mean_limit
     return best + (values - best * limit) / mean_limit
 
 
-def zone_width(ensemble, at):
-    """Mean width of the zone of attraction without adhesion, times q0."""
-    made = datasets.parameters(ensemble)
-    edge = ensemble.edge_gap_mean.sel(pressure=at.pressure)
-    edge, range_ = xr.broadcast(edge, at.range_over_h_rms)
+def zone_width(ensemble, points):
+    """Mean width, times q0, of the zone around contact without adhesion that is within range."""
+    grid = datasets.parameters(ensemble)
+    edge = ensemble.edge_gap_mean.sel(pressure=points.pressure)
+    edge, range_ = xr.broadcast(edge, points.range_over_h_rms)
     # The gap beside an edge grows with the distance to the power 3/2.
-    return cell_size(made) / made["grid_points"] * np.cbrt(range_ / edge) ** 2
+    return cell_size(grid) / grid["grid_points"] * np.cbrt(range_ / edge) ** 2
 
 
 if __name__ == "__main__":

@@ -17,40 +17,42 @@ from stickiness.criteria import equivalent_sphere
 from stickiness.error_budget import ErrorComponent, with_budget
 from stickiness.statistics import students_t
 
-MISSING = (
-    "not resolved, fewer than 100 points of the grid drawn into contact, a window closes, or the "
-    "area is beyond the curve without adhesion"
-)
 # Points of the grid that adhesion must draw into contact for their number to tell an area to 10 %.
 FEWEST_POINTS = 100
+MISSING = (
+    f"not resolved, fewer than {FEWEST_POINTS} points of the grid drawn into contact, a window "
+    "closes, or the area is beyond the curve without adhesion"
+)
 EFFECT = "attraction at equal area of contact over the DMT sum"
-VARIABLES = {
+EDGE_VARIABLES = {
     "attractive_over_contact": ("1", "attractive over contact area without adhesion", MISSING),
     "edge_strength": ("1", "Tabor's parameter of the edges", MISSING),
     "effect": ("1", EFFECT, MISSING),
     "effect_model": ("1", f"{EFFECT}, by the equivalent sphere", MISSING),
     "over_model": ("1", "simulation over model, mean over realisations", MISSING),
 }
-QUOTED = ("effect", "over_model")
 
 
 def compare_seeds(adhesive, alone, averages, adhesion):
-    """Compare all realisations, and average them where their averages are reported."""
-    pairs = [[each.sel(seed=seed) for each in (adhesive, alone)] for seed in adhesive.seed]
-    grids = (
-        xr.concat([compare(*pair, adhesion, grid) for pair in pairs], "seed") for grid in (0, -1)
-    )
-    states = xr.concat(grids, adhesive.resolution)
+    """Compare all realisations with the model, and average where averages are reported."""
+    by_grid = []
+    for grid in (0, -1):
+        by_seed = [
+            compare(adhesive.sel(seed=seed), alone.sel(seed=seed), adhesion, grid)
+            for seed in adhesive.seed
+        ]
+        by_grid.append(xr.concat(by_seed, "seed"))
+    states = xr.concat(by_grid, adhesive.resolution)
     both = seeds_on_both(adhesive)
     resolved = fine(states.effect).sel(seed=both).notnull().all("seed")
     resolved &= averages.dmt_ratio.notnull()
-    found = {name: ensemble_mean(states[name].where(resolved)) for name in states}
-    dataset = xr.Dataset({name: mean for name, (mean, _) in found.items()})
-    dataset = conventions.annotate(dataset.assign(q0_h_rms=averages.q0_h_rms), **VARIABLES)
-    for name in QUOTED:
+    averaged = {name: ensemble_mean(states[name].where(resolved)) for name in states}
+    dataset = xr.Dataset({name: mean.value for name, mean in averaged.items()})
+    dataset = conventions.annotate(dataset.assign(q0_h_rms=averages.q0_h_rms), **EDGE_VARIABLES)
+    for name in ("effect", "over_model"):
         change = abs(states[name].diff("resolution").mean(["seed", "resolution"]))
         solver = solver_error(adhesive) * dataset[name]
-        error = students_t(both.size) * found[name][1]
+        error = students_t(both.size) * averaged[name].standard_error
         dataset = with_budget(
             dataset,
             name,
@@ -63,11 +65,12 @@ def compare_seeds(adhesive, alone, averages, adhesion):
 
 
 def compare(adhesive, alone, adhesion, grid):
-    """Effect of attraction, measured and modelled, for one realisation on one of its grids."""
+    """Measure and model the effect of attraction for one realisation on one of its grids."""
     adhesive = adhesive.isel(resolution=grid, drop=True)
     strength = adhesive.adhesion_length_over_range / roughness(adhesion)
     alone = alone.isel(resolution=-1, drop=True)
-    load, pressure = pressure_at(adhesive, alone.pixel_area_fraction), adhesive.pressure
+    load = pressure_at(adhesive, alone.pixel_area_fraction)
+    pressure = adhesive.pressure
     areas = integrate_law(adhesion, alone.attractive_area)
     # In proportion to the adhesion length: all have the same growth.
     areas = np.log(areas.isel(adhesion_length_over_range=0, drop=True))
@@ -77,20 +80,20 @@ def compare(adhesive, alone, adhesion, grid):
     growth = reached - of_loads.interp(pressure=np.log(pressure))
     growth = np.exp(growth.drop_vars("pressure", errors="ignore"))
     attractive = adhesive.attraction_dmt / strength * growth
-    t = attractive / adhesive.repulsive_area
-    known = (t * load).notnull() & (t > 0)
+    area_ratio = attractive / adhesive.repulsive_area
+    resolved = (area_ratio * load).notnull() & (area_ratio > 0)
     # The model refuses what is not known.
-    over_mean_pressure = (strength * adhesive.repulsive_area / load).where(known, 1.0)
-    place = t.where(known, 1.0)
-    tau = xr.apply_ufunc(equivalent_sphere.edge_strength, place, over_mean_pressure)
-    model = xr.apply_ufunc(equivalent_sphere.effect, place, tau).where(known)
+    over_mean_pressure = (strength * adhesive.repulsive_area / load).where(resolved, 1.0)
+    known_ratio = area_ratio.where(resolved, 1.0)
+    tau = xr.apply_ufunc(equivalent_sphere.edge_strength, known_ratio, over_mean_pressure)
+    model = xr.apply_ufunc(equivalent_sphere.effect, known_ratio, tau).where(resolved)
     effect = (load - adhesive.external_pressure) / (strength * attractive)
     drawn_in = (adhesive.repulsive_area - adhesive.area_alone) * count_points(adhesion)
     reported = drawn_in >= FEWEST_POINTS if grid else drawn_in > 0
     return xr.Dataset(
         {
-            "attractive_over_contact": t,
-            "edge_strength": tau.where(known),
+            "attractive_over_contact": area_ratio,
+            "edge_strength": tau.where(resolved),
             "effect": effect.where(reported),
             "effect_model": model,
             "over_model": (effect / model).where(reported),

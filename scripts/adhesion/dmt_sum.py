@@ -27,25 +27,29 @@ QUANTITIES = {
     "inverse_kappa_ad_fit": "1/kappa_ad, from the fall of the fitted 1/kappa",
 }
 FEW = "fewer than two loads to fit, fewer than three in all, or a single seed"
-VARIABLES = describe_errors(QUANTITIES, plain=True, discretisation=grid_limits.INHERITED)
-VARIABLES |= {n: (*t[:2], FEW) for n, t in VARIABLES.items() if "fit" in n or "weak" in n}
-VARIABLES["dmt_error"] = ("1", "measured relative error of this 1/kappa_ad", OUTSIDE)
+DMT_SUM_VARIABLES = describe_errors(QUANTITIES, plain=True, discretisation=grid_limits.INHERITED)
+DMT_SUM_VARIABLES |= {
+    n: (*t[:2], FEW) for n, t in DMT_SUM_VARIABLES.items() if "fit" in n or "weak" in n
+}
+DMT_SUM_VARIABLES["dmt_error"] = ("1", "measured relative error of this 1/kappa_ad", OUTSIDE)
 MODEL = "of the DMT sum against full simulation, as measured"
 # Relative error of a slope between loads over the logarithm of their step, see `weak_attraction`.
 SLOPE = 0.05
 
 
 def find_linear(adhesion, ensemble):
-    """By pressure of a set, whether the mean area is one that a slope is fitted to."""
+    """Find the pressures of a set whose mean area is small enough for the fit of a slope."""
     area = ensemble.area_fraction_mean.sel(pressure=axes(adhesion)[0])
     return (area <= LINEAR_UP_TO).drop_vars(set(area.coords) - {"pressure"})
 
 
 def quantities_of(adhesion, linear, solved):
-    """`QUANTITIES` of a set, of an ensemble, of its coarse solutions or of its means."""
-    weak, solved = weak_attraction(adhesion, solved), solved.sel(pressure=axes(adhesion)[0])
+    """Compute the `QUANTITIES` of a set from an ensemble, its coarse solutions or its means."""
+    weak = weak_attraction(adhesion, solved)
+    solved = solved.sel(pressure=axes(adhesion)[0])
     attraction = integrate_law(adhesion, solved.attractive_area)
-    external, area = solved.pressure - attraction, solved.area_fraction * solved.rms_slope
+    external = solved.pressure - attraction
+    area = solved.area_fraction * solved.rms_slope
     fall = fit_slope(attraction, area, linear)
     return xr.Dataset(
         {
@@ -67,40 +71,54 @@ def weak_attraction(adhesion, solved):
     potential = potential - lengths * ranges / roughness(adhesion) * solved.area_fraction
     if solved.sizes["pressure"] < 3:
         return potential * np.nan
-    given, load = (solved.pressure, solved.mean_gap, potential), ["pressure"]
-    loads = {"input_core_dims": [load] * 3, "output_core_dims": [load]}
-    return xr.apply_ufunc(dmt.weak_attraction, *given, **loads)
+    return xr.apply_ufunc(
+        dmt.weak_attraction,
+        solved.pressure,
+        solved.mean_gap,
+        potential,
+        input_core_dims=[["pressure"]] * 3,
+        output_core_dims=[["pressure"]],
+    )
 
 
 def integrate_law(adhesion, areas, name="traction"):
-    """Mean traction, or what else the law has, over the gaps."""
+    """Average the traction, or another method of the law, over the distribution of gaps."""
     _, lengths, ranges = axes(adhesion)
-    logs = np.log(np.maximum(areas, SMALLEST))
-    known = logs["range"].values
-    count = round(np.log10(known[-1] / known[0]) * PER_DECADE) + 1
-    logs = logs.assign_coords(range=np.log(known))
+    tabulated = areas["range"].values
+    smallest = tabulated[0]
+    largest = tabulated[-1]
+    count = round(np.log10(largest / smallest) * PER_DECADE) + 1
+    logs = np.log(np.maximum(areas, SMALLEST)).assign_coords(range=np.log(tabulated))
     parts = []
     for range_ in ranges.values:
         # In proportion to the adhesion length: once for the smallest of them.
         law = scaled_law(adhesion, adhesion["law"], float(lengths[0]), range_)
-        nodes = np.union1d(np.geomspace(known[0], known[-1], count), [range_])
-        area = np.exp(logs.interp(range=np.log(nodes).clip(*np.log(known[[0, -1]]))))
-        given, along = (area, nodes, getattr(law, name)), [["range"], [], []]
-        parts.append(xr.apply_ufunc(dmt.sum_over_gaps, *given, input_core_dims=along))
+        nodes = np.union1d(np.geomspace(smallest, largest, count), [range_])
+        log_nodes = np.log(nodes).clip(np.log(smallest), np.log(largest))
+        area = np.exp(logs.interp(range=log_nodes))
+        total = xr.apply_ufunc(
+            dmt.sum_over_gaps,
+            area,
+            nodes,
+            getattr(law, name),
+            input_core_dims=[["range"], [], []],
+        )
+        parts.append(total)
     return xr.concat(parts, ranges) * (lengths / lengths[0])
 
 
 def fit_slope(external, area, linear):
     """Fitted slope of pressure against area through the origin; NaN for fewer than two loads."""
     inside = linear & (linear.sum("pressure") > 1)
-    product, square = (external * area).where(inside), (area**2).where(inside)
+    product = (external * area).where(inside)
+    square = (area**2).where(inside)
     slope = product.sum("pressure") / square.sum("pressure")
     # Where a load is missing there is no slope: the others alone would have another.
     return slope.where((product.notnull() | ~inside).all("pressure") & inside.any("pressure"))
 
 
 def linearity_error(values, linear):
-    """Half the range over the loads of a fit: what its straight line leaves out."""
+    """Error of a straight line: half the range of the values over its loads."""
     inside = values.where(linear)
     return (inside.max("pressure") - inside.min("pressure")) / 2
 
@@ -115,59 +133,80 @@ def write_limit(adhesion, ensemble, laws, errors, output):
             "dmt_error": (AXES, np.asarray(errors["dmt_error"], dtype=float)),
             "q0_h_rms": roughness(adhesion),
         },
-        coords={one.name: one for one in (pressures, lengths, ranges)},
+        coords={axis.name: axis for axis in (pressures, lengths, ranges)},
     )
+
+    # Means over the seeds in the limit of fine grids, corrected by coarse solutions of many more.
     linear = find_linear(adhesion, ensemble)
     quantities = partial(quantities_of, adhesion, linear)
-    known = ["area_fraction", "attractive_area", "mean_gap"]
-    left = grid_limits.inherit(ensemble, quantities, known)
-    values, more = quantities(ensemble), coarse(ensemble, quantities)
+    inherited = grid_limits.inherit(
+        ensemble, quantities, ["area_fraction", "attractive_area", "mean_gap"]
+    )
+    values = quantities(ensemble)
+    more = coarse(ensemble, quantities)
     for name in QUANTITIES:
         controls = more and replace(more, values=more.values[name])
-        limit = grid_limits.Limit(left.shift[name], left.error[name])
+        limit = grid_limits.Limit(inherited.shift[name], inherited.error[name])
         dataset = add_errors(dataset, name, values[name], controls, plain=True, limit=limit)
+
     simulation = Simulation(read_models(laws), datasets.parameters(ensemble))
     steps = np.diff(np.log(ensemble.pressure), prepend=np.nan, append=np.nan)
-    slope = SLOPE * ensemble.pressure.copy(data=np.fmax(steps[:-1], steps[1:]))
-    dataset = add_budgets(conventions.annotate(dataset, **VARIABLES), simulation, linear, slope)
+    slope_error = SLOPE * ensemble.pressure.copy(data=np.fmax(steps[:-1], steps[1:]))
+    dataset = conventions.annotate(dataset, **DMT_SUM_VARIABLES)
+    dataset = add_budgets(dataset, simulation, linear, slope_error)
     for ending in ENDINGS:
-        known = ensemble[f"area_fraction_mean{ending}"]
-        dataset[f"area_fraction{ending}"] = known.sel(pressure=pressures)
+        error = ensemble[f"area_fraction_mean{ending}"]
+        dataset[f"area_fraction{ending}"] = error.sel(pressure=pressures)
     title = f"DMT sum and weak limit of adhesion, {adhesion['law']} traction"
     parameters = {**datasets.parameters(ensemble), **adhesion}
     datasets.write(dataset, output, title=title, parameters=parameters)
 
 
-def add_budgets(dataset, simulation, linear, slope):
+def add_budgets(dataset, simulation, linear, slope_error):
     """Add the errors of every quantity, for fits those at the least certain of their loads."""
     like = dataset.attraction.rename(range_over_h_rms="range")
-    area = simulation.solver("area_fraction", dataset.area_fraction)
-    gaps = simulation.solver("attractive_area", like).rename(range="range_over_h_rms")
-    factor = simulation.factors("attractive_area", like).rename(range="range_over_h_rms")
-    at_loads = np.hypot(area, gaps), factor, dataset.dmt_error
-    of_fits = [one.where(linear).max("pressure") for one in at_loads]
+    of_area = simulation.solver("area_fraction", dataset.area_fraction)
+    of_gaps = simulation.solver("attractive_area", like).rename(range="range_over_h_rms")
+    relative = {
+        "solver": np.hypot(of_area, of_gaps),
+        "sampling": simulation.factors("attractive_area", like).rename(range="range_over_h_rms"),
+        "model": dataset.dmt_error,
+    }
+    relative_of_fits = {
+        source: error.where(linear).max("pressure") for source, error in relative.items()
+    }
     for name in QUANTITIES:
-        solver, factor, model = of_fits if "fit" in name else at_loads
-        pull, text = dataset[name], MODEL
+        is_fit = "fit" in name
+        sources = relative_of_fits if is_fit else relative
+        value = dataset[name]
+
+        # The model errs in proportion to the attraction that a quantity contains.
+        attraction = value
+        model = sources["model"]
+        model_text = MODEL
         if name == "attraction_weak":
-            model, text = slope.sel(pressure=pull.pressure), "of slopes between loads, as measured"
+            model = slope_error.sel(pressure=value.pressure)
+            model_text = "of slopes between loads, as measured"
         if name.startswith("inverse_kappa") and "ad" not in name.split("_"):
             # The fall by attraction from what is left without.
             fall = dataset[name.replace("kappa", "kappa_ad")]
-            pull = 2 * fall * pull / (1 - 2 * fall)
-        error = model * abs(pull)
-        if "fit" in name:
-            error = np.hypot(error, linearity_error(dataset[name.removesuffix("_fit")], linear))
-            text = f"{MODEL}, and what the straight line leaves out"
-        solver = solver * (abs(dataset[name]) + abs(pull))
-        left = dataset[f"{name}_discretisation_error"]
+            attraction = 2 * fall * value / (1 - 2 * fall)
+        model_error = model * abs(attraction)
+        if is_fit:
+            left_out = linearity_error(dataset[name.removesuffix("_fit")], linear)
+            model_error = np.hypot(model_error, left_out)
+            model_text = f"{MODEL}, and what the straight line leaves out"
+
+        solver = sources["solver"] * (abs(value) + abs(attraction))
+        grid = dataset[f"{name}_discretisation_error"]
+        sampling = sources["sampling"] * dataset[f"{name}_standard_error"]
         dataset = with_budget(
             dataset,
             name,
-            discretisation=ErrorComponent(left, grid_limits.INHERITED),
+            discretisation=ErrorComponent(grid, grid_limits.INHERITED),
             solver=ErrorComponent(solver, "by the tolerance, as measured"),
-            sampling=ErrorComponent(factor * dataset[f"{name}_standard_error"], "Student's t"),
+            sampling=ErrorComponent(sampling, "Student's t"),
             bandwidth=SIMULATED["bandwidth"],
-            model=ErrorComponent(error, text),
+            model=ErrorComponent(model_error, model_text),
         )
     return dataset.drop_vars(f"{name}_discretisation_error" for name in QUANTITIES)

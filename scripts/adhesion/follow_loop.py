@@ -23,12 +23,10 @@ from stickiness.error_budget import ErrorComponent, unknown_error, with_budget
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 
-CONTROLS = ("mean_gap", "pressure")
 TOLERANCE = 1e-5  # of the residual: far below what the width of a line shows
 # Relative, of pull-offs to this tolerance and to 1e-7 in the target tradeoff: 4e-5 to 4e-4 of six.
 SOLVER = 5e-4
 BALANCE = 0.01  # dissipation of a step over the energies of the curve: jumps are larger
-STEPS = (2, 1)
 MARGIN = 1.2  # ranges of attraction between the summit and the surface where the curve begins
 NOT_KEPT = ("repulsive_pressure", "attraction")
 STATES = {ATTRIBUTES.get(n, n): text for n, text in STATE.items() if n not in NOT_KEPT}
@@ -44,32 +42,39 @@ STEPPED = {
     "work": "work of the control on the way from the state before, per nominal area",
     "dissipated": "energy lost on the way from the state before, per nominal area",
 }
-VARIABLES = {
+LOOP_VARIABLES = {
     n: ("1", text, "beyond the end of the curve") for n, text in (STATES | STEPPED).items()
 }
-VARIABLES |= {name: ("1", text) for name, text in QUOTED.items()}
-VARIABLES |= {"control": "what is prescribed", "state": "number of the state along the curve"}
+LOOP_VARIABLES |= {name: ("1", text) for name, text in QUOTED.items()}
+LOOP_VARIABLES |= {"control": "what is prescribed", "state": "number of the state along the curve"}
 
 
 def main(job):
     surface = read_first(job.input.surfaces)
     loop = job.params.loop
-    heights, length = surface.height.values, float(surface.window_length)
+    heights = surface.height.values
+    length = float(surface.window_length)
     lengths = np.sort(np.array(loop["adhesion_length_over_range"], dtype=float))
-    finest, curves = pixels(surface), []
-    for step, control, value in product(STEPS, CONTROLS, lengths):
-        found = follow(heights[::step, ::step], length, loop, value, control)
-        at = {"resolution": finest / step, "control": control, "adhesion_length_over_range": value}
-        curves.append(found.expand_dims({name: [where] for name, where in at.items()}))
-    longest = max((one.state for one in curves), key=len)
-    dataset = xr.combine_by_coords([one.reindex(state=longest) for one in curves])
+    finest = pixels(surface)
+    curves = []
+    # Every second point first: the finest grid is the last along `resolution`.
+    for step, control, value in product((2, 1), ("mean_gap", "pressure"), lengths):
+        curve = follow(heights[::step, ::step], length, loop, value, control)
+        place = {
+            "resolution": finest / step,
+            "control": control,
+            "adhesion_length_over_range": value,
+        }
+        curves.append(curve.expand_dims({name: [here] for name, here in place.items()}))
+    longest = max((curve.state for curve in curves), key=len)
+    dataset = xr.combine_by_coords([curve.reindex(state=longest) for curve in curves])
     title = "approach and separation of one realisation with adhesion"
     parameters = {**datasets.parameters(surface), **loop}
     datasets.write(add_quoted(dataset), job.output[0], title=title, parameters=parameters)
 
 
 def follow(heights, length, loop, adhesion_length_over_range, control):
-    """States from afar to the largest pressure and back, along `state`."""
+    """Follow the states from afar to the largest pressure and back, along `state`."""
     law = scaled_law(loop, loop["law"], adhesion_length_over_range, loop["range_over_h_rms"])
     far = float(heights.max() - heights.mean()) + MARGIN * law.range
     nearest = solver.solve(heights, length, loop["pressure"], tol=TOLERANCE).mean_gap
@@ -94,20 +99,22 @@ def follow(heights, length, loop, adhesion_length_over_range, control):
 
 
 def add_quoted(dataset):
-    """Add what is quoted of the curves, on the fine grid, with its errors."""
-    press, gap = (dataset.sel(control=control, drop=True) for control in CONTROLS[::-1])
+    """Add the pull-off and the lost share of energy, on the fine grid, with their errors."""
+    press = dataset.sel(control="pressure", drop=True)
+    gap = dataset.sel(control="mean_gap", drop=True)
     last = press.isel(state=press.mean_pressure.count("state") - 1)
     quoted = {
         "pull_off_pressure": last.mean_pressure,
         "pull_off_area": last.repulsive_area_fraction,
         "lost_share": gap.dissipated.sum("state") / gap.work.where(gap.work > 0).sum("state"),
     }
-    coarse, fine = (
-        xr.Dataset(quoted).drop_vars("state").isel(resolution=grid, drop=True) for grid in (0, -1)
-    )
-    dataset = add_convergence(annotate(dataset.assign(fine), **VARIABLES), TOLERANCE)
+    quoted = xr.Dataset(quoted).drop_vars("state")
+    coarse = quoted.isel(resolution=0, drop=True)
+    fine = quoted.isel(resolution=-1, drop=True)
+    dataset = add_convergence(annotate(dataset.assign(fine), **LOOP_VARIABLES), TOLERANCE)
     for name in QUOTED:
-        change, solver = fine[name] - coarse[name], SOLVER * fine[name]
+        change = fine[name] - coarse[name]
+        solver = SOLVER * fine[name]
         dataset = with_budget(
             dataset,
             name,

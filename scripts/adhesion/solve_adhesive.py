@@ -29,7 +29,7 @@ ALONE = {
 }
 DMT = {"attraction_dmt": "attraction over the gaps without adhesion, p_ad/(E* q0 h_rms)"}
 HALF = "the seed is solved on half the grid alone"
-VARIABLES = {
+ADHESIVE_STATE_VARIABLES = {
     **{name: ("1", text, HALF) for name, text in (ALONE | DMT).items()},
     **{n: ("1", text, f"DMT sum, {adhesion_sets.MISSING}, or {HALF}") for n, text in STATE.items()},
     "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
@@ -42,7 +42,8 @@ FINE = 8  # points per shortest wavelength of which half are enough for long ran
 def main(job):
     surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
     adhesion = job.params.adhesion
-    length, refine = float(surfaces.window_length), adhesion.get("refine", 1)
+    length = float(surfaces.window_length)
+    refine = adhesion.get("refine", 1)
     points = refine * surfaces.sizes["x"]
     finest = refine * pixels(surfaces)
     ranges = axes(adhesion)[2].values
@@ -52,19 +53,24 @@ def main(job):
     chosen = combinations(adhesion, pixel, np.array(job.params.full))
 
     def solve(steps, heights):
-        fine, parts = resample(heights, points), []
+        fine = resample(heights, points)
+        parts = []
         finenesses = [finest / step for step in steps]
         resolution = xr.DataArray(finenesses, dims="resolution", name="resolution")
         for factor in np.unique(coarser):
             here = coarser == factor
-            asked = adhesion | {"range_over_h_rms": ranges[here]}
+            subset = adhesion | {"range_over_h_rms": ranges[here]}
             grids = [fine[:: factor * step, :: factor * step] for step in steps]
-            solved = [states(grid, length, asked, chosen[:, :, here]) for grid in grids]
+            solved = [states(grid, length, subset, chosen[:, :, here]) for grid in grids]
             parts.append(xr.concat(solved, resolution, coords="minimal"))
         return xr.concat(parts, AXES[2], data_vars="all") if len(parts) > 1 else parts[0]
 
-    grids = [(partial(solve, steps), surfaces, seeds) for steps, seeds in job.params.grids if seeds]
-    dataset = xr.concat([each_seed(*each) for each in grids], "seed", join="outer")
+    by_grids = [
+        each_seed(partial(solve, steps), surfaces, seeds)
+        for steps, seeds in job.params.grids
+        if seeds
+    ]
+    dataset = xr.concat(by_grids, "seed", join="outer")
     title = "adhesive contact of realisations at given mean gaps"
     parameters = {
         **datasets.parameters(surfaces),
@@ -77,13 +83,13 @@ def main(job):
         "strongest": adhesion_sets.STRONGEST,
         "coarsest": edge_zone.COARSEST,
     }
-    dataset = conventions.annotate(dataset, **VARIABLES)
+    dataset = conventions.annotate(dataset, **ADHESIVE_STATE_VARIABLES)
     dataset = conventions.add_convergence(dataset, LOOSEST)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def combinations(adhesion, pixel, full):
-    """By pressure, the indices (l_a/range, range) to be solved in full that the grid resolves."""
+    """Choose the points (pressure, l_a/range, range) to solve in full that the grid resolves."""
     _, lengths, ranges = axes(adhesion)
     adhesion_length = lengths / roughness(adhesion) * ranges
     resolved = edge_zone.resolution(pixel, ranges, adhesion_length) <= edge_zone.COARSEST
@@ -93,7 +99,7 @@ def combinations(adhesion, pixel, full):
 
 
 def states(heights, length, adhesion, chosen, loosest=LOOSEST):
-    """Adhesive states on one grid, NaN where there is none, and the attraction by the DMT sum."""
+    """Solve the adhesive states on one grid, NaN where none is chosen, and take the DMT sum."""
     pressures, lengths, ranges = axes(adhesion)
     flattening = half_space.measure_slope(heights, (length, length)) / 2
     values = {name: np.full(chosen.shape, np.nan) for name in STATE | DMT}
@@ -106,22 +112,25 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
         sums = [dmt.adhesive_pressure(contact.gap, law) for law in units]
         values["attraction_dmt"][i] = np.outer(lengths, sums)  # in proportion to the length
         weaker = {}  # by range, the last state with weak adhesion
+        # Of each range from the weakest adhesion on, which starts the next one.
         for j, k in itertools.product(range(lengths.size), range(ranges.size)):
             law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
             attraction = values["attraction_dmt"][i, j, k]
             if chosen[i, j, k] and attraction <= adhesion_sets.STRONGEST * contact.mean_pressure:
                 weak = attraction <= adhesion_sets.NEARLY_LINEAR * contact.mean_pressure
-                known = weaker.get(k) if weak else None
+                weaker_state = weaker.get(k) if weak else None
                 tolerance = min(max(tightest, SHARE * law.strength / flattening), loosest)
-                found = adhesion_sets.solve_at_gap(heights, length, law, contact, tolerance, known)
+                state = adhesion_sets.solve_at_gap(
+                    heights, length, law, contact, tolerance, weaker_state
+                )
                 for name in STATE:
-                    values[name][i, j, k] = getattr(found, adhesion_sets.ATTRIBUTES.get(name, name))
+                    values[name][i, j, k] = getattr(state, adhesion_sets.ATTRIBUTES.get(name, name))
                 if weak:
-                    weaker[k] = law.adhesion_length, found.gap
+                    weaker[k] = law.adhesion_length, state.gap
     return xr.Dataset(
         {name: (AXES, value) for name, value in values.items()}
         | {n: ("pressure", v) for n, v in zip(ALONE, np.transpose(alone), strict=True)},
-        coords={one.name: one for one in (pressures, lengths, ranges)},
+        coords={axis.name: axis for axis in (pressures, lengths, ranges)},
     )
 
 

@@ -18,14 +18,17 @@ def main(job):
             writer.writerows(list_rows(data, datasets.parameters(data)))
 
 
-def list_rows(data, made):
-    """Rows of the table for every point that the grid resolves."""
-    known = data[["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]]
-    frame = known.to_dataframe(dim_order=data.dmt_ratio.dims).reset_index()
+def list_rows(data, case):
+    """List a row of the table for every point that the grid resolves."""
+    ratios = data[["dmt_ratio", "dmt_ratio_total_error", "q0_h_rms"]]
+    frame = ratios.to_dataframe(dim_order=data.dmt_ratio.dims).reset_index()
     for row in frame[np.isfinite(frame.dmt_ratio_total_error)].itertuples():
         yield (
-            *(made[name] for name in ("law", "hurst", "magnification")),
-            *(f"{value:g}" for value in (row.pressure, row.range_over_h_rms)),
+            case["law"],
+            case["hurst"],
+            case["magnification"],
+            f"{row.pressure:g}",
+            f"{row.range_over_h_rms:g}",
             f"{row.adhesion_length_over_range / row.q0_h_rms:g}",
             f"{row.dmt_ratio:.4g}",
             f"{row.dmt_ratio_total_error:.2g}",

@@ -6,9 +6,9 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import VARIANT, annotate
+from common.derived_quantities import derive, quote, statistics, write_a_v
 from common.error_budgets import Simulation, theory_parts
 from common.job import start
-from common.quantities import derive, quote, statistics, write_a_v
 from contact.ensembles import average_case
 from stickiness import datasets
 from stickiness.accuracy import error_models
@@ -18,61 +18,40 @@ from stickiness.accuracy.settings import Problem, joint_error, seeds_enough
 from stickiness.error_budget import SOURCES, ErrorComponent, part, with_budget
 
 DIMS = ("column", "pressure")
-GRID = "as in the ensemble's file, or as measured if that is less"
-OUTSIDE = "1 where surface, load, grid or tolerance is outside what the laws were measured on"
-NO_SEEDS = (
-    "no number of seeds is predicted to be enough; ask for less accuracy, or for more than is "
-    "needed, so that a finer grid is chosen"
-)
 
 
 def main(job):
-    plan, case = job.params.plan, job.wildcards.case
-    columns, loads = list(columns_of(plan["quantities"])), plan["pressures"]
-    models, surface = read_models(job.input.laws), Surface.of(plan["surface"])
-    problem, settings = Problem(models, surface, loads, columns), Settings(**plan["settings"])
-    knobs = ()
-    if plan["simulated"]:  # grid and tolerance matter to a simulation alone
-        knobs, output = (settings.pixels_per_wavelength, settings.tolerance), job.output
-        average_case(case, plan, job.input, output)
-        files = {"ensemble": datasets.read(output.means, ["area_fraction_mean"])}
-        files["kappa"] = datasets.read(output.kappa, ["kappa_standard_error"])
-        if "a_v" in plan["quantities"]:
-            write_a_v(output.means, output.a_v, job.params.windows, job.input.laws)
-            files["a_v"] = datasets.read(output.a_v, ["a_v_standard_error"])
-        made = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
-        found = [simulate(Simulation(models, made), column, files) for column in columns]
+    plan = job.params.plan
+    case = job.wildcards.case
+    columns = list(columns_of(plan["quantities"]))
+    loads = plan["pressures"]
+    models = read_models(job.input.laws)
+    surface = Surface.of(plan["surface"])
+    settings = Settings(**plan["settings"])
+    problem = Problem(models, surface, loads, columns)
+    if plan["simulated"]:
+        values, budgets = answer_by_simulation(job, columns, models, settings)
+        # Grid and tolerance matter to a simulation alone.
+        knobs = {"pixels": settings.pixels_per_wavelength, "tolerance": settings.tolerance}
     else:
-        state = datasets.read(job.input.theory, ["area_fraction", "mean_gap", "attractive_area"])
-        state = derive(state.sel(variant=VARIANT), job.params.windows[0])
-        # By Persson's theory on the lattice spectrum.
-        quoted, given = {column: quote(column, state) for column in columns}, plan["surface"]
-        found = [
-            (value, theory_parts(models, column, value, given, "gap_density"))
-            for column, value in quoted.items()
-        ]
+        values, budgets = answer_by_theory(job, columns, models)
+        knobs = {}
 
-    outside = [error_models.extrapolated(surface, load, *knobs) for load in loads]
+    outside = [error_models.extrapolated(surface, load, **knobs) for load in loads]
     variables = {
-        "value": (DIMS, [value.values for value, _ in found]),
+        "value": (DIMS, [values[column].values for column in columns]),
         "extrapolated": ("pressure", np.array(outside, np.int8)),
     }
+    outside_text = (
+        "1 where surface, load, grid or tolerance is outside what the laws were measured on"
+    )
     dataset = annotate(
         xr.Dataset(variables, {"column": columns, "pressure": loads}),
         column="; ".join(f"{column}: {COLUMNS[column].text}" for column in columns),
         value="value of the column at a load",
-        extrapolated=OUTSIDE,
+        extrapolated=outside_text,
     )
-    parts = {}
-    for source in SOURCES:
-        components = [by_source[source] for _, by_source in found]
-        errors = [np.broadcast_to(one.error, len(loads)) for one in components]
-        about = {}  # columns by what a text says of them
-        for column, one in zip(columns, components, strict=True):
-            about.setdefault(one.text, []).append(column)
-        texts = [f"{', '.join(names)}: {text}" for text, names in about.items()]
-        text = "; ".join(texts if len(about) > 1 else about)
-        parts[source] = ErrorComponent(xr.DataArray(errors, dims=DIMS), text)
+    parts = {source: join_components(source, budgets, len(loads)) for source in SOURCES}
     dataset = with_budget(dataset, "value", **parts)
     if plan["accuracy"] and (text := describe_miss(dataset, problem, settings, plan, case)):
         dataset.attrs["missed"] = f"{case}: {text}"
@@ -81,18 +60,73 @@ def main(job):
     datasets.write(dataset, job.output.answer, title=title, parameters={**plan, "case": case})
 
 
+def answer_by_simulation(job, columns, models, settings):
+    """Average the realisations; return values and budgets by column."""
+    plan = job.params.plan
+    output = job.output
+    average_case(job.wildcards.case, plan, job.input, output)
+    files = {
+        "ensemble": datasets.read(output.means, ["area_fraction_mean"]),
+        "kappa": datasets.read(output.kappa, ["kappa_standard_error"]),
+    }
+    if "a_v" in plan["quantities"]:
+        write_a_v(output.means, output.a_v, job.params.windows, job.input.laws)
+        files["a_v"] = datasets.read(output.a_v, ["a_v_standard_error"])
+    parameters = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
+    simulation = Simulation(models, parameters)
+    values = {}
+    budgets = {}
+    for column in columns:
+        values[column], budgets[column] = simulate(simulation, column, files)
+    return values, budgets
+
+
+def answer_by_theory(job, columns, models):
+    """Take Persson's theory on the lattice spectrum; return values and budgets by column."""
+    state = datasets.read(job.input.theory, ["area_fraction", "mean_gap", "attractive_area"])
+    state = derive(state.sel(variant=VARIANT), job.params.windows[0])
+    values = {column: quote(column, state) for column in columns}
+    surface = job.params.plan["surface"]
+    budgets = {
+        column: theory_parts(models, column, value, surface, "gap_density")
+        for column, value in values.items()
+    }
+    return values, budgets
+
+
+def join_components(source, budgets, count):
+    """Errors of all columns from one source, with what is said of them."""
+    errors = [np.broadcast_to(budget[source].error, count) for budget in budgets.values()]
+    columns = {}  # by what a text says of them
+    for column, budget in budgets.items():
+        columns.setdefault(budget[source].text, []).append(column)
+    if len(columns) > 1:
+        text = "; ".join(f"{', '.join(names)}: {text}" for text, names in columns.items())
+    else:
+        (text,) = columns
+    return ErrorComponent(xr.DataArray(errors, dims=DIMS), text)
+
+
 def simulate(simulation, column, files):
     """Return the values of a column at every load, and their errors by source."""
     mean, standard_error, left = statistics(column, **files)
     parts = simulation.parts(column, mean, standard_error, left)
     if has_error_model(column):
-        problem, pixels = simulation.problem, simulation.settings.pixels_per_wavelength
-        size, at = abs(mean), (problem.models, column, problem.surface)
-        error = [
-            error_models.grid_error(*at, load, pixels, found)
-            for load, found in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
+        problem = simulation.problem
+        size = abs(mean)
+        errors = [
+            error_models.grid_error(
+                problem.models,
+                column,
+                problem.surface,
+                load,
+                simulation.settings.pixels_per_wavelength,
+                relative,
+            )
+            for load, relative in zip(mean.pressure.values, (abs(left) / size).values, strict=True)
         ]
-        parts["discretisation"] = ErrorComponent(size * error, GRID)
+        text = "as in the ensemble's file, or as measured if that is less"
+        parts["discretisation"] = ErrorComponent(size * errors, text)
     return mean, parts
 
 
@@ -104,12 +138,16 @@ def describe_miss(dataset, problem, settings, plan, case):
     where = f"{problem.columns[worst[0]]} at pressure {problem.pressures[worst[1]]:g}"
     if unknown.any():
         return f"error of {where} not known"
-    error, accuracy = float(joint_error(relative.ravel())), plan["accuracy"]
+    error = float(joint_error(relative.ravel()))
+    accuracy = plan["accuracy"]
     if error <= accuracy:
         return None
     sampling = (part(dataset, "value", "sampling") / abs(dataset.value)).values
     fixed = np.sqrt(np.maximum(relative**2 - sampling**2, 0))
-    remedy = NO_SEEDS
+    remedy = (
+        "no number of seeds is predicted to be enough; ask for less accuracy, or for more than is "
+        "needed, so that a finer grid is chosen"
+    )
     if enough := seeds_enough(problem, settings, accuracy, fixed, sampling):
         remedy = f"set cases.{case}.seeds to {enough}, which is predicted to be enough"
     return (

@@ -9,32 +9,32 @@ from common.conventions import LOAD, at_load
 from stickiness import criteria, datasets, error_budget
 
 PAPER_A_V = 2.8  # in the formula of Figure 4B
-LARGEST_ERROR = 0.3  # over the formula, of points that are compared with it
 LENGTH = "adhesion_length_over_range"
 
 
 @claim(5)
 def kappa_threshold(adhesive_fig2, adhesion_fig2):
+    """1/kappa vanishes at a finite adhesion length."""
     full = at_load(adhesive_fig2)
     solved = full.inverse_kappa.dropna("range_over_h_rms", how="all")
     solved = solved if solved.range_over_h_rms.size else full.inverse_kappa
     crossed = solved.range_over_h_rms.values[(solved < 0).any(LENGTH).values]
     range_ = [*crossed, solved.range_over_h_rms.values[-1]][0]
-    at = full.sel(range_over_h_rms=range_)
-    threshold, errors = find_zero(at, "inverse_kappa")
+    at_range = full.sel(range_over_h_rms=range_)
+    threshold, errors = find_zero(at_range, "inverse_kappa")
     crosses = bool(np.isfinite(threshold))
-    fitted, fit_errors = find_zero(at, "inverse_kappa_fit")  # over all loads
+    fitted, fit_errors = find_zero(at_range, "inverse_kappa_fit")  # over all loads
     limit = at_load(adhesion_fig2).sel(range_over_h_rms=range_).isel({LENGTH: 0})
     smallest = full.isel(range_over_h_rms=0)
     return Finding(
-        threshold if crosses else largest_simulated(at),
+        threshold if crosses else largest_simulated(at_range),
         QUALIFIED if crosses else OPEN,
         errors=errors,
         crosses=crosses,
-        at=at,
+        at=at_range,
         cell=describe_cell(full),
         dmt=limit[LENGTH] / (2 * limit.inverse_kappa_ad),
-        lowest=at.inverse_kappa.min().fillna(0.5),
+        lowest=at_range.inverse_kappa.min().fillna(0.5),
         fitted=(fitted, np.linalg.norm([*fit_errors.values()])),
         areas=list_areas(adhesive_fig2.sel(range_over_h_rms=range_)),
         smallest=(smallest.range_over_h_rms, largest_simulated(smallest)),
@@ -43,20 +43,21 @@ def kappa_threshold(adhesive_fig2, adhesion_fig2):
 
 def list_areas(loads):
     """Threshold, area of contact there and load, for every load that has a threshold."""
-    found = []
+    thresholds = []
     for load in loads.pressure.values:
-        at = loads.sel(pressure=load).dropna(LENGTH, subset=["inverse_kappa"])
-        threshold, _ = find_zero(at, "inverse_kappa")
+        loaded = loads.sel(pressure=load).dropna(LENGTH, subset=["inverse_kappa"])
+        threshold, _ = find_zero(loaded, "inverse_kappa")
         if np.isfinite(threshold):
-            area = np.interp(np.log(threshold), np.log(at[LENGTH]), at.repulsive_area)
-            found.append((threshold, float(area), load))
-    return found
+            area = np.interp(np.log(threshold), np.log(loaded[LENGTH]), loaded.repulsive_area)
+            thresholds.append((threshold, float(area), load))
+    return thresholds
 
 
 def find_zero(data, name):
     """Adhesion length over range at which a slope is zero, and its errors by source."""
     data = data.where(np.isfinite(data[name]), drop=True)
-    log_length, value = np.log(data[LENGTH].values), data[name].values
+    log_length = np.log(data[LENGTH].values)
+    value = data[name].values
     below = np.flatnonzero(value < 0)
     if not below.size or below[0] == 0:
         return np.nan, {}
@@ -77,12 +78,17 @@ def largest_simulated(data):
 
 @claim(10)
 def hysteresis(loop):
-    strong, fine = loop.isel({LENGTH: -1}), loop.isel(resolution=-1).sel(control="pressure")
-    weak, press = (fine.isel({LENGTH: i}).dropna("state") for i in (0, -1))
-    tension, last = float(strong.pull_off_pressure), press.isel(state=-1)
+    """Loading and unloading differ, and separation needs tension."""
+    strong = loop.isel({LENGTH: -1})
+    fine = loop.isel(resolution=-1).sel(control="pressure")
+    weak = fine.isel({LENGTH: 0}).dropna("state")
+    press = fine.isel({LENGTH: -1}).dropna("state")
+    tension = float(strong.pull_off_pressure)
+    last = press.isel(state=-1)
     error = float(error_budget.part(strong, "pull_off_pressure", "discretisation"))
     load = float(press.mean_pressure.max()) / 5
-    loading, unloading = (area_at(press, load, way) for way in (0, 1))
+    loading = area_at(press, load, way=0)
+    unloading = area_at(press, load, way=1)
     pulls = tension < -2 * error and float(last.net_repulsive_area_fraction) > 0
     return Finding(
         tension,
@@ -108,15 +114,18 @@ def area_at(curve, load, way):
 
 @claim(11)
 def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
+    """1/kappa_ad follows the formula of the criterion."""
     sets = map(list_points, adhesive_sets, adhesion_sets)
     points = xr.concat(sets, "point", data_vars="all")
     over = {name: (points[name] / points.formula).values for name in points}
     slopes = over["inverse_kappa_ad"]
-    known = (over["inverse_kappa_ad_total_error"] < LARGEST_ERROR) & (slopes > 0)
-    if not known.any():
+    largest_error = 0.3  # over the formula, of points that are compared with it
+    certain = (over["inverse_kappa_ad_total_error"] < largest_error) & (slopes > 0)
+    if not certain.any():
         return Finding(np.nan, OPEN, claimed=1.0, load=LOAD, known=0)
-    slopes, net = slopes[known], over["inverse_kappa_ad_net"]
-    net = net[(over["inverse_kappa_ad_net_total_error"] < LARGEST_ERROR) & (net > 0)]
+    slopes = slopes[certain]
+    net = over["inverse_kappa_ad_net"]
+    net = net[(over["inverse_kappa_ad_net_total_error"] < largest_error) & (net > 0)]
     apart = np.abs(np.log(np.concatenate([slopes, net]))).max()
     direct = points.inverse_kappa_ad_direct.values
     resolved = np.isfinite(direct)
@@ -125,13 +134,13 @@ def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
         np.exp(np.mean(np.log(slopes))),
         grade(apart < np.log(1.25), apart < np.log(4)),
         claimed=1.0,
-        errors={source: float(np.mean(over[source][known])) for source in error_budget.SOURCES},
+        errors={source: float(np.mean(over[source][certain])) for source in error_budget.SOURCES},
         load=LOAD,
         known=slopes.size,
         slopes=find_ends(slopes),
         net=find_ends(net),
-        limit=find_ends(over["limit"][known]),
-        dmt_points=int(points.dmt.values[known].sum()),
+        limit=find_ends(over["limit"][certain]),
+        dmt_points=int(points.dmt.values[certain].sum()),
         decades=np.ptp(np.log10(direct[resolved])),
         direct=find_ends(over["inverse_kappa_ad_direct"][resolved]),
         a_v=[ledger.value_and_error(fit, "a_v_mean") for fit in fits],
@@ -146,7 +155,8 @@ def find_ends(values):
 
 def list_points(full, limit):
     """Points of one set of the full simulation, with the formula, the DMT sum and the errors."""
-    full, limit = at_load(full), at_load(limit)
+    full = at_load(full)
+    limit = at_load(limit)
     q0_h_rms = float(full.q0_h_rms)
     range_ = (full.range_over_h_rms * full.q0_h_rms).values
     length = (full[LENGTH] * full.range_over_h_rms * full.q0_h_rms).values

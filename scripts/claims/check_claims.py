@@ -28,7 +28,8 @@ COLUMNS = {
 
 
 def main(job):
-    inputs, recomputed = job.input, errata.recompute()
+    inputs = job.input
+    recomputed = errata.recompute()
     paths = {name: inputs[name] for claim in CLAIMS for name in claim.files}
     files = {name: read(path) for name, path in paths.items()}
     rows = [examine(claim, files, paths, inputs.prose) for claim in CLAIMS]
@@ -39,20 +40,22 @@ def main(job):
 
 
 def read(path):
-    """Dataset or table of a path, or a list of them."""
+    """Read the dataset or table of a path, or of every path in a list."""
     if not isinstance(path, str):
-        return [read(one) for one in path]
+        return [read(member) for member in path]
     return remaining_table.read(path) if path.endswith(".csv") else datasets.read(path)
 
 
 def examine(claim, files, paths, prose):
-    """A row of the ledger: the finding of a claim, its prose and the files behind it."""
+    """Make a row of the ledger: the finding of a claim, its prose and the files behind it."""
     finding = claim(files)
     template = make_environment(Path(prose).parent).get_template(Path(prose).name)
     facts = {**finding.facts, "facts": finding.facts, "number": claim.number}
     texts = template.make_module(facts)
     groups = [paths[name] for name in claim.files]
-    sources = [one for group in groups for one in ([group] if isinstance(group, str) else group)]
+    sources = [
+        source for group in groups for source in ([group] if isinstance(group, str) else group)
+    ]
     return {
         "number": claim.number,
         **{name: getattr(finding, name) for name in ("value", "claimed", "errors", "verdict")},
@@ -68,7 +71,7 @@ def to_dataset(rows):
     frame["sources"] = frame.sources.str.join(" ")
     dataset = xr.Dataset(frame[[name for name in COLUMNS if name != "claim"]])
     none = dict.fromkeys(error_budget.SOURCES, 0.0)
-    errors = pd.DataFrame([none | given for given in frame.errors], frame.index)
+    errors = pd.DataFrame([none | errors_of_claim for errors_of_claim in frame.errors], frame.index)
     errors = xr.DataArray(errors.rename_axis(columns="source"))
     texts = dict.fromkeys(error_budget.SOURCES, "see the comment of each claim")
     dataset = datasets.annotate(dataset, **COLUMNS)

@@ -20,40 +20,40 @@ from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
 # Numbers of the paper's examples.
-RANGE, WORK_OF_ADHESION = 0.2e-9, 0.05  # m, J/m^2
+RANGE = 0.2e-9  # m
+WORK_OF_ADHESION = 0.05  # J/m^2
 CRYSTAL = 0.05  # l_a/range
 EXAMPLES = np.array([1e-6, 1e-9, 1e-12])  # range q0
 PRINTED_LIMITS = np.array([1000.0, 67000.0, 1e6])  # h_rms/range of these
 PRINTED_MODULUS = 0.2  # MPa, of a block that sticks to asphalt
-UPPER_LINE = 1e-3  # m^0.4, C0 of the line above real surfaces
 ANY_SHARE = 0.01  # that stands for any tension at all, which the paper means by sticking
 SIGNS = 0, -1, 1  # value, low and high limit
-NEGLIGIBLE = 0.1  # relative change of the remaining share that does not count
-PAPER = "violano"  # the paper's criterion
-RUBBER = "fuller_tabor/one_MPa"
 
 
 @claim(12)
 def slope_angle(map):
-    m, made = map.sortby("slope_parameter"), datasets.parameters(map)
-    a_v, roughness = made["slope_a_v"], m.h_rms_over_range.values
-    angles = m.slope_angle.transpose("slope_parameter", ...).values
+    """The area-load line turns vertical at the limit of stickiness."""
+    sorted_map = map.sortby("slope_parameter")
+    parameters = datasets.parameters(map)
+    a_v = parameters["slope_a_v"]
+    roughness = sorted_map.h_rms_over_range.values
+    angles = sorted_map.slope_angle.transpose("slope_parameter", ...).values
     crossing = np.array([np.interp(-90, -angle, roughness) for angle in angles])
-    expected = criteria.h_rms_limit(m.slope_parameter.values, 1.0, 1.0, a_v)
+    expected = criteria.h_rms_limit(sorted_map.slope_parameter.values, 1.0, 1.0, a_v)
     worst = float(np.max(np.abs(crossing / expected - 1)))
-    ratio = m.h_rms_limit / m.h_rms_limit_edges
-    weak = m.h_rms_limit_edges > m.weak_limit
+    ratio = sorted_map.h_rms_limit / sorted_map.h_rms_limit_edges
+    weak = sorted_map.h_rms_limit_edges > sorted_map.weak_limit
     return Finding(
         crossing[-1],
         grade(False, worst < 0.01),
         claimed=expected[-1],
         errors={"discretisation": worst * crossing[-1]},
-        parameter=m.slope_parameter[-1],
+        parameter=sorted_map.slope_parameter[-1],
         worst=worst,
         a_v=a_v,
         largest_dmt=largest_dmt(a_v),
-        shortest=made["shortest_over_range"],
-        weak=weak.where(m.h_rms_limit_edges.notnull()).mean(),
+        shortest=parameters["shortest_over_range"],
+        weak=weak.where(sorted_map.h_rms_limit_edges.notnull()).mean(),
         dmt_ratio=(ratio.min(), ratio.max()),
     )
 
@@ -66,9 +66,9 @@ def largest_dmt(a_v):
 
 @claim(13)
 def roughness_limits(map):
-    printed, derived, low, high = (
-        criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, a_v) for a_v in list_a_v(map)
-    )
+    """Largest sticky roughness of the paper's examples."""
+    limits = [criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, a_v) for a_v in list_a_v(map)]
+    printed, derived, low, high = limits
     close = np.abs(printed / PRINTED_LIMITS - 1) < 0.1
     return Finding(
         printed[1],
@@ -88,16 +88,20 @@ def list_a_v(map):
 
 @claim(14)
 def real_surfaces(asphalt, map, measured_surfaces, verdicts):
+    """Moduli below which solids stick to real surfaces."""
     # Rms height of the example, by the power law down to no cutoff.
     rough = asphalt.sel(end="rough")
-    q0, c0, hurst = float(rough.q0), float(rough.C0), float(rough.hurst)
+    q0 = float(rough.q0)
+    c0 = float(rough.C0)
+    hurst = float(rough.hurst)
     h_rms = float(np.sqrt(np.pi * c0 / hurst) * q0**-hurst)
     printed, *derived = (
         criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, a_v) / 1e6
         for a_v in list_a_v(map)
     )
+    upper_line = 1e-3  # m^0.4, C0 of the line above real surfaces
     # Only measured spectra can test the line, not parameters that somebody assumed.
-    heights = [float(data.C0_reference_upper.max()) / UPPER_LINE for data in measured_surfaces]
+    heights = [float(data.C0_reference_upper.max()) / upper_line for data in measured_surfaces]
     names = [datasets.parameters(data)["surface"] for data in measured_surfaces]
     labels = [datasets.parameters(verdicts)["labels"][name] for name in names]
     close = abs(printed / PRINTED_MODULUS - 1) < 0.1
@@ -114,8 +118,10 @@ def real_surfaces(asphalt, map, measured_surfaces, verdicts):
 
 @claim(15)
 def polished_steel(verdicts, polished_steel):
+    """Polished steel satisfies the condition for the DMT limit with all materials."""
     steel = polished_steel.sel(end="rough")
-    h, q0 = float(steel.h_rms), float(steel.q0)
+    h = float(steel.h_rms)
+    q0 = float(steel.q0)
     margin = verdicts.jtb_margin.sel(surface="polished_steel", end="rough").sortby("material")
     satisfied = bool((margin > 1).all())
     margins = list(zip(margin.material.values, margin.values, strict=True))
@@ -133,8 +139,10 @@ def polished_steel(verdicts, polished_steel):
 
 @claim(16)
 def crystal_strength():
+    """The adhesion length of a crystal on itself is a twentieth of the range."""
     law = adhesive.LennardJones(adhesion_length=1.0, range=1.0)
-    gaps, expected = np.linspace(0, 2, 200001), 9 * np.sqrt(3) / 16
+    gaps = np.linspace(0, 2, 200001)
+    expected = 9 * np.sqrt(3) / 16
     ratio = law.maugis_stress / float(law.traction(gaps).max())
     return Finding(
         ratio,
@@ -147,6 +155,7 @@ def crystal_strength():
 
 @claim(17)
 def pastewka_robbins():
+    """Exponents of Pastewka and Robbins' criterion on fractal surfaces."""
     hursts = np.array([0.5, 0.6, 0.7, 0.8])
     errors = [fractal_exponent(h, pastewka_robbins_a_v) - (5 * h - 3) / 3 for h in hursts]
     tough = [fractal_exponent(h, threshold_by_moments) - (1 - 2 * h) for h in hursts]
@@ -162,13 +171,13 @@ def pastewka_robbins():
 
 def fractal_exponent(hurst, quantity):
     """Exponent of a quantity in zeta, from two broad power-law spectra with exact moments."""
-    low, high = (
-        quantity(SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0)) for zeta in (1e12, 1e13)
-    )
+    low = quantity(SelfAffine(hurst=hurst, q0=1.0, q1=1e12, h_rms=1.0))
+    high = quantity(SelfAffine(hurst=hurst, q0=1.0, q1=1e13, h_rms=1.0))
     return float(np.log10(high / low))
 
 
 def pastewka_robbins_a_v(s):
+    """a_V of a spectrum by Pastewka and Robbins' attractive area."""
     return criteria.pastewka_robbins_a_v(s.q0, s.h_rms, s.rms_slope, s.rms_curvature)
 
 
@@ -181,6 +190,7 @@ def threshold_by_moments(s, range_=1e-30):
 
 @claim(18)
 def spectral_moments(seeds):
+    """Moments of isotropic surfaces."""
     surfaces = [data.sel(seed=seed) for data in seeds for seed in data.seed]
     ratios = np.array(
         [moment_ratios(data.height.values, float(data.window_length)) for data in surfaces]
@@ -191,7 +201,8 @@ def spectral_moments(seeds):
     off = np.abs(ratios.mean(axis=0) - expected)  # x and y apart: a lay does not cancel
     # x and y are nearly independent for 3 m22/m4; for the others this overstates the error.
     error = single[:, 0] / np.sqrt(2)
-    mean, lattice = ratios.mean(axis=(0, 2)), expected.mean(axis=1)
+    mean = ratios.mean(axis=(0, 2))
+    lattice = expected.mean(axis=1)
     return Finding(
         mean[0],
         grade(bool(np.all(off < 3 * single)), bool(np.all(off < 0.05))),
@@ -207,9 +218,10 @@ def spectral_moments(seeds):
 
 
 def moment_ratios(heights, length):
-    """Ratios that are 1 on an isotropic surface, in rows; columns along x and y."""
+    """Ratios of moments that are 1 on an isotropic surface, in rows; columns along x and y."""
     m = synthesis.moments(heights, length)
-    m2, m4 = np.array([m.m20, m.m02]), np.array([m.m40, m.m04])
+    m2 = np.array([m.m20, m.m02])
+    m4 = np.array([m.m40, m.m04])
     return np.array(
         [3 * m.m22 / m4, m.rms_slope / np.sqrt(2 * m2), m.rms_curvature / np.sqrt(8 * m4 / 3)]
     )
@@ -217,18 +229,18 @@ def moment_ratios(heights, length):
 
 def fixed_amplitudes(data):
     """Surface whose modes have exactly the variances expected of those of `data`, and its side."""
-    made = datasets.parameters(data)
-    n, length = data.sizes["x"], cell_size(made)
-    return synthesis.synthesise(model_spectrum(made), n, length, 1, "fixed"), length
+    surface = datasets.parameters(data)
+    n = data.sizes["x"]
+    length = cell_size(surface)
+    return synthesis.synthesise(model_spectrum(surface), n, length, 1, "fixed"), length
 
 
 @claim(19)
 def sticky_roughness(map):
+    """The paper's limits of roughness against the adhesion that remains."""
     shortest = datasets.parameters(map)["shortest_over_range"]
-    (value, low, high), (some, some_low, some_high) = (
-        np.array([[find_roughness(q0, shortest, share, sign) for q0 in EXAMPLES] for sign in SIGNS])
-        for share in (DEFAULT_SHARE, ANY_SHARE)
-    )
+    value, low, high = find_limits(shortest, DEFAULT_SHARE)
+    some, some_low, some_high = find_limits(shortest, ANY_SHARE)
     inside = (low <= PRINTED_LIMITS) & (some_high >= PRINTED_LIMITS)
     return Finding(
         value[1],
@@ -240,6 +252,13 @@ def sticky_roughness(map):
         limits=[(value, low, high), (some, some_low, some_high)],
         times=[PRINTED_LIMITS / value, PRINTED_LIMITS / some],
         jtb=criteria.jtb_limit(EXAMPLES, CRYSTAL, 1.0),
+    )
+
+
+def find_limits(shortest, share):
+    """Values, low and high limits of h_rms/range at which a share remains, in all examples."""
+    return np.array(
+        [[find_roughness(q0, shortest, share, sign) for q0 in EXAMPLES] for sign in SIGNS]
     )
 
 
@@ -258,7 +277,9 @@ def find_roughness(range_times_q0, shortest, share, sign):
 
 @claim(20)
 def sticky_asphalt(asphalt):
-    rough, smooth = (asphalt.sel(end=end) for end in ("rough", "smooth"))
+    """The paper's modulus on asphalt against the adhesion that remains."""
+    rough = asphalt.sel(end="rough")
+    smooth = asphalt.sel(end="smooth")
     value, low, high = (find_modulus(rough, DEFAULT_SHARE, sign) for sign in SIGNS)
     limits = low, find_modulus(smooth, ANY_SHARE, 1)
     inside = limits[0] <= PRINTED_MODULUS <= limits[1]
@@ -287,19 +308,23 @@ def find_modulus(surface, share, sign):
 
 @claim(21)
 def truncation(remaining):
-    (smooth, equal), (rough, _) = (follow_magnification(remaining, hurst) for hurst in (0.8, 0.5))
+    """Finer waves do not change the adhesion."""
+    smooth, equal = follow_magnification(remaining, hurst=0.8)
+    rough, _ = follow_magnification(remaining, hurst=0.5)
     number = smooth.count()
     finest = number[number == number.iloc[1:].max()].index[-1]  # of those that most surfaces have
-    (before, last), ends = smooth.columns[-2:], smooth.iloc[:, -2:].dropna().mean()
+    (before, last) = smooth.columns[-2:]
+    ends = smooth.iloc[:, -2:].dropna().mean()
     # Change that the last step would make over a factor of ten in magnification.
     late = float((ends[last] / ends[before]) ** (1 / np.log10(last / before))) - 1
     ratios = smooth[finest].dropna()
     changed = [abs(1 - of.mean()).max() for of in (smooth, rough)]
     scatter = students_t(ratios.size) * ratios.std() / np.sqrt(ratios.size)
+    negligible = 0.1  # relative change of the remaining share that does not count
     return Finding(
         ratios.mean(),
         # The paper means broader spectra than any that were simulated.
-        REPRODUCED if max(changed) < NEGLIGIBLE else OPEN,
+        REPRODUCED if max(changed) < negligible else OPEN,
         claimed=1.0,
         errors={"sampling": float(scatter)},
         coarse=smooth.columns[0],
@@ -313,7 +338,7 @@ def truncation(remaining):
 
 
 def follow_magnification(table, hurst):
-    """What finer waves do to the adhesion of the same long waves, by magnification.
+    """Follow how finer waves change the adhesion of the same long waves, by magnification.
 
     The energy gained at the work of adhesion that equals the energy of full contact with the fewest
     waves, over that with these, by surface; and the mean share where both energies are equal.
@@ -325,37 +350,46 @@ def follow_magnification(table, hurst):
     coarse = rows[rows.magnification == rows.magnification.min()]
     works = coarse.groupby("seed").full_contact_energy.first()
     rows = rows[rows.seed.isin(works.index)].sort_values("adhesion_length")
-    found = {
-        at: [
-            np.interp(work, one.adhesion_length, one.bound, left=np.nan, right=np.nan)
-            for work in (works[at[0]], one.full_contact_energy.iloc[0])
-        ]
-        for at, one in rows.groupby(["seed", "magnification"])
-    }
-    at_one_work, equal = (row.unstack() for _, row in pd.DataFrame(found).iterrows())
+    at_one_work = {}
+    at_equal_energies = {}
+    for (seed, magnification), states in rows.groupby(["seed", "magnification"]):
+        key = seed, magnification
+        at_one_work[key] = interpolate_bound(states, works[seed])
+        at_equal_energies[key] = interpolate_bound(states, states.full_contact_energy.iloc[0])
+    at_one_work = pd.Series(at_one_work).unstack()
+    equal = pd.Series(at_equal_energies).unstack()
     return at_one_work.div(at_one_work.iloc[:, 0], axis=0), equal.dropna().mean()
+
+
+def interpolate_bound(states, work):
+    """Share that is gained at a work of adhesion between those simulated; NaN beyond them."""
+    return np.interp(work, states.adhesion_length, states.bound, left=np.nan, right=np.nan)
 
 
 @claim(22)
 def stickiness_of_experiments(experiments):
-    names = [f"{one['experiment']} ({one['case']})" for one in describe(experiments)["cases"]]
-    rubber = experiments.sel(case=RUBBER)
+    """The paper's criterion against published experiments."""
+    names = [f"{case['experiment']} ({case['case']})" for case in describe(experiments)["cases"]]
+    rubber_case = "fuller_tabor/one_MPa"
+    rubber = experiments.sel(case=rubber_case)
     read = (experiments.tests == 1) & (experiments.observed_known == GRADES.index("read"))
-    codes = experiments.criterion_outcome.sel(criterion=PAPER).where(read, SILENT)
-    missed, some, compatible = (
-        [name for name, found in zip(names, codes.values, strict=True) if found == code]
+    paper = "violano"  # the paper's criterion
+    codes = experiments.criterion_outcome.sel(criterion=paper).where(read, SILENT)
+    by_outcome = {
+        code: [name for name, outcome in zip(names, codes.values, strict=True) if outcome == code]
         for code in (MISSED, SOME, COMPATIBLE)
-    )
+    }
     # The worst outcome among the observations that were read from a publication.
-    worst = NOT if missed else QUALIFIED if some else REPRODUCED if compatible else OPEN
+    verdicts = {MISSED: NOT, SOME: QUALIFIED, COMPATIBLE: REPRODUCED}
+    worst = next((verdicts[code] for code in verdicts if by_outcome[code]), OPEN)
     return Finding(
-        float(rubber.criterion_roughness.sel(criterion=PAPER)) * 1e6,
+        float(rubber.criterion_roughness.sel(criterion=paper)) * 1e6,
         worst,
         errors={"model": np.nan},
         rubber=rubber,
-        paper=PAPER,
-        missed=missed,
-        some=some,
-        compatible=compatible,
+        paper=paper,
+        missed=by_outcome[MISSED],
+        some=by_outcome[SOME],
+        compatible=by_outcome[COMPATIBLE],
         wanted=DEFAULT_SHARE,
     )

@@ -9,16 +9,16 @@ from scipy.integrate import quad
 
 from stickiness.criteria import formulas
 
-MEASURED_A_V = 3.0  # the value the paper finds, 3/2 of which is the right coefficient
-ASPHALT = {"q0": 1e3, "hurst": 0.8, "C0": 1e-3}  # the paper's, SI
-
 
 def recompute():
     """Numbers that the statements quote or compare, by the number of the erratum."""
-    a_v = {"printed": formulas.PRINTED_A_V, "derived": MEASURED_A_V}
+    measured_a_v = 3.0  # the value the paper finds, 3/2 of which is the right coefficient
+    a_v = {"printed": formulas.PRINTED_A_V, "derived": measured_a_v}
     second = {f"coefficient_{name}": 1.5 * value for name, value in a_v.items()}
-    q0, hurst = ASPHALT["q0"], ASPHALT["hurst"]
-    h_rms = np.sqrt(np.pi * ASPHALT["C0"] / hurst) * q0**-hurst
+    asphalt = {"q0": 1e3, "hurst": 0.8, "C0": 1e-3}  # the paper's, SI
+    q0 = asphalt["q0"]
+    hurst = asphalt["hurst"]
+    h_rms = np.sqrt(np.pi * asphalt["C0"] / hurst) * q0**-hurst
     for name, value in a_v.items():
         for exponent in (6, 9, 12):
             limit = formulas.h_rms_limit(10.0**-exponent, 0.05, 1.0, value)
@@ -33,8 +33,8 @@ def recompute():
     for name, ratio in {"exact": formulas.CRYSTAL_RANGE_RATIO, "1.1": 1.1, "1": 1.0}.items():
         sixth[f"prefactor_ratio_{name}"] = formulas.pastewka_robbins_a_v(1, 1, 1, 1, ratio)
         # At zeta = 1 the power zeta^((5H - 3)/3) is 1 and the broad-band form is its prefactor.
-        found = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
-        sixth[f"power_law_ratio_{name}"] = found
+        power_law = formulas.pastewka_robbins_a_v_power_law(0.8, 1.0, ratio)
+        sixth[f"power_law_ratio_{name}"] = power_law
     return {
         # Dimension in lengths of (l_a)^k h_rms^(3/2) R^(-1/2).
         "1": {f"length_exponent_{n}": k + 1.0 for n, k in (("printed", 1), ("correct", -1))},

@@ -30,8 +30,11 @@ class Finding:
     """
 
     def __init__(self, value, verdict, claimed=np.nan, errors=None, **facts):
-        self.value, self.verdict, self.claimed = float(value), verdict, float(claimed)
-        self.errors, self.facts = errors or {}, facts
+        self.value = float(value)
+        self.verdict = verdict
+        self.claimed = float(claimed)
+        self.errors = errors or {}
+        self.facts = facts
 
     @property
     def uncertainty(self):
@@ -57,18 +60,27 @@ class Claim:
 
 
 def claim(number):
-    return lambda examine: Claim(number, examine)
+    """Decorator that makes a claim of a function that examines it."""
+
+    def register(examine):
+        return Claim(number, examine)
+
+    return register
 
 
 def collect(*topics):
     """Claims of some modules by number."""
-    claims = [found for topic in topics for found in vars(topic).values() if type(found) is Claim]
-    return sorted(claims, key=lambda found: found.number)
+    claims = [
+        member for topic in topics for member in vars(topic).values() if type(member) is Claim
+    ]
+    return sorted(claims, key=lambda member: member.number)
 
 
 def grade(fully, partly):
     """Verdict on a claim that is true outright, or within limits that the remark states."""
-    return REPRODUCED if fully else QUALIFIED if partly else NOT
+    if fully:
+        return REPRODUCED
+    return QUALIFIED if partly else NOT
 
 
 def errors_by_source(data, name):
@@ -83,5 +95,5 @@ def value_and_error(data, name):
 
 def describe_cell(data):
     """Magnification of a simulated case, and the side of its cell in longest wavelengths."""
-    made = datasets.parameters(data)
-    return {"zeta": made["magnification"], "waves": made.get("window", 1)}
+    surface = datasets.parameters(data)
+    return {"zeta": surface["magnification"], "waves": surface.get("window", 1)}

@@ -24,7 +24,8 @@ OUTSIDE = "outside the table of measured errors"
 # moved by more than 1e-4 of the load, up to 11 % of it, nearly all with attraction above 1.5 times
 # the load. The mean over four seeds moves less than the error here.
 SOLVER = 2e-6
-BRANCH, BRANCHING = 0.03, 1.5  # relative error where the attraction is that many times the load
+BRANCH = 0.03  # relative error where the branch is uncertain
+BRANCHING = 1.5  # attraction over the load from which it is
 STRONGEST = 8.0  # attraction over repulsion, by the DMT sum, that is still looked at
 # Attraction over repulsion, by the DMT sum, up to which the answer is nearly linear in it.
 NEARLY_LINEAR = 0.1
@@ -32,7 +33,8 @@ LEAST = 20  # states of a loop at least, loading or unloading
 # Tolerances of states: tighter than without adhesion, and the tighter the weaker the attraction is:
 # the area of single pixels is all that weak adhesion changes. Against the tightest everywhere, 3 of
 # 264 states have one pixel more or less.
-TIGHTEST, LOOSEST = 1e-7, 1e-5
+TIGHTEST = 1e-7
+LOOSEST = 1e-5
 
 AXES = ("pressure", "adhesion_length_over_range", "range_over_h_rms")
 
@@ -60,38 +62,47 @@ ATTRIBUTES = {  # of the state, where its name is another
 
 def axes(adhesion):
     """Pressures, adhesion lengths and ranges of a set, each in increasing order."""
-    lists = (adhesion["pressures"], *(adhesion[name] for name in AXES[1:]))
-    values = [np.sort(np.array(given, float)) for given in lists]
-    return tuple(xr.DataArray(v, {n: v}, [n], n) for n, v in zip(AXES, values, strict=True))
+    points = {
+        "pressure": adhesion["pressures"],
+        "adhesion_length_over_range": adhesion["adhesion_length_over_range"],
+        "range_over_h_rms": adhesion["range_over_h_rms"],
+    }
+    increasing = {name: np.sort(np.array(values, float)) for name, values in points.items()}
+    return tuple(
+        xr.DataArray(increasing[name], dims=name, name=name, coords={name: increasing[name]})
+        for name in AXES
+    )
 
 
-def count_points(made):
+def count_points(parameters):
     """Points of the finest grid by range, from the parameters of a file of states."""
-    side = made["grid_points"] * made["refine"]
-    return (side / xr.DataArray(made["coarser"], dims=AXES[2])) ** 2
+    side = parameters["grid_points"] * parameters["refine"]
+    return (side / xr.DataArray(parameters["coarser"], dims=AXES[2])) ** 2
 
 
 def seeds_on_both(states):
     """Seeds whose states are solved on the finest grid, too."""
-    known = fine(states.area_alone).notnull()
-    return states.seed[known.all(set(known.dims) - {"seed"})]
+    solved = fine(states.area_alone).notnull()
+    return states.seed[solved.all(set(solved.dims) - {"seed"})]
 
 
 def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
+    """A traction law of this kind in the units of the simulations."""
     strength = adhesion_length_over_range / roughness(adhesion)
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
 def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
-    """State at the mean gap of a contact without adhesion.
+    """Solve the adhesive state at the mean gap of a contact without adhesion.
 
-    `weaker` is None or adhesion length and gap of a state at the same range, with attraction up to
-    `NEARLY_LINEAR`: the gap changes in proportion to it.
+    `weaker` is None, or the adhesion length and gap of a state at the same range whose attraction
+    is below `NEARLY_LINEAR`. The change of the gap is then nearly in proportion to the adhesion
+    length, which gives a start close to the solution.
     """
     start = contact.gap
     if weaker is not None:
-        known_length, gap = weaker
-        change = (gap - contact.gap) * (law.adhesion_length / known_length)
+        weaker_length, weaker_gap = weaker
+        change = (weaker_gap - contact.gap) * (law.adhesion_length / weaker_length)
         start = np.maximum(contact.gap + change, 0)
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance
@@ -110,14 +121,15 @@ def pressure_at(states, curve):
     area = states.repulsive_area / states.area_alone * curve.sel(pressure=states.pressure)
     loads = np.log(curve.pressure.values)
 
-    def invert(wanted, known):
-        return np.exp(np.interp(np.log(wanted), np.log(known), loads, np.nan, np.nan))
+    def invert(wanted, tabulated):
+        return np.exp(np.interp(np.log(wanted), np.log(tabulated), loads, np.nan, np.nan))
 
-    curve, dims = curve.rename(pressure="load"), [[], ["load"]]
-    return xr.apply_ufunc(invert, area, curve, input_core_dims=dims, vectorize=True)
+    curve = curve.rename(pressure="load")
+    return xr.apply_ufunc(invert, area, curve, input_core_dims=[[], ["load"]], vectorize=True)
 
 
 def solver_error(states):
-    """Relative error by the solver and by the branch that it ends on, at every point of a set."""
-    over = states.attraction_dmt / states.pressure
-    return SOLVER + BRANCH * (over > BRANCHING).any(["seed", "resolution"])
+    """Relative error by the solver, and by the branch on which it ends, at every point of a set."""
+    attraction_over_load = states.attraction_dmt / states.pressure
+    branching = (attraction_over_load > BRANCHING).any(["seed", "resolution"])
+    return SOLVER + BRANCH * branching

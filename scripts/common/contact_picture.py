@@ -11,7 +11,6 @@ from common.plotting import BLUE, GREY, RED
 
 CONTACT = 255  # code of a pixel in contact; lower ones are gaps
 GAPS = [to_hex(colormaps["bone_r"](code / (CONTACT - 1))) for code in range(CONTACT)]
-WAYS = ((0, "approach", BLUE), (1, "separation", RED))
 
 
 def draw_still(contact, pull_off, output):
@@ -27,7 +26,8 @@ def draw_still(contact, pull_off, output):
     ratios = [min(max(1.5 * height / width, 0.8), 3.0)]
     rows = "ABCD"
     if not pull_off.attrs["left_out"]:
-        rows, ratios = f"{rows};.EE.", [*ratios, 2.2]
+        rows = f"{rows};.EE."
+        ratios = [*ratios, 2.2]
     with plotting.open_figure([output], rows, sum(ratios) + 0.9, height_ratios=ratios) as panels:
         maps = [panels[letter] for letter in "ABCD"]
         loads = np.linspace(1, len(codes) - 1, len(maps)).round().astype(int)
@@ -72,9 +72,11 @@ def follow_tension(pull_off):
     largest = float(pull_off.mean_traction.max())
     per_tension, tension = unit_for(max(largest, 1.0), "Pa")
     curves = []
-    for way, name, colour in WAYS:
+    ways = ((0, "approach", BLUE), (1, "separation", RED))
+    for way, name, colour in ways:
         states = pull_off.isel(state=pull_off.separating.values == way)
-        gaps, tensions = states.mean_gap.values, states.mean_traction.values
+        gaps = states.mean_gap.values
+        tensions = states.mean_traction.values
         curves.append((name, colour, {"gap": gaps * per_gap, "tension": tensions * per_tension}))
     # The squeeze may press far harder than the surfaces attract each other.
     lowest = max(-2 * largest, 1.1 * float(pull_off.mean_traction.min()))

@@ -15,7 +15,7 @@ FIT_MEASURED = (0.01, 0.1)  # over h_rms, fit interval of the a_V that has an er
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
 
 # Units and long_name of variables that mean the same wherever they occur.
-VARIABLES = {
+SHARED_VARIABLES = {
     "pressure": ("1", "mean pressure over E* q0 h_rms"),
     "range": ("1", "range of attraction over h_rms"),
     "gap": ("1", "gap over h_rms"),
@@ -47,14 +47,16 @@ RMS_SLOPE = ("1", "rms gradient of this realisation over q0 h_rms")
 
 
 def annotate(dataset, **texts):
-    """Describe the variables of a dataset by `texts` or else by `VARIABLES`.
+    """Describe the variables of a dataset by `texts` or else by `SHARED_VARIABLES`.
 
     A text is the `long_name` of a dimensionless variable, or a tuple of units, `long_name` and, if
     values may be missing, what that means. Texts of variables that the dataset lacks are ignored.
     """
-    known = {name: text for name, text in (VARIABLES | texts).items() if name in dataset.variables}
-    known = {n: ("1", text) if isinstance(text, str) else text for n, text in known.items()}
-    return datasets.annotate(dataset, **known)
+    described = {
+        name: text for name, text in (SHARED_VARIABLES | texts).items() if name in dataset.variables
+    }
+    described = {n: ("1", text) if isinstance(text, str) else text for n, text in described.items()}
+    return datasets.annotate(dataset, **described)
 
 
 def add_convergence(dataset, tolerance, prefix=""):
@@ -65,11 +67,12 @@ def add_convergence(dataset, tolerance, prefix=""):
 
 
 def at_load(data):
+    """Data at the load of the paper's Figures 3A and 3C."""
     return data.sel(pressure=LOAD, method="nearest")
 
 
 def logarithmic_grid(grid):
-    """Points from `minimum` to `maximum` with about `per_decade` a decade; none of None."""
+    """List points from `minimum` to `maximum`, about `per_decade` a decade; none for None."""
     if grid is None:
         return np.array([])
     decades = np.log10(grid["maximum"] / grid["minimum"])

@@ -13,8 +13,11 @@ def select_certain(files):
     """Points of all files with a small enough error, one a row, with their surface."""
     tables = []
     for data in files:
-        made = datasets.parameters(data)
-        surface = {"magnification": made["magnification"], "roughness": f"{made['q0_h_rms']:.2g}"}
+        parameters = datasets.parameters(data)
+        surface = {
+            "magnification": parameters["magnification"],
+            "roughness": f"{parameters['q0_h_rms']:.2g}",
+        }
         table = data[COLUMNS].to_dataframe(list(data.effect.dims))[COLUMNS]
         tables.append(table.assign(**surface))
     points = pd.concat(tables, ignore_index=True)

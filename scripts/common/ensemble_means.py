@@ -6,6 +6,8 @@ many more seeds the multilevel one of `stickiness.accuracy.multilevel`.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -21,6 +23,13 @@ FEWEST = 8  # seeds from which on a slope fitted to them is better than a ratio
 PREFIX = "coarse_"  # of what an ensemble's file keeps of coarse solutions, and of their seeds
 
 
+class Mean(NamedTuple):
+    """A mean over the ensemble, and its standard error."""
+
+    value: xr.DataArray
+    standard_error: xr.DataArray
+
+
 @dataclass(frozen=True)
 class Coarse:
     """A quantity of seeds that are solved on the coarsest grid alone, and their long waves."""
@@ -34,7 +43,7 @@ class Coarse:
 
 
 def coarse(ensemble, quantity):
-    """A quantity of the coarse solutions of an ensemble, under names of fine ones; None without."""
+    """Evaluate a quantity on the coarse solutions of an ensemble; None if it has none."""
     if f"{PREFIX}seed" not in ensemble.dims:
         return None
     names = {n: n.removeprefix(PREFIX) for n in ensemble.variables if n.startswith(PREFIX)}
@@ -66,43 +75,65 @@ def ensemble_mean(values, more=None):
     seeds are missing on the finest grid alone, all seeds give the mean on the next one. The others
     correct it, wherever that has a smaller standard error than the mean of the others.
     """
-    both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
-    if both.any() and not both.all() and values.sizes["resolution"] > 1:
-        return _mean_from_half(values, both, more)
-    plain, count = (mean(values), standard_error(values)), values.sizes["seed"]
-    if more is None or count == 1:
+    on_both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
+    if on_both.any() and not on_both.all() and values.sizes["resolution"] > 1:
+        return _mean_from_half(values, on_both, more)
+    plain = Mean(mean(values), standard_error(values))
+    if more is None or values.sizes["seed"] == 1:
         return plain
+
+    # The values on the coarsest grid, or those of another model, of the same seeds.
+    if more.twin is None:
+        twin = values.isel(resolution=0, drop=True)
+        combine = multilevel.multilevel_mean
+    else:
+        twin = more.twin
+        combine = partial(multilevel.multilevel_mean, fewest=FEWEST)
+
+    # As arrays with the seed first, zero in entries that are not finite in every seed.
     few = fine(values).transpose("seed", ...)
-    twin, slopes = more.twin, {"fewest": FEWEST}
-    if twin is None:
-        twin, slopes = values.isel(resolution=0, drop=True), {}
-    solved = [part.transpose(*few.dims) for part in (few, twin, more.values)]
-    finite = np.all([np.isfinite(part).all("seed").values for part in solved], axis=0)
-    solved = [np.where(finite, part.values, 0.0) for part in solved]
-    waves = more.controls.values, more.elsewhere.values
-    found = multilevel.multilevel_mean(*solved, *waves, **slopes)
-    best, error = (part.transpose(*few.dims[1:]) for part in plain)
-    return (
-        best.copy(data=np.where(finite, found.mean, best.values)),
-        error.copy(data=np.where(finite, found.standard_error, error.values)),
+    dims = few.dims
+    twin = twin.transpose(*dims)
+    many = more.values.transpose(*dims)
+    finite = np.all([np.isfinite(part).all("seed").values for part in (few, twin, many)], axis=0)
+    combined = combine(
+        fine=np.where(finite, few.values, 0.0),
+        coarse=np.where(finite, twin.values, 0.0),
+        many=np.where(finite, many.values, 0.0),
+        controls=more.controls.values,
+        elsewhere=more.elsewhere.values,
+    )
+
+    # In those entries the mean stays plain.
+    value = plain.value.transpose(*dims[1:])
+    error = plain.standard_error.transpose(*dims[1:])
+    return Mean(
+        value.copy(data=np.where(finite, combined.mean, value.values)),
+        error.copy(data=np.where(finite, combined.standard_error, error.values)),
     )
 
 
-def _mean_from_half(values, both, more):
+def _mean_from_half(values, on_both, more):
     """As `ensemble_mean`, with the seeds that are solved on both of the finest grids."""
-    others, fewer = values[{"seed": both}], more
+    # The mean of these seeds alone.
+    seeds = values[{"seed": on_both}]
+    more_of_seeds = more
     if more is not None and more.twin is not None:
-        fewer = replace(more, twin=more.twin[{"seed": both}])
-    best, error = ensemble_mean(others, fewer)
+        more_of_seeds = replace(more, twin=more.twin[{"seed": on_both}])
+    value, error = ensemble_mean(seeds, more_of_seeds)
+
+    # The mean of all seeds on half the grid, corrected by these seeds.
     half = ensemble_mean(values.isel(resolution=slice(-1)), more)
-    few, twin = (others[{"resolution": k}].transpose("seed", ...).values for k in (-1, -2))
+    level = multilevel.Estimate(half.value.values, half.standard_error.values, np.nan)
+    few = seeds[{"resolution": -1}].transpose("seed", ...).values
+    twin = seeds[{"resolution": -2}].transpose("seed", ...).values
     one_sign = np.all(twin >= 0, axis=0) | np.all(twin <= 0, axis=0)
-    level = multilevel.Estimate(*(part.values for part in half), np.nan)
-    found = multilevel.corrected_mean(few, twin, level, one_sign)
-    surer = found.standard_error < error.values
-    return (
-        best.copy(data=np.where(surer, found.mean, best.values)),
-        error.copy(data=np.where(surer, found.standard_error, error.values)),
+    corrected = multilevel.corrected_mean(few, twin, level, one_sign)
+
+    surer = corrected.standard_error < error.values
+    return Mean(
+        value.copy(data=np.where(surer, corrected.mean, value.values)),
+        error.copy(data=np.where(surer, corrected.standard_error, error.values)),
     )
 
 
@@ -112,20 +143,23 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     `more` is the same of coarse solutions, see `coarse`. A `grid_limits.Limit` takes mean and
     discretisation error to the limit of fine grids; else that is the change from half of it.
     """
-    best, error = ensemble_mean(values, more)
-    best = best if limit is None else best + limit.shift
-    left = discretisation_error(values) if limit is None else limit.error
+    value, error = ensemble_mean(values, more)
+    if limit is None:
+        left = discretisation_error(values)
+    else:
+        value = value + limit.shift
+        left = limit.error
     return dataset.assign(
         {
-            name if plain else f"{name}_mean": best,
+            name if plain else f"{name}_mean": value,
             f"{name}_standard_error": error,
-            f"{name}_discretisation_error": left.transpose(*best.dims),
+            f"{name}_discretisation_error": left.transpose(*value.dims),
         }
     )
 
 
 def describe_errors(quantities, plain=False, discretisation=SUFFIXES["discretisation_error"]):
-    """Texts of what `add_errors` adds for `quantities`, texts by names."""
+    """Describe the variables that `add_errors` adds for `quantities`, which are texts by name."""
     texts = {}
     for name, text in quantities.items():
         mean_text = text if plain else f"{text}: {SUFFIXES['mean']}"
@@ -137,10 +171,12 @@ def describe_errors(quantities, plain=False, discretisation=SUFFIXES["discretisa
 
 
 def fine(values):
+    """Values on the finest grid."""
     return values.isel(resolution=-1, drop=True)
 
 
 def scatter(values):
+    """Standard error of a plain mean over seeds; NaN for a single seed."""
     if values.sizes["seed"] == 1:
         return values.mean("seed") * np.nan
     return values.std("seed", ddof=1) / np.sqrt(values.count("seed"))

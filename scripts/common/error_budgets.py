@@ -21,7 +21,6 @@ from stickiness.statistics import students_t
 COLUMN_OF = {c.variable: c.name for c in COLUMNS.values() if "range" not in c.at}
 COLUMN_AT_RANGE = {c.at["range"]: c.name for c in COLUMNS.values() if "range" in c.at}
 NOT_MEASURED = "how this quantity changes with the tolerance is not measured"
-ENDLESS = np.inf  # window of a continuous spectrum
 
 SIMULATED = {
     "bandwidth": not_applicable("the case's own spectrum is simulated"),
@@ -38,25 +37,33 @@ QUADRATURE = {"area_fraction": 1e-9, "mean_gap": 1e-9, "attractive_area": 5e-7, 
 
 
 class Simulation:
-    """Errors of a mean over realisations; `made` are the parameters of an ensemble's file."""
+    """Errors of a mean over realisations; `parameters` are those of its file."""
 
-    def __init__(self, models, made):
-        knobs = made["pixels_per_wavelength"], made["tolerance"], len(made["seeds"])
-        self.settings = Settings(*knobs, made.get("coarse_seeds", 0))
-        described = made.get("descriptor_seeds", 2048)
-        self.problem = Problem(models, Surface.of(made), (), (), described)
+    def __init__(self, models, parameters):
+        self.settings = Settings(
+            pixels_per_wavelength=parameters["pixels_per_wavelength"],
+            tolerance=parameters["tolerance"],
+            seeds=len(parameters["seeds"]),
+            coarse_seeds=parameters.get("coarse_seeds", 0),
+        )
+        described = parameters.get("descriptor_seeds", 2048)
+        self.problem = Problem(models, Surface.of(parameters), (), (), described)
 
     def solver(self, name, like):
         """Relative error by the tolerance of the solver, along a variable."""
-        problem, knob = self.problem, {"tolerance": self.settings.tolerance}
+        problem = self.problem
+        tolerance = self.settings.tolerance
 
         def single(column, load):
-            return single_error(problem.models, "solver", column, problem.surface, load, **knob)
+            surface = problem.surface
+            return single_error(
+                problem.models, "solver", column, surface, load, tolerance=tolerance
+            )
 
         return along(single, name, like)
 
     def factors(self, name, like):
-        """Standard errors that cover 90 % of means, along a variable, wherever that is."""
+        """Number of standard errors that cover 90 % of means, along a variable."""
 
         def single(column, load):
             return covering_factor(self.problem, self.settings, load, column)
@@ -64,13 +71,15 @@ class Simulation:
         return along(single, name, like, widened=False)
 
     def parts(self, name, value, standard_error, discretisation, text=LEFT):
-        """Parts of the budget of a mean; `name` is a variable without ``_mean``, or a column."""
+        """Make the budget of a mean; `name` is a variable without ``_mean``, or a column."""
         if name == "attractive_area" or has_error_model(COLUMN_OF.get(name, name)):
-            error, factor = self.solver(name, value), self.factors(name, value)
+            error = self.solver(name, value)
+            factor = self.factors(name, value)
             solver = ErrorComponent(error * abs(value), "by the tolerance, as measured")
             basis = "Student's t of the standard error"
         else:
-            factor, solver = students_t(self.settings.seeds), unknown_error(NOT_MEASURED)
+            factor = students_t(self.settings.seeds)
+            solver = unknown_error(NOT_MEASURED)
             basis = "Student's t by the fine seeds alone"
         return {
             "discretisation": ErrorComponent(discretisation, text),
@@ -80,29 +89,29 @@ class Simulation:
         }
 
 
-def along(model, name, like, at=(), widened=True):
-    """Values of a model by column, further coordinates `at` and pressure, along a variable."""
+def along(model, name, like, coordinates=(), widened=True):
+    """Evaluate a model of a column, further `coordinates` and the pressure along a variable."""
 
-    def by(column):
-        return xr.apply_ufunc(model, column, *at, like.pressure, vectorize=True)
+    def evaluate(column):
+        return xr.apply_ufunc(model, column, *coordinates, like.pressure, vectorize=True)
 
     if name == "attractive_area":
-        ends = {range_: by(column) for range_, column in COLUMN_AT_RANGE.items()}
+        ends = {range_: evaluate(column) for range_, column in COLUMN_AT_RANGE.items()}
         return interpolate_ranges(ends, like["range"], widened)
-    found = by(COLUMN_OF.get(name, name))
+    values = evaluate(COLUMN_OF.get(name, name))
     if not (widened and "gap" in like.dims):
-        return found
+        return values
     inside = (like.gap >= GAPS_MEASURED[0]) & (like.gap <= GAPS_MEASURED[1])
-    return found * xr.where(inside, 1.0, OUTSIDE)
+    return values * xr.where(inside, 1.0, OUTSIDE)
 
 
 def interpolate_ranges(ends, ranges, widened=True):
-    """A power law between the two ranges measured, held and widened outside."""
-    (low, first), (high, last) = ends.items()
+    """Geometric interpolation between the two ranges measured; constant and widened outside."""
+    (low, at_low), (high, at_high) = ends.items()
     share = np.log(ranges / low) / np.log(high / low)
     inside = share.clip(0, 1)
-    found = first ** (1 - inside) * last**inside
-    return found * xr.where(share == inside, 1, OUTSIDE) if widened else found
+    values = at_low ** (1 - inside) * at_high**inside
+    return values * xr.where(share == inside, 1, OUTSIDE) if widened else values
 
 
 def theory_error(models, name, like, surface=None):
@@ -110,19 +119,20 @@ def theory_error(models, name, like, surface=None):
 
     Without a `surface` the variable `like` has coordinates `hurst` and `magnification`.
     """
-    kind = Surface.of(surface) if surface else Surface(0.8, 1.0, ENDLESS)
+    # The window of a continuous spectrum is endless.
+    kind = Surface.of(surface) if surface else Surface(0.8, 1.0, np.inf)
 
     def single(column, hurst, magnification, pressure):
-        at = replace(kind, hurst=hurst, magnification=magnification)
-        return single_error(models, "theory", column, at, pressure)
+        surface_here = replace(kind, hurst=hurst, magnification=magnification)
+        return single_error(models, "theory", column, surface_here, pressure)
 
-    where = kind if surface else like
-    found = along(single, name, like, (where.hurst, where.magnification))
-    return found.where(like["variant"] == VARIANT) if "variant" in like.coords else found
+    shape = kind if surface else like
+    error = along(single, name, like, coordinates=(shape.hurst, shape.magnification))
+    return error.where(like["variant"] == VARIANT) if "variant" in like.coords else error
 
 
 def theory_parts(models, name, value, surface=None, like=""):
-    """Parts of the budget of a variable by theory; by quadrature it errs as the variable `like`."""
+    """Make the budget of a variable by theory, with the quadrature error of the variable `like`."""
     quadrature = QUADRATURE[like or name] * abs(value)
     return {
         "discretisation": ErrorComponent(quadrature, "of the quadrature, as tested"),

@@ -37,30 +37,34 @@ def describe_case(case, experiments):
     """One case in words; `case` is the dataset at one place along `case`."""
     experiment, name = case.case.item().split("/")
     entry = experiments[experiment]
-    outcome, waves = int(case.outcome), float(case.waves_in_contact)
+    outcome = int(case.outcome)
+    waves = float(case.waves_in_contact)
     few = ", too few" if waves < FEWEST_WAVES else ""
     unit, label = OBSERVED[case["quantity"].item()]
     unit = unit and unit.replace("^2", "²")
-    names = ("observed_low", "observed_high", "predicted", "predicted_lowest", "predicted_highest")
-    low, high, value, lowest, highest = (float(case[name]) for name in names)
+    low = float(case.observed_low)
+    high = float(case.observed_high)
+    predictions = [float(case[n]) for n in ("predicted", "predicted_lowest", "predicted_highest")]
     if unit == "J/m²":
-        value, lowest, highest = (0.0 if x < LEAST else x for x in (value, lowest, highest))
+        predictions = [0.0 if work < LEAST else work for work in predictions]
+    value, lowest, highest = predictions
     observed = show_interval(low, high, unit) + (" (relation)" if case.by_relation else "")
     if label == "sticks":
         observed = "sticks" if low else "does not stick"
     predicted = percent(value) if unit is None else show_interval(value, value, unit, highest)
-    short, given = entry.get("short", entry["label"]), entry["cases"][name]
+    short = entry.get("short", entry["label"])
+    case_entry = entry["cases"][name]
     # An experiment says why it is missed, a case also why its value differs.
-    reason = "" if case.value_inside else given.get("missed", "")
+    reason = "" if case.value_inside else case_entry.get("missed", "")
     if outcome == MISSED:
         reason = reason or entry.get("missed", "no reason was found")
     return {
         "experiment": short,
-        "case": given["label"],
-        "label": f"{short}: {given['label']}" if "missed" in given else short,
+        "case": case_entry["label"],
+        "label": f"{short}: {case_entry['label']}" if "missed" in case_entry else short,
         "reason": reason,
         "of": experiment,
-        "inputs": conditions_of(entry, given),
+        "inputs": conditions_of(entry, case_entry),
         "quantity": label,
         "observed": observed,
         "known": GRADES[int(case.observed_known)],

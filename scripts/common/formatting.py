@@ -28,12 +28,15 @@ def number(value: float, digits: int = 3) -> str:
 
 def with_error(value: float, error: float) -> str:
     """``value ± error``, rounded to two digits of the error; one not known or of 0 is left out."""
-    value, error = float(value), float(error)
+    value = float(value)
+    error = float(error)
     if not (math.isfinite(value) and math.isfinite(error) and error > 0):
         return number(value, 4 if error == 0 else 3)
     power = _exponent(max(abs(value), error), 4)
     plain = power in _PLAIN
-    value, error = (x if plain else x / 10.0**power for x in (value, error))
+    if not plain:
+        value = value / 10.0**power
+        error = error / 10.0**power
     decimals = 1 - _exponent(error, 2)
     text = f"{_fixed(value, decimals)} ± {_fixed(error, decimals)}"
     return text if plain else f"({text}) × {_power_of_ten(power)}"

@@ -29,7 +29,8 @@ class Limit:
 
 def estimate(name, realisations, quantity):
     """Limit of the mean over seeds of a quantity, by the name of its rule in `richardson`."""
-    fine, values = realisations.isel(resolution=-1, drop=True), quantity(realisations)
+    fine = realisations.isel(resolution=-1, drop=True)
+    values = quantity(realisations)
     climbs = np.inf
     if name == "attractive_area":
         edge_gap = fine.edge_gap.mean("seed")
@@ -37,8 +38,8 @@ def estimate(name, realisations, quantity):
         climbs = (fine["range"] / edge_gap).where(edge_gap > 0, np.inf)
     means = [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)]
     part = subpixel_part(name, fine, quantity(fine)).mean("seed")
-    found = richardson.estimate(name, means, part, fine.edges.sum("seed"), climbs)
-    return Limit(found.value - means[-1], found.error)
+    limit = richardson.estimate(name, means, part, fine.edges.sum("seed"), climbs)
+    return Limit(limit.value - means[-1], limit.error)
 
 
 def estimate_first_order(values):
@@ -46,14 +47,16 @@ def estimate_first_order(values):
 
     A grid then leaves out as much as its last change: twice that covers single surfaces.
     """
-    fine, half = (values.isel(resolution=k, drop=True).mean("seed") for k in (-1, -2))
+    fine = values.isel(resolution=-1, drop=True).mean("seed")
+    half = values.isel(resolution=-2, drop=True).mean("seed")
     return Limit(xr.zeros_like(fine), 2 * abs(fine - half))
 
 
 def find_halved(realisations):
     """Indices, up to three, of the finest grids that are each twice as fine as the one before."""
     resolution = realisations.resolution.values
-    grids, count = len(resolution), 1
+    grids = len(resolution)
+    count = 1
     while count < min(grids, 3) and np.isclose(resolution[-count], 2 * resolution[-count - 1]):
         count += 1
     return list(range(grids - count, grids))
@@ -89,7 +92,8 @@ def inherit(ensemble, quantity, names):
         moved = quantity(rest.assign({**means, name: means[name] + _STEP * by}))
         return (moved - unchanged) / _STEP
 
-    shift, square = xr.zeros_like(unchanged), xr.zeros_like(unchanged)
+    shift = xr.zeros_like(unchanged)
+    square = xr.zeros_like(unchanged)
     for name in names:
         square = square + change(name, ensemble[f"{name}_discretisation_error"]) ** 2
         if f"{name}_{EXTRAPOLATION}" in ensemble:

@@ -17,7 +17,7 @@ def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
     """
     job = names.get("snakemake")
     if job is None:
-        job = find_job(rule, wildcards | dict(given.split("=", 1) for given in sys.argv[1:]))
+        job = find_job(rule, wildcards | dict(argument.split("=", 1) for argument in sys.argv[1:]))
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
     style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
     logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
@@ -49,8 +49,16 @@ def find_job(rule: str, wildcards: dict[str, Any]) -> SimpleNamespace:
             ResourceSettings(cores=1), config_settings=config, snakefile=Path("Snakefile")
         )
         # The documented API runs workflows but does not show single jobs.
-        found, w = run._workflow.get_rule(rule), Wildcards(fromdict=wildcards)
-        (inputs, *_), (outputs, _) = found.expand_input(w, groupid=None), found.expand_output(w)
-        params, _ = found.expand_params(w, inputs, outputs, found)
-        files = {"input": inputs, "output": outputs, "log": found.expand_log(w)}
-        return SimpleNamespace(rule=rule, wildcards=w, params=params, **files)
+        definition = run._workflow.get_rule(rule)
+        values = Wildcards(fromdict=wildcards)
+        inputs, *_ = definition.expand_input(values, groupid=None)
+        outputs, _ = definition.expand_output(values)
+        params, _ = definition.expand_params(values, inputs, outputs, definition)
+        return SimpleNamespace(
+            rule=rule,
+            wildcards=values,
+            params=params,
+            input=inputs,
+            output=outputs,
+            log=definition.expand_log(values),
+        )

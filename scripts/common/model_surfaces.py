@@ -51,8 +51,8 @@ def grid_points(surface, pixels_per_wavelength):
 
 def pixels(surface):
     """Grid points per shortest wavelength of a surface's file, as realised by the grid."""
-    made = datasets.parameters(surface)
-    return made["grid_points"] / waves_across(made)
+    parameters = datasets.parameters(surface)
+    return parameters["grid_points"] / waves_across(parameters)
 
 
 def each_seed(solve, surfaces, seeds):

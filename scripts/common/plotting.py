@@ -20,12 +20,21 @@ from stickiness import datasets
 from stickiness.statistics import COVERS
 
 # Okabe & Ito, Color Universal Design (2008).
-BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
-YELLOW, BLUE, RED, PURPLE = "#F0E442", "#0072B2", "#D55E00", "#CC79A7"
+BLACK = "#000000"
+ORANGE = "#E69F00"
+SKY = "#56B4E9"
+GREEN = "#009E73"
+YELLOW = "#F0E442"
+BLUE = "#0072B2"
+RED = "#D55E00"
+PURPLE = "#CC79A7"
 COLOURS = (BLUE, RED, GREEN, ORANGE, PURPLE, SKY, BLACK)
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 GREY = "0.45"
-BARS, HOLLOW, FILLED = 3, 3.5, 4  # from back to front: error bars, open points, filled points
+# Places from back to front: error bars, open points, filled points.
+BARS = 3
+HOLLOW = 3.5
+FILLED = 4
 WIDTH = 7.1  # inches, two columns of a journal
 
 # Labels of axes that several figures have.
@@ -92,7 +101,8 @@ def state(**values):
 
 def pick_look(index, **more):
     """Colour and marker of one of several sets of points."""
-    colour, marker = COLOURS[index % len(COLOURS)], MARKERS[index % len(MARKERS)]
+    colour = COLOURS[index % len(COLOURS)]
+    marker = MARKERS[index % len(MARKERS)]
     return {"color": colour, "marker": marker} | more
 
 
@@ -110,7 +120,8 @@ def read_errors(data, name):
 
 def draw_points(ax, x, data, name, scale=1.0, **look):
     """A variable over `scale`: a thick bar for its sampling error, a thin one for all errors."""
-    y, (sampling, total) = data[name] / scale, read_errors(data, name)
+    y = data[name] / scale
+    (sampling, total) = read_errors(data, name)
     bars = {"linestyle": "none", "color": look["color"], "zorder": BARS}
     ax.errorbar(x, y, total / scale, elinewidth=0.7, **bars)
     ax.errorbar(x, y, sampling / scale, elinewidth=1.8, **bars)
@@ -146,6 +157,7 @@ def draw_hollow(ax, x, y, **look):
 
 
 def draw_band(ax, x, low, high, colour, alpha=0.3):
+    """A pale band between two curves."""
     ax.fill_between(x, low, high, color=colour, alpha=alpha, linewidth=0)
 
 
@@ -179,6 +191,7 @@ def make_key(label, **look):
 
 
 def make_dot(label, **look):
+    """Legend handle of a point that belongs to no set in particular."""
     return make_key(label, **({"linestyle": "none", "marker": "o"} | look))
 
 

@@ -12,7 +12,8 @@ def main(job):
     surface = read_first(job.input.surfaces)
     pressures = np.sort(job.params.pressures)
     tolerance = job.params.tolerance
-    heights, length = surface.height.values, float(surface.window_length)
+    heights = surface.height.values
+    length = float(surface.window_length)
     contacts = solver.load_path(heights, length, pressures, tol=tolerance)
     text = "contact pressure over E* q0 h_rms"
     dataset = gather_fields(list(contacts), pressures, surface, tolerance, contact_pressure=text)

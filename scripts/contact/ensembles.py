@@ -10,11 +10,11 @@ import xarray as xr
 
 from common import conventions, grid_limits
 from common.contact_curves import MEASURED_TEXTS
-from common.ensemble_means import PREFIX, SUFFIXES, add_errors, coarse, describe_errors, mean
+from common.derived_quantities import fit_kappa, gap_density
+from common.ensemble_means import PREFIX, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
 from common.model_surfaces import read_all
-from common.quantities import fit_kappa, gap_density
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import MEASURED, means_of
@@ -23,15 +23,12 @@ from stickiness.error_budget import with_budget
 # Variables of realisations that an ensemble's file keeps seed by seed, all that are read of them,
 # and those of coarse solutions. OPTIONAL are there only if the case wants them.
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
-NEEDED = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
 COARSE = ("area_fraction", "mean_gap", "rms_slope")
 OPTIONAL = ("attractive_area", *MEASURED)
-LONG_WAVES = ("long_waves", "other_long_waves")
-SURFACES = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
 AVERAGED = {name: itemgetter(name) for name in ("area_fraction", "mean_gap", "attractive_area")}
 AVERAGED["gap_density"] = gap_density
-TEXTS = {name: conventions.VARIABLES[name][1] for name in AVERAGED}
-VARIABLES = {
+TEXTS = {name: conventions.SHARED_VARIABLES[name][1] for name in AVERAGED}
+ENSEMBLE_VARIABLES = {
     **MEASURED_TEXTS,
     **describe_errors(TEXTS, discretisation=grid_limits.DIRECT),
     **describe_errors(
@@ -50,13 +47,22 @@ def average_case(case, plan, inputs, output):
     averaged = choose_means(plan["quantities"])
     optional = [name for name in OPTIONAL if name in averaged]
     # The files may be those of another case with more seeds and loads.
-    loads, seeds = list(plan["pressures"]), list(range(1, plan["settings"]["seeds"] + 1))
-    realisations = read_all(inputs.realisations, (*NEEDED, *optional))
+    loads = list(plan["pressures"])
+    seeds = list(range(1, plan["settings"]["seeds"] + 1))
+    needed = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
+    realisations = read_all(inputs.realisations, (*needed, *optional))
     realisations = realisations.sel(seed=seeds, pressure=loads)
     kept = (*COARSE, *optional)
     others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
-    made = datasets.parameters(realisations) | {"seeds": seeds, "case": case}
-    write_means(realisations, join_coarse(others, kept), made, inputs.laws, output.means, averaged)
+    parameters_of_means = datasets.parameters(realisations) | {"seeds": seeds, "case": case}
+    write_means(
+        realisations,
+        join_coarse(others, kept),
+        parameters_of_means,
+        inputs.laws,
+        output.means,
+        averaged,
+    )
     means = datasets.read(output.means)
     title = "slope of the area-load relation"
     parameters = {**datasets.parameters(means), "linear_up_to": conventions.LINEAR_UP_TO}
@@ -76,7 +82,8 @@ def join_coarse(files, kept=(*COARSE, "attractive_area")):
     if not files:
         return xr.Dataset()
     solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
-    solved = solved.merge(files[0][["other_long_waves"]])[[*kept, *LONG_WAVES]]
+    long_waves = ("long_waves", "other_long_waves")
+    solved = solved.merge(files[0][["other_long_waves"]])[[*kept, *long_waves]]
     return solved.rename({name: f"{PREFIX}{name}" for name in (*kept, "seed")})
 
 
@@ -86,7 +93,8 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     dataset = realisations[[*KEPT, *optional]].merge(others)
     dataset["edge_gap_mean"] = mean(realisations.edge_gap)
     for name, quantity in averaged.items():
-        values, more = quantity(realisations), coarse(dataset, quantity)
+        values = quantity(realisations)
+        more = coarse(dataset, quantity)
         if name in MEASURED:
             limit = grid_limits.estimate_first_order(values)
         else:
@@ -97,22 +105,32 @@ def add_statistics(realisations, others, averaged=AVERAGED):
     return dataset
 
 
-def write_means(realisations, others, made, laws, output, averaged=AVERAGED):
+def write_means(realisations, others, parameters, laws, output, averaged=AVERAGED):
     """Write the means, their errors by source, and what they stand for and how they are taken."""
-    dataset = conventions.annotate(add_statistics(realisations, others, averaged), **VARIABLES)
-    surfaces, window = SURFACES[made.get("amplitudes", "gaussian")], made.get("window", 1)
-    made = made | {
+    dataset = conventions.annotate(
+        add_statistics(realisations, others, averaged), **ENSEMBLE_VARIABLES
+    )
+    surface_texts = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
+    surfaces = surface_texts[parameters.get("amplitudes", "gaussian")]
+    window = parameters.get("window", 1)
+    parameters = parameters | {
         "estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths",
         "largest_residual": float(realisations.residual.max()),
         "estimator": "plain",
     }
     if others and realisations.sizes["seed"] > 1:
-        made |= {"coarse_seeds": others.sizes[f"{PREFIX}seed"], "estimator": "multilevel"}
-        made["descriptor_seeds"] = others.sizes["other"]
-    simulation = Simulation(read_models(laws), made)
+        parameters |= {"coarse_seeds": others.sizes[f"{PREFIX}seed"], "estimator": "multilevel"}
+        parameters["descriptor_seeds"] = others.sizes["other"]
+    simulation = Simulation(read_models(laws), parameters)
     for name in averaged:
         left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT
-        parts = simulation.parts(name, *(dataset[f"{name}_{kind}"] for kind in SUFFIXES), left)
+        parts = simulation.parts(
+            name,
+            dataset[f"{name}_mean"],
+            dataset[f"{name}_standard_error"],
+            dataset[f"{name}_discretisation_error"],
+            text=left,
+        )
         dataset = with_budget(dataset, f"{name}_mean", **parts)
     title = "repulsive contact averaged over realisations"
-    datasets.write(dataset, output, title=title, parameters=made)
+    datasets.write(dataset, output, title=title, parameters=parameters)

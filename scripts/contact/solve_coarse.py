@@ -4,7 +4,7 @@ Their seeds differ from those of the fine solutions. Each surface is solved on 2
 wavelength, as every fine one is too. Of still more surfaces only the long waves are described.
 """
 
-from common.contact_curves import COARSE, VARIABLES, coarse_solutions
+from common.contact_curves import COARSE, CONTACT_VARIABLES, coarse_solutions
 from common.conventions import add_convergence, annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import grid_points
@@ -12,19 +12,26 @@ from stickiness import datasets
 
 
 def main(job):
-    surface, asked = job.params.surface, job.params
-    seeds = range(asked.after, asked.seeds), asked.descriptor_seeds
-    path = asked.pressures, logarithmic_grid(asked.gaps), asked.tolerance
-    dataset = coarse_solutions(surface, *seeds, *path, asked.measured)
+    surface = job.params.surface
+    params = job.params
+    dataset = coarse_solutions(
+        surface,
+        range(params.after, params.seeds),
+        params.descriptor_seeds,
+        params.pressures,
+        logarithmic_grid(params.gaps),
+        params.tolerance,
+        params.measured,
+    )
     title = "coarse contact solutions and long waves of many realisations"
     parameters = {
         **surface,
         "case": job.wildcards.case,
-        "tolerance": asked.tolerance,
+        "tolerance": params.tolerance,
         "pixels_per_wavelength": COARSE,
         "grid_points": grid_points(surface, COARSE),
     }
-    dataset = add_convergence(annotate(dataset, **VARIABLES), asked.tolerance)
+    dataset = add_convergence(annotate(dataset, **CONTACT_VARIABLES), params.tolerance)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.contact_curves import VARIABLES, coarse_solutions, solve_seeds, steps_of
+from common.contact_curves import CONTACT_VARIABLES, coarse_solutions, solve_seeds, steps_of
 from common.conventions import annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import grid_points
@@ -10,15 +10,28 @@ from contact.ensembles import join_coarse, write_means
 
 
 def main(job):
-    surface, params = job.params.surface, job.params
-    curves = np.sort(params.pressures), logarithmic_grid(params.gaps), params.tolerance
-    seeds, pixels = np.arange(1, params.seeds + 1), params.pixels_per_wavelength
-    fine = annotate(solve_seeds(surface, seeds, pixels, steps_of(pixels), *curves), **VARIABLES)
+    surface = job.params.surface
+    params = job.params
+    pressures = np.sort(params.pressures)
+    ranges = logarithmic_grid(params.gaps)
+    pixels = params.pixels_per_wavelength
+    seeds = np.arange(1, params.seeds + 1)
+    fine = solve_seeds(
+        surface, seeds, pixels, steps_of(pixels), pressures, ranges, params.tolerance
+    )
+    fine = annotate(fine, **CONTACT_VARIABLES)
     others = []
     if params.coarse_seeds:
-        count = range(params.coarse_seeds), params.descriptor_seeds
-        others = [annotate(coarse_solutions(surface, *count, *curves), **VARIABLES)]
-    made = {
+        coarse = coarse_solutions(
+            surface,
+            range(params.coarse_seeds),
+            params.descriptor_seeds,
+            pressures,
+            ranges,
+            params.tolerance,
+        )
+        others.append(annotate(coarse, **CONTACT_VARIABLES))
+    parameters = {
         **surface,
         "case": job.wildcards.comparison,
         "seeds": seeds.tolist(),
@@ -26,7 +39,7 @@ def main(job):
         "pixels_per_wavelength": pixels,
         "grid_points": grid_points(surface, pixels),
     }
-    write_means(fine, join_coarse(others), made, job.input.laws, job.output[0])
+    write_means(fine, join_coarse(others), parameters, job.input.laws, job.output[0])
 
 
 if __name__ == "__main__":

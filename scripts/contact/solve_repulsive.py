@@ -7,7 +7,7 @@ control variate for the many coarse solutions of `solve_coarse`.
 
 import numpy as np
 
-from common.contact_curves import VARIABLES, load_curves, steps_of
+from common.contact_curves import CONTACT_VARIABLES, load_curves, steps_of
 from common.conventions import add_convergence, annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import each_seed, pixels
@@ -16,13 +16,22 @@ from stickiness import datasets
 
 def main(job):
     surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
-    steps, length = steps_of(job.params.pixels_per_wavelength), float(surfaces.window_length)
-    path = job.params.pressures, logarithmic_grid(job.params.gaps), job.params.tolerance
-    dataset = each_seed(
-        lambda heights: load_curves(heights, length, steps, *path, job.params.measured),
-        surfaces,
-        job.params.seeds,
-    )
+    length = float(surfaces.window_length)
+    steps = steps_of(job.params.pixels_per_wavelength)
+    ranges = logarithmic_grid(job.params.gaps)
+
+    def solve(heights):
+        return load_curves(
+            heights,
+            length,
+            steps,
+            job.params.pressures,
+            ranges,
+            job.params.tolerance,
+            job.params.measured,
+        )
+
+    dataset = each_seed(solve, surfaces, job.params.seeds)
     dataset = dataset.assign_coords(resolution=pixels(surfaces) / np.array(steps))
     title = "repulsive contact of realisations along their load path"
     parameters = {
@@ -31,7 +40,7 @@ def main(job):
         "case": job.wildcards.case,
         "tolerance": job.params.tolerance,
     }
-    dataset = add_convergence(annotate(dataset, **VARIABLES), job.params.tolerance)
+    dataset = add_convergence(annotate(dataset, **CONTACT_VARIABLES), job.params.tolerance)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -10,12 +10,7 @@ from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 
 FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
 OBSERVED = ("observed_low", "observed_high")
-PREDICTED = ("predicted_lowest", "predicted", "predicted_highest")
-WORKS = ("work_of_approach", "work_of_separation")
 LEAST_SHOWN = 0.005  # relative pull-off
-NOTHING = 1e-4  # mJ/m^2, where what is predicted or observed to be none is drawn
-# From wrong to right, grey where nothing is decided; light enough for the marks.
-OUTCOME_COLOURS = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
 
 
 def draw(dataset, experiments, files):
@@ -34,14 +29,15 @@ def draw_pull_off(ax, dataset, experiments):
     cases = [case for case in dataset.case.values if case.startswith(f"{FOLLOWED}/")]
     for colour, name in zip((BLUE, RED, GREEN, ORANGE), cases, strict=False):
         case = dataset.sel(case=name)
-        lowest, highest = case.pull_off_curve_lowest, case.pull_off_curve_highest
+        lowest = case.pull_off_curve_lowest
+        highest = case.pull_off_curve_highest
         plotting.draw_band(ax, h, lowest, np.minimum(highest, 2), colour, alpha=0.15)
         label = experiments[FOLLOWED]["cases"][name.split("/")[1]]["label"]
         ax.plot(h, case.pull_off_curve, color=colour, label=label)
         draw_observed(ax, case, colour)
         for criterion, marker in (("violano", "v"), (EDGES, "^")):
-            at = float(case.criterion_roughness.sel(criterion=criterion)) * 1e6
-            ax.plot(at, 2 * LEAST_SHOWN, marker, color=colour, mfc="white")
+            onset = float(case.criterion_roughness.sel(criterion=criterion)) * 1e6
+            ax.plot(onset, 2 * LEAST_SHOWN, marker, color=colour, mfc="white")
     handles, _ = ax.get_legend_handles_labels()
     handles += [make_key("observed", linewidth=5)]
     handles += [make_dot("limit by the paper", marker="v", mfc="white")]
@@ -55,25 +51,31 @@ def draw_observed(ax, case, colour):
     """What was observed: a range of roughness at its level, or of pull-off at its roughness."""
     limits = [case[name].item() for name in OBSERVED]
     if case["quantity"].item() == "limiting_roughness":
-        at, curve = float(case.predicted), case.pull_off_curve.values
-        x, y = np.multiply(limits, 1e6), [np.interp(at, case.roughness.values, curve)] * 2
+        roughness = float(case.predicted)
+        curve = case.pull_off_curve.values
+        x = np.multiply(limits, 1e6)
+        y = [np.interp(roughness, case.roughness.values, curve)] * 2
     else:
-        x, y = [float(case.h_rms) * 1e6] * 2, np.maximum(limits, LEAST_SHOWN)
+        x = [float(case.h_rms) * 1e6] * 2
+        y = np.maximum(limits, LEAST_SHOWN)
     ax.plot(x, y, color=colour, linewidth=5, solid_capstyle="butt")
 
 
 def draw_works(ax, dataset, experiments):
     """Predicted against observed works of adhesion, with all limits."""
-    ax.plot([NOTHING, 300], [NOTHING, 300], color=GREY, linewidth=0.8)
+    nothing = 1e-4  # mJ/m^2, where what is predicted or observed to be none is drawn
+    ax.plot([nothing, 300], [nothing, 300], color=GREY, linewidth=0.8)
     shown = {}
-    for case in dataset.case.values[dataset["quantity"].isin(WORKS)]:
-        point, experiment = dataset.sel(case=case), case.split("/")[0]
+    works = ("work_of_approach", "work_of_separation")
+    prediction_names = ("predicted_lowest", "predicted", "predicted_highest")
+    for case in dataset.case.values[dataset["quantity"].isin(works)]:
+        point = dataset.sel(case=case)
+        experiment = case.split("/")[0]
         look = shown.setdefault(experiment, plotting.pick_look(len(shown)))
         # In mJ/m^2, none at the edge of the panel.
-        observed, (low, value, high) = (
-            np.maximum([point[name].item() * 1e3 for name in names], NOTHING)
-            for names in (OBSERVED, PREDICTED)
-        )
+        observed = np.maximum([point[name].item() * 1e3 for name in OBSERVED], nothing)
+        predicted = np.maximum([point[name].item() * 1e3 for name in prediction_names], nothing)
+        low, value, high = predicted
         middle = np.sqrt(observed[0] * observed[1])
         bars = {"color": look["color"], "linewidth": 0.9}
         ax.plot(observed, [value] * 2, **bars)
@@ -84,7 +86,7 @@ def draw_works(ax, dataset, experiments):
     keys = [make_dot(labels[e], **look) for e, look in shown.items()]
     keys.append(make_dot("open: separation", mfc="white"))
     ax.legend(handles=keys, loc="lower right", fontsize=7)
-    ax.set(xscale="log", yscale="log", xlim=(NOTHING, 300), ylim=(NOTHING / 2, 300))
+    ax.set(xscale="log", yscale="log", xlim=(nothing, 300), ylim=(nothing / 2, 300))
     ax.set(xlabel="observed work of adhesion [mJ/m²]", ylabel="predicted [mJ/m²]")
 
 
@@ -92,7 +94,9 @@ def draw_criteria(ax, dataset, experiments):
     """Every criterion on every case: right, right for some inputs, wrong, nothing decided."""
     outcomes = dataset.criterion_outcome.transpose("case", "criterion").values
     limits = {"vmin": SILENT - 0.5, "vmax": COMPATIBLE + 0.5}
-    ax.imshow(outcomes, cmap=ListedColormap(OUTCOME_COLOURS), aspect="auto", **limits)
+    # From wrong to right, grey where nothing is decided; light enough for the marks.
+    outcome_colours = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
+    ax.imshow(outcomes, cmap=ListedColormap(outcome_colours), aspect="auto", **limits)
     for (row, column), code in np.ndenumerate(outcomes):
         ax.text(column, row, MARKS[int(code)], ha="center", va="center", fontsize=8)
     labels = [criterion.label.replace("a_V", "$a_V$") for criterion in CRITERIA.values()]

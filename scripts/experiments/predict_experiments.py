@@ -19,7 +19,7 @@ from common.job import start
 from common.templates import write_page
 from experiments import plot_experiments
 from stickiness import datasets
-from stickiness.criteria.a_v_table import surface_a_v
+from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.criteria.verdict import describe_surface
@@ -30,23 +30,20 @@ from stickiness.spectrum.kinds import SelfAffine
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 from stickiness.units import si
 
-SHAPE = ("hurst", "longest_wavelength", "shortest_wavelength", "rolloff_wavelength")
-MOMENTS = ("q0", "rms_slope", "rms_curvature", "elastic_energy")
 MIDDLE = 0  # index of the combination with every input in the middle
 SIGNS = (-1, 0, 1)  # low limit, value, high limit
-OF_SPHERES = {"relative_pull_off": "relative", "work_of_separation": "work"}  # `SpherePullOff`
 ROUGHNESS = np.geomspace(1e-11, 1e-3, 121)  # rms heights [m] along which adhesion is followed
 # Margins are nearly powers of the rms height: between points as far apart as these they are read
 # off to better than 1 %.
 COARSE = ROUGHNESS[::4]
 FACTOR = 4.0  # between the adhesion that a criterion requires and the actual one, if it is right
-LARGEST_EFFECT = 1e9  # of an input, instead of an infinite one
 
 _QUANTITY = "the quantity observed, in its SI unit"
 _CURVE = "pull-off over that from a smooth surface"
-_LOWEST, _HIGHEST = (f"{end} limit over all that is plausible" for end in ("lowest", "highest"))
+_LOWEST = "lowest limit over all that is plausible"
+_HIGHEST = "highest limit over all that is plausible"
 _BEYOND = "looks at no roughness, or beyond the heights followed"
-VARIABLES = {
+EXPERIMENT_VARIABLES = {
     "case": ("1", "experiment and case"),
     "criterion": ("1", "stickiness criterion"),
     "roughness": ("m", "rms height"),
@@ -77,7 +74,8 @@ VARIABLES = {
 def main(job):
     experiments = job.params.experiments
     dataset = predict_all(experiments)
-    title, parameters = "published experiments, predicted", {"experiments": experiments}
+    title = "published experiments, predicted"
+    parameters = {"experiments": experiments}
     datasets.write(dataset, job.output.dataset, title=title, parameters=parameters)
     write_page(
         job.input.template,
@@ -96,7 +94,7 @@ def main(job):
 
 
 def find_survivals(dataset):
-    """Worst outcome of every criterion by experiment; `SILENT` where nothing is tested."""
+    """Find the worst outcome of every criterion by experiment; `SILENT` where nothing is tested."""
     frame = dataset.criterion_outcome.transpose("case", "criterion").to_pandas()
     experiments = frame.index.str.partition("/").get_level_values(0)
     worst = frame.where(frame != SILENT).groupby(experiments, sort=False).min()
@@ -125,19 +123,27 @@ class Observation:
     def pair(self, h_rms: NDArray) -> Pair:
         """`Pair` at rms heights ``(combination, n)``, for as many of the first combinations."""
         inputs = {name: values[: len(h_rms), None] for name, values in self.inputs.items()}
-        shape = [inputs[name][:, 0] for name in SHAPE if name in inputs]
-        moments, a_v = zip(*map(describe_shape, *shape), strict=True)
-        q0, slope, curvature, energy = (values[:, None] for values in np.transpose(moments))
-        ratios = inputs["range"] / h_rms
-        at = [found.at(ratio)[0] for found, ratio in zip(a_v, ratios, strict=True)]
+        shape_names = ("hurst", "longest_wavelength", "shortest_wavelength", "rolloff_wavelength")
+        columns = [inputs[name][:, 0] for name in shape_names if name in inputs]
+        shapes = [describe_shape(*row) for row in zip(*columns, strict=True)]
+        prefactors = [
+            shape.a_v.at(ratio)[0]
+            for shape, ratio in zip(shapes, inputs["range"] / h_rms, strict=True)
+        ]
+
+        def column(name):
+            return np.array([getattr(shape, name) for shape in shapes])[:, None]
+
         return Pair(
             h_rms=h_rms,
-            q0=q0,
-            rms_slope=slope * h_rms,
-            rms_curvature=curvature * h_rms,
-            elastic_energy=energy * h_rms**2,
-            **{name: inputs[name] for name in ("modulus", "work_of_adhesion", "range")},
-            a_v=np.array(at),
+            q0=column("q0"),
+            rms_slope=column("rms_slope") * h_rms,
+            rms_curvature=column("rms_curvature") * h_rms,
+            elastic_energy=column("elastic_energy") * h_rms**2,
+            modulus=inputs["modulus"],
+            work_of_adhesion=inputs["work_of_adhesion"],
+            range=inputs["range"],
+            a_v=np.array(prefactors),
             law=self.law,
         )
 
@@ -145,32 +151,56 @@ class Observation:
         """Pull-off of the sphere, low limit, value and high limit; None between flats."""
         if "radius" not in self.inputs:
             return None
-        at = self.inputs["radius"][:, None], pair.adhesion_length, pair.range
-        return [sphere.pull_off(pair, *at, sign) for sign in SIGNS]
+        radius = self.inputs["radius"][:, None]
+        length = pair.adhesion_length
+        return [sphere.pull_off(pair, radius, length, pair.range, sign) for sign in SIGNS]
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What criteria need of a self-affine spectrum of unit rms height, in powers of m."""
+
+    q0: float
+    rms_slope: float
+    rms_curvature: float
+    elastic_energy: float
+    a_v: SurfaceAv
 
 
 @cache
 def describe_shape(hurst, longest, shortest, rolloff=None):
-    """`MOMENTS` of a self-affine spectrum of unit rms height, wavelengths in m, and its a_V."""
-    waves = {"q0": longest, "q1": shortest, "q_rolloff": rolloff}
-    band = {name: 2 * np.pi / wave for name, wave in waves.items() if wave is not None}
-    spectrum = SelfAffine(hurst=hurst, h_rms=1.0, **band)
-    known = describe_surface(spectrum)
-    return tuple(known[name] for name in MOMENTS), surface_a_v(spectrum, known)
+    """Describe a self-affine spectrum of unit rms height by its wavelengths in m."""
+    spectrum = SelfAffine(
+        hurst=hurst,
+        h_rms=1.0,
+        q0=2 * np.pi / longest,
+        q1=2 * np.pi / shortest,
+        q_rolloff=None if rolloff is None else 2 * np.pi / rolloff,
+    )
+    described = describe_surface(spectrum)
+    return Shape(
+        q0=described["q0"],
+        rms_slope=described["rms_slope"],
+        rms_curvature=described["rms_curvature"],
+        elastic_energy=described["elastic_energy"],
+        a_v=surface_a_v(spectrum, described),
+    )
 
 
 def read_observation(experiment, name, entry):
     """One case of an experiment of the configuration, in SI units."""
     case = entry["cases"][name]
-    observed, conditions = case["observed"], conditions_of(entry, case)
-    ends = {key: read_ends(given, CONDITIONS[key][0]) for key, given in conditions.items()}
-    swept = tuple(key for key, found in ends.items() if len(found) > 1)
+    observed = case["observed"]
+    conditions = conditions_of(entry, case)
+    ends = {key: read_ends(entries, CONDITIONS[key][0]) for key, entries in conditions.items()}
+    swept = tuple(key for key, limits_of_input in ends.items() if len(limits_of_input) > 1)
     inputs = combine_inputs(ends, swept)
     if "plane_strain_modulus" in inputs:
         inputs["modulus"] = inputs["plane_strain_modulus"]
     else:
         inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
-    quantity, by_relation = observed["quantity"], "relation" in observed
+    quantity = observed["quantity"]
+    by_relation = "relation" in observed
     limits = observed["factor"] if by_relation else read_ends(observed, OBSERVED[quantity][0])
     return Observation(
         place=f"{experiment}/{name}",
@@ -180,20 +210,20 @@ def read_observation(experiment, name, entry):
         inputs=inputs,
         swept=swept,
         law=case.get("law", entry.get("law", EXPONENTIAL)),
-        known=max(GRADES.index(given["known"]) for given in (observed, *conditions.values())),
+        known=max(GRADES.index(entries["known"]) for entries in (observed, *conditions.values())),
         tests=entry.get("published", True) and not by_relation,
     )
 
 
-def read_ends(given, unit):
-    """The value, or both limits."""
-    values = given["between"] if "between" in given else [given["value"]]
+def read_ends(entry, unit):
+    """Read the value of an entry, or both of its limits."""
+    values = entry["between"] if "between" in entry else [entry["value"]]
     return np.array([float(value) if unit is None else si(value, unit) for value in values])
 
 
 def combine_inputs(ends, swept):
-    """Values of every input for all combinations; see `Observation`."""
-    middle = {key: found[0] for key, found in ends.items()}
+    """List the values of every input for all combinations; see `Observation`."""
+    middle = {key: limits[0] for key, limits in ends.items()}
     for key in swept:
         low, high = ends[key]
         middle[key] = np.sqrt(low * high) if low > 0 else high / 2
@@ -203,45 +233,78 @@ def combine_inputs(ends, swept):
     return {key: np.array([row[key] for row in rows]) for key in ends}
 
 
-def predict(observation):
-    """Prediction and curve, the pair, and longest waves across the contact of a sphere.
+@dataclass(frozen=True)
+class Prediction:
+    """What is predicted of one observation; signs are low limit, value and high limit."""
 
-    The prediction ``(sign, combination)`` is of the quantity observed. The curve ``(sign,
-    combination, roughness)`` is the relative pull-off of a sphere, or the share that remains
-    between flats. The pair is at the rms heights given or, where a limit was observed, predicted.
-    """
-    quantity, h_rms = observation.quantity, observation.inputs.get("h_rms")
-    rough = observation.pair(np.tile(ROUGHNESS, (len(observation.inputs["hurst"]), 1)))
+    quantity: NDArray  # (sign, combination), of the quantity observed
+    #: (sign, combination, roughness): relative pull-off of a sphere, or the share that remains
+    #: between flats.
+    curve: NDArray
+    pair: Pair  # at the rms heights given or, where a limit was observed, predicted
+    waves: float  # longest waves across the contact of a sphere, NaN between flats
+
+
+def predict(observation):
+    """Predict the quantity observed, and the curve of adhesion against roughness."""
+    # Along the roughness, for every combination of the inputs.
+    combinations = len(observation.inputs["hurst"])
+    rough = observation.pair(np.tile(ROUGHNESS, (combinations, 1)))
     spheres = observation.press(rough)
-    curve = [one.relative for one in spheres] if spheres else list(map(rough.remaining, SIGNS))
-    if quantity == "limiting_roughness":
-        level = observation.observed.get("level", DEFAULT_SHARE)
-        limit = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
-        if np.isnan(limit).any():
-            raise ValueError(
-                f"{observation.place.replace('/', '.cases.')}: adhesion falls to {level:g} at no "
-                f"rms height from {ROUGHNESS[0]:g} to {ROUGHNESS[-1]:g} m; correct the level or "
-                "inputs"
-            )
-        h_rms = limit[1] if h_rms is None else h_rms
+    if spheres:
+        curve = np.array([pull_off.relative for pull_off in spheres])
+    else:
+        curve = np.array([rough.remaining(sign) for sign in SIGNS])
+
+    # At the rms heights given, or else at those to which roughness is limited.
+    limiting = observation.quantity == "limiting_roughness"
+    limits = find_limits(observation, curve) if limiting else None
+    h_rms = observation.inputs.get("h_rms")
+    if h_rms is None:
+        h_rms = limits[1]
     pair = observation.pair(h_rms[:, None])
-    spheres, length, reach = observation.press(pair), pair.adhesion_length, pair.range
-    found = np.array([pair.remaining(sign) for sign in SIGNS])
-    if quantity == "limiting_roughness":
-        found = limit[..., None]
-    elif spheres and quantity in OF_SPHERES:
-        found = np.array([getattr(one, OF_SPHERES[quantity]) for one in spheres])
+    spheres = observation.press(pair)
+    quantity = limits if limiting else predict_quantity(observation, pair, spheres)[..., 0]
+    waves = np.nan
+    if spheres:
+        _, value, _ = spheres
+        waves = float((2 * value.zone_radius * pair.q0 / (2 * np.pi))[MIDDLE, 0])
+    return Prediction(quantity=quantity, curve=curve, pair=pair, waves=waves)
+
+
+def find_limits(observation, curve):
+    """Rms heights [m], (sign, combination), at which adhesion falls to the level observed."""
+    level = observation.observed.get("level", DEFAULT_SHARE)
+    limits = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
+    if np.isnan(limits).any():
+        raise ValueError(
+            f"{observation.place.replace('/', '.cases.')}: adhesion falls to {level:g} at no "
+            f"rms height from {ROUGHNESS[0]:g} to {ROUGHNESS[-1]:g} m; correct the level or "
+            "inputs"
+        )
+    return limits
+
+
+def predict_quantity(observation, pair, spheres):
+    """Predict a pull-off, a work or the share that remains, (sign, combination, 1)."""
+    quantity = observation.quantity
+    length = pair.adhesion_length
+    range_ = pair.range
+    of_spheres = {"relative_pull_off": "relative", "work_of_separation": "work"}  # `SpherePullOff`
+    if spheres and quantity in of_spheres:
+        predicted = np.array([getattr(pull_off, of_spheres[quantity]) for pull_off in spheres])
     elif quantity == "relative_pull_off":
-        stress = np.array([pair.tension(length, reach, sign) for sign in SIGNS])
-        found = np.minimum(stress * reach / length / find_strength(observation.law), 1.0)
-    elif quantity == "work_of_approach":
-        found[0] /= LATE
+        stress = np.array([pair.tension(length, range_, sign) for sign in SIGNS])
+        predicted = np.minimum(stress * range_ / length / find_strength(observation.law), 1.0)
     elif quantity == "work_of_separation":
-        found = np.array([pair.separation(length, reach, sign) for sign in SIGNS])
+        predicted = np.array([pair.separation(length, range_, sign) for sign in SIGNS])
+    else:
+        predicted = np.array([pair.remaining(sign) for sign in SIGNS])
+        if quantity == "work_of_approach":
+            predicted[0] /= LATE
     if quantity.startswith("work_of"):
-        found = found * pair.work_of_adhesion
-    waves = 2 * spheres[1].zone_radius * pair.q0 / (2 * np.pi) if spheres else pair.q0 * np.nan
-    return found[..., 0], np.array(curve), pair, float(waves[MIDDLE, 0])
+        predicted = predicted * pair.work_of_adhesion
+    return predicted
 
 
 def find_fall(heights, values, level):
@@ -258,16 +321,17 @@ def find_fall(heights, values, level):
 
 def find_observed(observation, pair):
     """Low and high limit ``(end, combination)`` of what was observed, by its relation if any."""
-    factors = observation.limits[:, None] * np.ones(len(pair.h_rms))
+    factors = observation.limits[:, None] * np.ones(len(pair.h_rms))  # observed, if no relation
     relation = observation.observed.get("relation")
     if relation is None:
         return factors
-    work, energy = pair.work_of_adhesion[:, 0], (pair.elastic_energy * pair.modulus)[:, 0]
+    work = pair.work_of_adhesion[:, 0]
+    energy = (pair.elastic_energy * pair.modulus)[:, 0]
     if relation == "energy_ratio":
         return (pair.h_rms[:, 0] * np.sqrt(work / (factors * energy)))[::-1]
-    found = (2 if relation == "cycle_loss" else 1) * factors * work - energy
+    works = (2 if relation == "cycle_loss" else 1) * factors * work - energy
     error = si(observation.observed.get("error", "0 J/m^2"), "J/m^2")
-    return np.maximum(found + np.array([[-1], [1]]) * error, 0.0)
+    return np.maximum(works + np.array([[-1], [1]]) * error, 0.0)
 
 
 def agrees(observation, observed, least, most):
@@ -279,7 +343,9 @@ def agrees(observation, observed, least, most):
 
 def summarise(right):
     """Place in `OUTCOMES` of what is right for all, some or no combination of the inputs."""
-    return COMPATIBLE if np.all(right) else SOME if np.any(right) else MISSED
+    if np.all(right):
+        return COMPATIBLE
+    return SOME if np.any(right) else MISSED
 
 
 def judge_criteria(observation, observed, pair):
@@ -288,7 +354,8 @@ def judge_criteria(observation, observed, pair):
     Where a limiting roughness was observed, a criterion is right if it requires there an adhesion
     within `FACTOR` of the actual one; elsewhere if it says whether the pair was seen to stick.
     """
-    limiting, found = observation.quantity == "limiting_roughness", []
+    limiting = observation.quantity == "limiting_roughness"
+    codes = []
     if limiting:
         pair = observation.pair(observed.T)
     else:
@@ -305,8 +372,8 @@ def judge_criteria(observation, observed, pair):
             ratio = criterion.adhesion_length_threshold(pair) / pair.adhesion_length
             right = (ratio[:, 0] <= FACTOR) & (ratio[:, 1] >= 1 / FACTOR)
         silent = not right.size or name in observation.observed.get("silent", ())
-        found.append(SILENT if silent else summarise(right))
-    return np.array(found, dtype="i1")
+        codes.append(SILENT if silent else summarise(right))
+    return np.array(codes, dtype="i1")
 
 
 def find_roughness(observation):
@@ -319,22 +386,25 @@ def find_roughness(observation):
 
 
 def find_effect(observation, value):
-    """Swept input that changes a prediction most, the others in the middle, and the factor."""
+    """Find the swept input that changes a prediction most, and the factor; others in the middle."""
     effects = {} if observation.swept else {"": 1.0}
     for place, name in enumerate(observation.swept):
         along = value[[1 + 2 * place, MIDDLE, 2 + 2 * place]]
         if along.max() > 0:
             with np.errstate(divide="ignore"):
                 effects[name] = float(along.max() / along.min())
-    most = max(effects, key=effects.get, default="")
-    return most, min(effects.get(most, np.nan), LARGEST_EFFECT)
+    most_effective = max(effects, key=effects.get, default="")
+    largest_effect = 1e9  # of an input, instead of an infinite one
+    return most_effective, min(effects.get(most_effective, np.nan), largest_effect)
 
 
 def predict_case(observation):
     """Prediction, observation and outcome of one case."""
-    predicted, curve, pair, waves = predict(observation)
+    prediction = predict(observation)
+    pair = prediction.pair
     observed = find_observed(observation, pair)
-    low, value, high = predicted
+    low, value, high = prediction.quantity
+    lowest_curve, curve, highest_curve = prediction.curve
     most, effect = find_effect(observation, value)
     data = {
         "case": observation.place,
@@ -345,16 +415,16 @@ def predict_case(observation):
         "predicted_lowest": low.min(),
         "predicted_highest": high.max(),
         "model": max(high[MIDDLE] - value[MIDDLE], value[MIDDLE] - low[MIDDLE]),
-        "pull_off_curve": ("roughness", curve[1, MIDDLE]),
-        "pull_off_curve_lowest": ("roughness", curve[0].min(axis=0)),
-        "pull_off_curve_highest": ("roughness", curve[2].max(axis=0)),
+        "pull_off_curve": ("roughness", curve[MIDDLE]),
+        "pull_off_curve_lowest": ("roughness", lowest_curve.min(axis=0)),
+        "pull_off_curve_highest": ("roughness", highest_curve.max(axis=0)),
         "outcome": np.int8(summarise(agrees(observation, observed, low, high))),
         "value_inside": np.int8(agrees(observation, observed, value, value)[MIDDLE]),
         "by_relation": np.int8("relation" in observation.observed),
         "tests": np.int8(observation.tests),
         "known": np.int8(observation.known),
         "observed_known": np.int8(GRADES.index(observation.observed["known"])),
-        "waves_in_contact": waves,
+        "waves_in_contact": prediction.waves,
         "h_rms": pair.h_rms[MIDDLE, 0],
         "most_effective_input": most,
         "effect_of_input": effect,
@@ -366,6 +436,7 @@ def predict_case(observation):
 
 
 def predict_all(experiments):
+    """Predict every case of every experiment."""
     dataset = xr.concat(
         [
             predict_case(read_observation(name, case, entry))
@@ -374,10 +445,11 @@ def predict_all(experiments):
         ],
         "case",
     )
-    value, model = dataset.predicted, dataset.model
+    value = dataset.predicted
+    model = dataset.model
     reach = np.maximum(dataset.predicted_highest - value, value - dataset.predicted_lowest)
     inputs = np.sqrt(np.maximum(reach**2 - model**2, 0.0))
-    dataset = datasets.annotate(dataset.drop_vars("model"), **VARIABLES)
+    dataset = datasets.annotate(dataset.drop_vars("model"), **EXPERIMENT_VARIABLES)
     dataset.outcome.attrs |= datasets.flags(OUTCOMES)
     dataset.criterion_outcome.attrs |= datasets.flags(("nothing decided", *OUTCOMES), first=SILENT)
     for name in ("known", "observed_known"):

@@ -5,15 +5,11 @@ import numpy as np
 from common import plotting
 from common.conventions import VARIANT
 from common.plotting import COLOURS, GREY, interpolate, make_dot, make_key, state
-from common.theory import between_corrections
+from common.theory_variants import between_corrections
 from stickiness import datasets
 
 GAPS = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0]  # over h_rms, of panel B
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel C
-REFERENCE_GAP = 0.03  # over h_rms, where the power law u^(-1/3) of panel B is anchored
-LARGEST_POWER_LAW_GAP = 0.1  # over h_rms, beyond which that power law does not hold
-LOWEST_DENSITY = 1e-6  # a band down to zero has no lower end on a log axis
-LINES = {"afferrante2018": "-", "almqvist2011": "--"}
 VARIANT_KEYS = [
     make_key("Afferrante et al. 2018"),
     make_key("Almqvist et al. 2011", linestyle="--"),
@@ -37,7 +33,8 @@ def draw_magnifications(ax, theory):
     theory = theory.isel(hurst=0, load=0)
     for colour, magnification in zip(COLOURS, theory.magnification.values, strict=False):
         density = theory.gap_density.sel(magnification=magnification)
-        plotting.draw_band(ax, theory.gap, *between_corrections(density), colour)
+        low, high = between_corrections(density)
+        plotting.draw_band(ax, theory.gap, low, high, colour)
         draw_variants(ax, density, state(magnification=magnification), color=colour)
     u = np.array([1e-3, 1e-1])
     plotting.draw_guide(ax, u, 0.9 * (u / u[0]) ** (-1 / 3), r"$u^{-1/3}$", (1.2e-2, 0.43))
@@ -46,12 +43,15 @@ def draw_magnifications(ax, theory):
 
 
 def draw_variants(ax, density, label, **look):
-    for variant, line in LINES.items():
+    """P(u) by both variants of the theory."""
+    lines = {"afferrante2018": "-", "almqvist2011": "--"}
+    for variant, line in lines.items():
         ax.plot(density.gap, density.sel(variant=variant), line, label=label, **look)
         label = None  # one entry of the legend
 
 
 def finish(ax, limits, title):
+    """Axes of P(u) against the gap."""
     ax.set(xscale="log", yscale="log", xlabel=plotting.GAP, ylabel=DENSITY)
     ax.set(xlim=(1e-4, 10), ylim=limits, title=title)
 
@@ -59,30 +59,40 @@ def finish(ax, limits, title):
 def draw_convergence(ax, theory):
     """P at fixed gaps against magnification, and where u^(-1/3) would put the limits."""
     theory = theory.isel(hurst=0, load=0)
-    zeta, density = theory.magnification, theory.gap_density
-    curves, lows, highs = (
-        [interpolate(values, "gap", gap).values for gap in GAPS]
-        for values in (density.sel(variant=VARIANT), *between_corrections(density))
-    )
+    zeta = theory.magnification
+    density = theory.gap_density
+    low, high = between_corrections(density)
+    curves = interpolate_gaps(density.sel(variant=VARIANT))
+    lows = interpolate_gaps(low)
+    highs = interpolate_gaps(high)
     last = float(zeta[-1])
     # Labels stand at the ends of their curves, pushed up until neighbours differ by 15 %.
-    ends, steps = np.array(curves)[:, -1], 1.15 ** np.arange(len(GAPS))
-    heights, order = ends.copy(), ends.argsort()
+    ends = np.array(curves)[:, -1]
+    steps = 1.15 ** np.arange(len(GAPS))
+    heights = ends.copy()
+    order = ends.argsort()
     heights[order] = np.maximum.accumulate(ends[order] / steps) * steps
+    largest_power_law_gap = 0.1  # over h_rms, beyond which that power law does not hold
+    reference_gap = 0.03  # over h_rms, where the power law u^(-1/3) of panel B is anchored
     for index, (colour, gap) in enumerate(plotting.shade(GAPS)):
         ax.plot(zeta, curves[index], ".-", color=colour)
         plotting.draw_band(ax, zeta, lows[index], highs[index], colour)
         ax.text(1.7 * last, heights[index], f"{gap:g}", color=colour, va="center", fontsize=8)
-        if gap <= LARGEST_POWER_LAW_GAP:
-            level = ends[GAPS.index(REFERENCE_GAP)] * (gap / REFERENCE_GAP) ** (-1 / 3)
+        if gap <= largest_power_law_gap:
+            level = ends[GAPS.index(reference_gap)] * (gap / reference_gap) ** (-1 / 3)
             ax.plot([last / 30, last], [level, level], ":", color=GREY, linewidth=1.1)
     ax.set_title(state(hurst=theory.hurst, mean_gap=theory.mean_gap.mean()))
     ax.set(xscale="log", yscale="log", xlabel=plotting.MAGNIFICATION, ylabel=DENSITY)
     ax.set(xlim=(2, 3e7), ylim=(0.2, 4))
     plotting.write_ticks(ax.yaxis, [0.2, 0.3, 0.5, 1, 2, 3])
     ax.text(1.7 * last, 2.95, r"$u/h_\mathrm{rms}$", ha="center", fontsize=8)
-    law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {REFERENCE_GAP:g}"
+    law = rf"$u^{{-1/3}}$ through $u/h_\mathrm{{rms}}$ = {reference_gap:g}"
     ax.legend(handles=[make_key(law, linestyle=":")], loc="upper left")
+
+
+def interpolate_gaps(density):
+    """Densities at every gap of panel B, along the magnification."""
+    return [interpolate(density, "gap", gap).values for gap in GAPS]
 
 
 def draw_simulation(ax, ensemble, lattice):
@@ -93,9 +103,10 @@ def draw_simulation(ax, ensemble, lattice):
         theory = lattice.gap_density.sel(pressure=load, method="nearest")
         label = state(pressure=measured.pressure)
         draw_variants(ax, theory, label, color=colour, linewidth=0.9)
-    made = datasets.parameters(ensemble)
-    surface = state(hurst=made["hurst"], magnification=made["magnification"])
-    fine, coarse = ensemble.sizes["seed"], ensemble.sizes.get("coarse_seed")
+    case = datasets.parameters(ensemble)
+    surface = state(hurst=case["hurst"], magnification=case["magnification"])
+    fine = ensemble.sizes["seed"]
+    coarse = ensemble.sizes.get("coarse_seed")
     count = f"{fine} fine and {coarse} coarse" if coarse else f"{fine}"
     title = f"simulation against theory on the window's spectrum, {surface}, {count} realisations"
     finish(ax, (1e-2, 20), title)
@@ -108,8 +119,9 @@ def draw_measured(ax, measured, colour):
     """Mean with a dark band for the sampling error and a light one for all errors."""
     mean = measured.gap_density_mean.where(measured.gap_density_mean > 0)
     sampling, total = plotting.read_errors(measured, "gap_density_mean")
+    lowest_density = 1e-6  # a band down to zero has no lower end on a log axis
     for error, strength in ((total, 0.15), (sampling, 0.3)):
-        low = np.maximum(mean - error, LOWEST_DENSITY)
+        low = np.maximum(mean - error, lowest_density)
         plotting.draw_band(ax, mean.gap, low, mean + error, colour, strength)
     # Below the gap next to the edge of contact the edge law replaces the grid: hollow points.
     resolved = mean.gap >= measured.edge_gap_mean

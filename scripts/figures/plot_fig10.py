@@ -12,9 +12,6 @@ from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
 
 LOOK = {"markersize": 3.5, "linestyle": "none", "elinewidth": 0.7}
-WEAKEST_EDGE = 1e-3  # left end of panel B
-# Tabor parameters between which ratios are averaged: from about 0.2 on they have a trend.
-BINS = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
 
 
 def main(job):
@@ -26,9 +23,15 @@ def main(job):
 
 def draw_weak(ax, points):
     """Weak edges: effect against the attractive area, with the closed form."""
-    t = np.geomspace(0.05, 200, 200)
-    ax.plot(t, equivalent_sphere.weak_effect(t), color=BLACK, label="equivalent sphere")
-    small, wide = t[t < 1.5], t[t > 0.7]
+    area_ratio = np.geomspace(0.05, 200, 200)
+    ax.plot(
+        area_ratio,
+        equivalent_sphere.weak_effect(area_ratio),
+        color=BLACK,
+        label="equivalent sphere",
+    )
+    small = area_ratio[area_ratio < 1.5]
+    wide = area_ratio[area_ratio > 0.7]
     formula = r"$(4/\pi)\,t^{-1/2}$"
     plotting.draw_guide(ax, small, 4 / np.pi * small**-0.5, formula, (0.05, 1.95))
     at_approach = equivalent_sphere.weak_effect_at_approach(wide)
@@ -36,8 +39,8 @@ def draw_weak(ax, points):
     ax.axhline(1, color=GREY, linewidth=0.9, linestyle="--")
     ax.text(0.06, 1.04, "DMT sum", color=GREY, fontsize=8)
     surfaces = points.groupby(["magnification", "roughness"], sort=False)
-    for index, ((magnification, roughness), found) in enumerate(surfaces):
-        weak = found[found.edge_strength < equivalent_sphere.WEAK]
+    for index, ((magnification, roughness), edges) in enumerate(surfaces):
+        weak = edges[edges.edge_strength < equivalent_sphere.WEAK]
         bars = weak.effect * weak.over_model_total_error / weak.over_model
         label = state(magnification=magnification, q0_h_rms=roughness)
         look = LOOK | pick_look(index, label=label)
@@ -52,18 +55,21 @@ def draw_weak(ax, points):
 
 def draw_ratios(ax, points):
     """Simulation over model at every strength, with the error that verdicts take."""
-    ends = WEAKEST_EDGE, equivalent_sphere.WEAK, equivalent_sphere.STRONGEST_SIMULATED
+    weakest_edge = 1e-3  # left end of panel B
+    ends = weakest_edge, equivalent_sphere.WEAK, equivalent_sphere.STRONGEST_SIMULATED
     factors = equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG
     for (low, high), factor in zip(pairwise(ends), factors, strict=True):
         plotting.draw_band(ax, [low, high], 1 / factor, factor, GREY, alpha=0.2)
     surfaces = points.groupby(["magnification", "roughness"], sort=False)
-    for index, (_, found) in enumerate(surfaces):
+    for index, (_, edges) in enumerate(surfaces):
         look = LOOK | pick_look(index, alpha=0.5)
-        ax.errorbar(found.edge_strength, found.over_model, found.over_model_total_error, **look)
+        ax.errorbar(edges.edge_strength, edges.over_model, edges.over_model_total_error, **look)
     ax.axhline(1, color=GREY, linewidth=0.9)
-    # Means between the strengths of `BINS`, as steps with their standard errors.
+    # Means between the strengths of `edges_of_bins`, as steps with their standard errors.
     look = {"color": BLACK, "linewidth": 2}
-    bins = pd.cut(points.edge_strength, BINS, right=False)
+    # Tabor parameters between which ratios are averaged: from about 0.2 on they have a trend.
+    edges_of_bins = (1e-3, 0.01, 0.05, 0.2, 0.5, 1.0, 1.5, 2.5, 4.0)
+    bins = pd.cut(points.edge_strength, edges_of_bins, right=False)
     for strengths, ratio in points.over_model.groupby(bins, observed=True):
         if ratio.size > 1:  # else there is no error of the mean
             ax.plot([strengths.left, strengths.right], [ratio.mean()] * 2, **look)

@@ -7,18 +7,10 @@ from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.prediction import HYSTERESIS, LATE, SHORT_RANGE, Roughness
 
-RATIOS = np.geomspace(0.2, 3, 200)  # w/U_full
-ZONE = 0.1  # q0 range^2/l_a, of the lines of panel A
-GOAL = 0.25  # error that a theory may have where more than LEAST remains
 LEAST = 0.05
-HURST_COLOURS = {0.3: PURPLE, 0.5: RED, 0.6: ORANGE, 0.7: GREEN, 0.8: BLUE, 0.9: BLACK}
-MARKERS = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
 WORKS = {"approach": "v", "separation": "^"}
 ENERGY_RATIO = r"$w/U_\mathrm{full}$"
-FINE, PALE = 3.9, 0.3  # pixels in the cohesive zone that resolve it; look of points with fewer
-MAGNIFICATIONS = (4, 8), (12, 24), (32, 64)  # from and to, of the colours of panel C
 TOUCH = 0.2  # pressure over E* q0 h_rms, below which the surfaces were hardly pressed
-RANGES = np.geomspace(0.05, 5, 100)  # over h_rms
 
 
 def main(job):
@@ -36,15 +28,20 @@ def draw_shares(ax, table):
     narrowest = tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min")
     tough = tough[tough.zone == narrowest]
     rough = Roughness(1.0, 1.0, elastic_energy=0.55, rms_slope=2.5)  # amid those simulated
-    length = RATIOS * rough.elastic_energy
-    low, share, high = (rough.share(length, np.sqrt(ZONE * length), sign) for sign in (-1, 0, 1))
-    plotting.draw_band(ax, RATIOS, low, high, GREY, alpha=0.25)
-    ax.plot(RATIOS, share, color=BLACK, linewidth=1.8, label="this theory")
-    ax.plot(RATIOS, rough.share(length, SHORT_RANGE), "--", color=BLACK, label="range → 0")
-    ax.plot(RATIOS, np.maximum(1 - 1 / RATIOS, 0), ":", color=RED, label="full contact")
+    ratios = np.geomspace(0.2, 3, 200)  # w/U_full
+    length = ratios * rough.elastic_energy
+    zone = 0.1  # q0 range^2/l_a, of the lines of panel A
+    range_ = np.sqrt(zone * length)
+    low, share, high = [rough.share(length, range_, sign) for sign in (-1, 0, 1)]
+    plotting.draw_band(ax, ratios, low, high, GREY, alpha=0.25)
+    ax.plot(ratios, share, color=BLACK, linewidth=1.8, label="this theory")
+    ax.plot(ratios, rough.share(length, SHORT_RANGE), "--", color=BLACK, label="range → 0")
+    ax.plot(ratios, np.maximum(1 - 1 / ratios, 0), ":", color=RED, label="full contact")
+    hurst_colours = {0.3: PURPLE, 0.5: RED, 0.6: ORANGE, 0.7: GREEN, 0.8: BLUE, 0.9: BLACK}
+    markers = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
     for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
-        colour = HURST_COLOURS[min(HURST_COLOURS, key=lambda known: abs(known - hurst))]
-        marker = MARKERS[min(MARKERS, key=lambda known: abs(np.log(known / magnification)))]
+        colour = hurst_colours[min(hurst_colours, key=lambda value: abs(value - hurst))]
+        marker = markers[min(markers, key=lambda value: abs(np.log(value / magnification)))]
         ax.plot(group.energy_ratio, group.bound, marker, color=colour, markersize=3.5)
     ax.legend(loc="upper left")
     ax.set(xlabel=ENERGY_RATIO, ylabel="share of $w$ that remains", xlim=(0.2, 2.5), ylim=(0, 0.7))
@@ -53,12 +50,13 @@ def draw_shares(ax, table):
 def draw_errors(ax, table):
     """Theory over simulation in the works, where more than a little remains."""
     table = table[table.wide & (table.separation > LEAST)]
-    ax.axhspan(1 - GOAL, 1 + GOAL, color=GREY, alpha=0.2, linewidth=0)
+    goal = 0.25  # error that a theory may have where more than LEAST remains
+    ax.axhspan(1 - goal, 1 + goal, color=GREY, alpha=0.2, linewidth=0)
     ax.axhline(1, color=GREY, linewidth=0.9)
     for name, marker in WORKS.items():
-        for held, colour in ((False, BLUE), (True, RED)):
-            rows = table[(table.held == held) & (table[name] > LEAST)]
-            look = {"marker": marker, "color": colour, "mfc": colour if held else "white"}
+        for independent, colour in ((False, BLUE), (True, RED)):
+            rows = table[(table.held == independent) & (table[name] > LEAST)]
+            look = {"marker": marker, "color": colour, "mfc": colour if independent else "white"}
             ratio = rows.predicted / rows[name]
             draw_works(ax, rows.energy_ratio, ratio, rows, **look, markersize=3.5)
     keys = [make_dot(name, marker=marker) for name, marker in WORKS.items()]
@@ -68,8 +66,10 @@ def draw_errors(ax, table):
 
 def draw_works(ax, x, y, rows, **look):
     """Points of these rows, pale where the grid does not resolve the cohesive zone."""
-    fine = rows.pixels_in_zone >= FINE
-    for which, alpha in ((fine, 1), (~fine, PALE)):
+    resolved_from = 3.9  # pixels in the cohesive zone that resolve it
+    fine = rows.pixels_in_zone >= resolved_from
+    pale = 0.3  # opacity of points with fewer
+    for which, alpha in ((fine, 1), (~fine, pale)):
         ax.plot(x[which], y[which], linestyle="none", alpha=alpha, **look)
 
 
@@ -77,7 +77,8 @@ def draw_hysteresis(ax, table):
     """Works over the energy gained, against the width of the cohesive zone."""
     table = table[(table.zone < 0.21) & (table.bound > LEAST) & ~table.weak]
     table = table[table.pixels_in_zone >= RESOLVED]
-    colours = dict(zip(MAGNIFICATIONS, (BLUE, ORANGE, PURPLE), strict=True))
+    magnifications = (4, 8), (12, 24), (32, 64)  # from and to, of the colours of panel C
+    colours = dict(zip(magnifications, (BLUE, ORANGE, PURPLE), strict=True))
     for i, ((least, most), colour) in enumerate(colours.items()):
         rows = table[table.magnification.between(least, most)]
         for pressed in (False, True):
@@ -102,8 +103,9 @@ def draw_weak(ax, table):
     rows = rows[rows["set"] == rows["set"].iloc[0]]
     energy, slope = rows[["full_contact_energy", "rms_slope"]].iloc[0]
     rough = Roughness(1.0, 1.0, energy, rms_slope=slope)
+    ranges = np.geomspace(0.05, 5, 100)  # over h_rms
     for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
-        ax.plot(RANGES, rough.share(ratio * energy, RANGES), color=colour, label=f"{ratio:g}")
+        ax.plot(ranges, rough.share(ratio * energy, ranges), color=colour, label=f"{ratio:g}")
         here = rows[rows.energy_ratio == ratio]
         ax.plot(here.range, here.bound, "o", color=colour)
     ax.set(xscale="log", yscale="log", ylim=(3e-3, 1), xlabel=plotting.RANGE)

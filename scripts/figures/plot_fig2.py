@@ -59,13 +59,15 @@ def draw_threshold(ax, limit, adhesive):
         full = adhesive.sel(pressure=load, range_over_h_rms=range_)
         dmt = limit.sel(pressure=load, range_over_h_rms=range_, method="nearest")
         look = pick_look(index, markersize=SIZE)
-        colour, lengths = look["color"], full.adhesion_length_over_range
+        colour = look["color"]
+        lengths = full.adhesion_length_over_range
         ax.plot(dmt.adhesion_length_over_range, dmt.inverse_kappa, ":", color=colour)
         ax.plot(lengths, full.inverse_kappa_fit, "-", color=colour, linewidth=0.9)
         plotting.draw_hollow(ax, lengths, full.inverse_kappa_net, **look)
         plotting.draw_points(ax, lengths, full, "inverse_kappa", **look, label=state(range=range_))
     compressed = make_dot("compressed", markersize=SIZE, mfc="white")
-    fit, dmt = make_key("fit over loads", linewidth=0.9), make_key("DMT sum", linestyle=":")
+    fit = make_key("fit over loads", linewidth=0.9)
+    dmt = make_key("DMT sum", linestyle=":")
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     ax.axhspan(-0.35, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)

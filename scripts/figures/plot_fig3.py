@@ -6,13 +6,12 @@ from common import plotting
 from common.conventions import LOAD, VARIANT
 from common.formatting import number
 from common.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
-from common.theory import between_corrections
+from common.theory_variants import between_corrections
 from stickiness import criteria, datasets
 
 EXPONENT = 2 / 3
 SIMULATED_RANGES = slice(3e-3, 0.3)  # over h_rms, of the points of panel A
 LARGEST_RANGE = SIMULATED_RANGES.stop  # in panels A and B
-CONVERGED_A_V = 3.0  # of the paper, for the guides
 WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
 THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
@@ -20,9 +19,15 @@ THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
     fits = [datasets.read(path, ["a_v", "window_low", "exponent"]) for path in job.input.fits]
+    cases = []
     files = zip(job.input.bem, job.input.bem_fits, job.input.lattice_fits, strict=True)
-    variables = ["attractive_area_mean"], ["a_v_mean"], ["a_v"]
-    cases = [join(*map(datasets.read, paths, variables)) for paths in files]
+    for areas, fit, lattice in files:
+        case = join(
+            datasets.read(areas, ["attractive_area_mean"]),
+            datasets.read(fit, ["a_v_mean"]),
+            datasets.read(lattice, ["a_v"]),
+        )
+        cases.append(case)
     cases.sort(key=lambda case: case.order)
     alike = [case for case in cases if case.order[0] == float(sweeps[0].hurst[0])]
     rows = "AB;CD;EE"
@@ -39,16 +44,18 @@ def join(areas, fit, lattice):
     theory = lattice.a_v.sel(variant=VARIANT, drop=True)
     fit = fit.assign(theory_a_v=theory).isel(window=0)
     case = areas.merge(fit, join="exact", combine_attrs="override")
-    made = datasets.parameters(case)
-    window, magnification = made.get("window", 1), made["magnification"]
+    parameters = datasets.parameters(case)
+    window = parameters.get("window", 1)
+    magnification = parameters["magnification"]
     side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
     label = state(magnification=magnification) + side
-    return case.assign_attrs(order=(made["hurst"], window, magnification), label=label)
+    return case.assign_attrs(order=(parameters["hurst"], window, magnification), label=label)
 
 
 def draw_magnifications(ax, theory, cases):
     """Areas at one pressure for a few magnifications, by theory and simulation."""
-    hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, load=0)
+    hurst = float(theory.hurst[0])
+    theory = theory.isel(hurst=0, load=0)
     pressure = float(theory.pressure.sel(variant=VARIANT)[0])
     for colour, magnification in plotting.shade(theory.magnification.values):
         area = theory.attractive_area.sel(magnification=magnification)
@@ -64,8 +71,9 @@ def draw_magnifications(ax, theory, cases):
         look = pick_look(index, label=case.label)
         plotting.draw_points(ax, x, area, "attractive_area_mean", **look)
     x = np.array([0, LARGEST_RANGE**EXPONENT])
-    look = {"color": BLACK, "zorder": 5, "label": state(a_v=CONVERGED_A_V)}
-    ax.plot(x, 1.5 * CONVERGED_A_V * pressure * x, ":", **look)
+    converged_a_v = 3.0  # of the paper, for the guides
+    look = {"color": BLACK, "zorder": 5, "label": state(a_v=converged_a_v)}
+    ax.plot(x, 1.5 * converged_a_v * pressure * x, ":", **look)
     handles, _ = ax.get_legend_handles_labels()
     handles = handles[theory.sizes["magnification"] :]
     ax.legend(handles=handles, loc="upper right", title="BEM")
@@ -73,22 +81,26 @@ def draw_magnifications(ax, theory, cases):
 
 def draw_theory(ax, x, values, colour, **look):
     """Quoted variant of the theory, and a band between its corrections."""
-    plotting.draw_band(ax, x, *between_corrections(values), colour)
+    low, high = between_corrections(values)
+    plotting.draw_band(ax, x, low, high, colour)
     ax.plot(x, values.sel(variant=VARIANT), color=colour, **look)
 
 
 def dress_areas(ax, top):
+    """Axes of the attractive area against the range to the power 2/3."""
     ax.set(xlim=(0, LARGEST_RANGE**EXPONENT), ylim=(0, top))
     ax.set_xlabel(r"$(\epsilon/h_\mathrm{rms})^{2/3}$")
     ax.set_ylabel(r"attractive area $A_\mathrm{ad}/A_\mathrm{nom}$")
 
 
 def draw_pressures(ax, theory):
-    hurst, theory = float(theory.hurst[0]), theory.isel(hurst=0, magnification=0)
+    """Areas at several pressures, by theory."""
+    hurst = float(theory.hurst[0])
+    theory = theory.isel(hurst=0, magnification=0)
     for colour, load in plotting.shade(range(theory.sizes["load"])):
-        at = theory.isel(load=load)
-        label = f"{float(at.pressure.sel(variant=VARIANT)):g}"
-        draw_theory(ax, at["range"] ** EXPONENT, at.attractive_area, colour, label=label)
+        loaded = theory.isel(load=load)
+        label = f"{float(loaded.pressure.sel(variant=VARIANT)):g}"
+        draw_theory(ax, loaded["range"] ** EXPONENT, loaded.attractive_area, colour, label=label)
     dress_areas(ax, 0.75)
     ax.set_title(f"{state(hurst=hurst, magnification=float(theory.magnification))}, theory")
     ax.legend(title=r"$\hat{p}$ =", loc="upper left", ncols=2, alignment="left")
@@ -96,12 +108,14 @@ def draw_pressures(ax, theory):
 
 def draw_a_v(ax, sweep, fit, cases):
     """a_V against magnification with Pastewka and Robbins' and simulation."""
-    a_v, sweep = fit.a_v.isel(load=0), sweep.sel(variant=VARIANT).isel(load=0)
+    a_v = fit.a_v.isel(load=0)
+    sweep = sweep.sel(variant=VARIANT).isel(load=0)
     for index, hurst in enumerate(fit.hurst.values):
         look = pick_look(index)
         draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), look["color"])
         moments = sweep.sel(hurst=hurst)
-        slope, curvature = moments.rms_slope.values, moments.rms_curvature.values
+        slope = moments.rms_slope.values
+        curvature = moments.rms_curvature.values
         robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
         ax.plot(fit.magnification, robbins, "--", color=look["color"], linewidth=0.9)
         ax.plot([], [], label=state(hurst=hurst), **look)
@@ -128,10 +142,10 @@ def draw_intervals(ax, x, a_v, colour):
 
 def draw_case(ax, case, x, pressures, label=None, **look):
     """a_V of a case at some pressures, with theory on its spectrum."""
-    at = case.sel(pressure=pressures, method="nearest")
-    x = np.broadcast_to(x, at.pressure.shape)
-    plotting.draw_hollow(ax, x, at.theory_a_v, **look)
-    plotting.draw_points(ax, x, at, "a_v_mean", **look, label=label)
+    loaded = case.sel(pressure=pressures, method="nearest")
+    x = np.broadcast_to(x, loaded.pressure.shape)
+    plotting.draw_hollow(ax, x, loaded.theory_a_v, **look)
+    plotting.draw_points(ax, x, loaded, "a_v_mean", **look, label=label)
 
 
 def draw_a_v_of_pressure(ax, sweep, fit, cases):
@@ -150,7 +164,9 @@ def draw_a_v_of_pressure(ax, sweep, fit, cases):
 
 
 def draw_exponents(ax, fit, cases):
-    hurst, exponents = float(fit.hurst[0]), fit.exponent.isel(hurst=0, load=0)
+    """Local exponents of the areas, by theory and simulation."""
+    hurst = float(fit.hurst[0])
+    exponents = fit.exponent.isel(hurst=0, load=0)
     for colour, magnification in plotting.shade(fit.magnification.values):
         curve = exponents.sel(magnification=magnification)
         draw_theory(ax, curve["range"], curve, colour)

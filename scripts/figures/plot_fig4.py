@@ -7,18 +7,16 @@ from common.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_k
 from stickiness import criteria, datasets
 
 PAPER_A_V = 2.8
-THRESHOLD = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
-PROPORTIONAL_UP_TO = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
 SMALL = 3  # size of open markers
 
 
 def main(job):
     loop = datasets.read(job.input.loop, ["mean_pressure", "repulsive_area_fraction"])
-    at = {"pressure": job.params.pressure, "method": "nearest"}
-    surfaces = [read_ranges(paths).sel(**at) for paths in (job.input.rough, [job.input.smooth])]
+    place = {"pressure": job.params.pressure, "method": "nearest"}
+    surfaces = [read_ranges(paths).sel(**place) for paths in (job.input.rough, [job.input.smooth])]
     # In the fit interval that is quoted.
     fits = (datasets.read(path, ["a_v_mean"]).isel(window=0) for path in job.input.a_v)
-    a_v = [float(fit.a_v_mean.sel(**at)) for fit in fits]
+    a_v = [float(fit.a_v_mean.sel(**place)) for fit in fits]
     with plotting.open_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
         draw_loops(panels["A"], loop.isel(resolution=-1))
         draw_lengths(panels["B"], surfaces, a_v)
@@ -37,9 +35,11 @@ def draw_loops(ax, loop):
     lengths = loop.adhesion_length_over_range.values
     for length, colour in zip(lengths, COLOURS, strict=False):
         curves = loop.sel(adhesion_length_over_range=length)
-        gap, press = curves.sel(control="mean_gap"), curves.sel(control="pressure")
+        gap = curves.sel(control="mean_gap")
+        press = curves.sel(control="pressure")
         turn = int(press.separating.sum("state") and press.separating.argmax("state"))
-        loading, unloading = slice(None, turn), slice(turn - 1, None)
+        loading = slice(None, turn)
+        unloading = slice(turn - 1, None)
         for leg, line, look in (
             (gap, "-", {"linewidth": 0.6}),
             (press.isel(state=loading), "-", {"label": f"{length:g}"}),
@@ -48,11 +48,13 @@ def draw_loops(ax, loop):
         ):
             ax.plot(leg.mean_pressure, leg.repulsive_area_fraction, line, color=colour, **look)
     ax.axvline(0, color=GREY, linewidth=0.7)
-    made = datasets.parameters(loop)
+    parameters = datasets.parameters(loop)
     ax.set_xlabel(r"mean pressure $p_\mathrm{ext}/(E^*q_0h_\mathrm{rms})$")
     ax.set_ylabel(plotting.CONTACT_AREA)
     ax.locator_params(axis="x", nbins=5)
-    ax.set_title(state(magnification=made["magnification"], range=made["range_over_h_rms"]))
+    ax.set_title(
+        state(magnification=parameters["magnification"], range=parameters["range_over_h_rms"])
+    )
     kinds = [make_key("loading"), make_key("unloading", linestyle="--")]
     kinds += [make_key("at given gap", linewidth=0.6), make_dot("pull-off")]
     ax.add_artist(ax.legend(handles=kinds, loc="lower right"))
@@ -63,9 +65,11 @@ def draw_lengths(ax, surfaces, a_v):
     """1/kappa_ad by slopes and directly, beside the formula with either a_V."""
     keys = []
     for marker, data, measured in zip(MARKERS, surfaces, a_v, strict=False):
-        made = datasets.parameters(data)
-        height = made["h_rms"].replace("um", "µm")
-        label = rf"{state(magnification=made['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
+        parameters = datasets.parameters(data)
+        height = parameters["h_rms"].replace("um", "µm")
+        label = (
+            rf"{state(magnification=parameters['magnification'])}, $h_\mathrm{{rms}}$ = {height}"
+        )
         keys.append(make_dot(label, color=BLACK, marker=marker))
         lengths = data.adhesion_length_over_range.values
         for colour, range_ in plotting.shade(data.range_over_h_rms.values):
@@ -73,12 +77,14 @@ def draw_lengths(ax, surfaces, a_v):
             for value, line in ((PAPER_A_V, "-"), (measured, "--")):
                 formula = by_formula(data, lengths, range_, value)
                 ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
-            look, direct = {"color": colour, "marker": marker}, here.inverse_kappa_ad_direct
+            look = {"color": colour, "marker": marker}
+            direct = here.inverse_kappa_ad_direct
             plotting.draw_hollow(ax, lengths, direct, **look, markersize=SMALL)
             draw_slopes(ax, lengths, here, "inverse_kappa_ad_fit", **look)
             chosen = here.inverse_kappa_ad.where(here.model == "dmt")
             ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
-    ax.axhspan(THRESHOLD, 1e3, color=GREY, alpha=0.15, linewidth=0)
+    threshold = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
+    ax.axhspan(threshold, 1e3, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
     ax.set(xscale="log", yscale="log", ylim=(1e-7, 1e3))
     ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa_\mathrm{ad}$")
@@ -133,7 +139,8 @@ def draw_ranges(ax, surfaces, a_v):
 def largest_weak_length(data):
     """Largest adhesion length whose adhesion is still in proportion to it, at any range."""
     largest = data.inverse_kappa_ad.max("range_over_h_rms")
-    return float(data.adhesion_length_over_range.where(largest < PROPORTIONAL_UP_TO).max())
+    proportional_up_to = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
+    return float(data.adhesion_length_over_range.where(largest < proportional_up_to).max())
 
 
 if __name__ == "__main__":

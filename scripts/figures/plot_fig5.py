@@ -7,7 +7,6 @@ from stickiness import datasets
 LENGTH = "adhesion_length_over_range"
 LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]
 EMPHASISED = 0.05  # l_a/range of a crystal on itself
-CLAIMED = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
 EDGES = "h_rms_limit_edges"
 LOOKS = {  # line, colour, width and label
     EDGES: ("-", RED, 2, f"edges, {state(adhesion_length=EMPHASISED)}, with error"),
@@ -32,15 +31,17 @@ def draw_limits(ax, data):
     x = data.range_times_q0
     for colour, length in plotting.shade(LENGTHS):
         ax.plot(x, interpolate(data[EDGES], LENGTH, length), color=colour, label=f"{length:g}")
-    ends = (interpolate(data[f"{EDGES}_{end}"], LENGTH, EMPHASISED) for end in ("low", "high"))
-    plotting.draw_band(ax, x, *ends, RED, alpha=0.25)
+    low = interpolate(data[f"{EDGES}_low"], LENGTH, EMPHASISED)
+    high = interpolate(data[f"{EDGES}_high"], LENGTH, EMPHASISED)
+    plotting.draw_band(ax, x, low, high, RED, alpha=0.25)
     ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
     drawn = []
     for name, (line, colour, width, text) in LOOKS.items():
         look = {"color": colour, "linewidth": width, "label": text.format(a_v=float(data.a_v))}
         drawn += ax.plot(x, interpolate(data[name], LENGTH, EMPHASISED), line, **look)
     look = {"color": RED, "mfc": "white", "zorder": 5, "label": "the paper's numbers"}
-    drawn[4:4] = ax.plot(CLAIMED.keys(), CLAIMED.values(), "o", **look)
+    claimed = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
+    drawn[4:4] = ax.plot(claimed.keys(), claimed.values(), "o", **look)
     ax.legend(handles=drawn, loc="upper right")
     ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
     ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=f"largest sticky {ROUGHNESS}")

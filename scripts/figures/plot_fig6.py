@@ -8,7 +8,6 @@ from stickiness import datasets
 
 HURST = 0.8  # of the lines
 EXPONENT = 2 * (HURST + 1)
-LINES = {1e-3: r"$C_0$ = 10$^{-3}$ m$^{0.4}$", 1e-5: r"$C_0$ = 10$^{-5}$ m$^{0.4}$"}
 WAVE_NUMBERS = (1e-4, 1e10)  # 1/m
 
 
@@ -36,14 +35,15 @@ def draw_spectra(ax, surfaces, power):
     ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS)
     q = np.array(WAVE_NUMBERS)
     grey = {"color": GREY, "fontsize": 8}
-    for c0, text in LINES.items():
+    lines = {1e-3: r"$C_0$ = 10$^{-3}$ m$^{0.4}$", 1e-5: r"$C_0$ = 10$^{-5}$ m$^{0.4}$"}
+    for c0, text in lines.items():
         ax.plot(q, c0 * q ** (power - EXPONENT), "--", color=GREY, linewidth=0.9, zorder=1)
         if power:
             ax.text(np.sqrt(q.prod()) / 300, 1.3 * c0, text, **grey)
     if not power:
-        upper, lower = LINES
-        ax.text(30, upper * 8**-EXPONENT, LINES[upper], va="bottom", **grey)
-        ax.text(1, lower * 3**-EXPONENT, LINES[lower], va="top", ha="right", **grey)
+        upper, lower = lines
+        ax.text(30, upper * 8**-EXPONENT, lines[upper], va="bottom", **grey)
+        ax.text(1, lower * 3**-EXPONENT, lines[lower], va="top", ha="right", **grey)
 
 
 if __name__ == "__main__":

@@ -9,11 +9,6 @@ from common.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
 
-ACCURACY = 0.15  # of the DMT sum, as Figure 4B asks
-LARGEST_RATIO = 4.0  # up or down, that the colours tell apart
-DARK_RATIO = 2.2  # up or down, beyond which a cell's colour asks for white text
-SMALL = {"ha": "center", "va": "center", "fontsize": 7}
-
 
 def main(job):
     data = datasets.read(job.input.adhesive, ["dmt_ratio", "zone_strength", "q0_h_rms"])
@@ -25,19 +20,25 @@ def main(job):
 def draw_plane(ax, data):
     """Ratio in colour and in figures, bold where DMT is good enough, and where it should hold."""
     data = data.transpose("adhesion_length_over_range", "range_over_h_rms", ...)
-    ranges, lengths = data.range_over_h_rms.values, data.adhesion_length_over_range.values
-    ratio, good = data.dmt_ratio.values, error_of_dmt(data).values <= ACCURACY
-    norm = mpl.colors.LogNorm(1 / LARGEST_RATIO, LARGEST_RATIO)
+    ranges = data.range_over_h_rms.values
+    lengths = data.adhesion_length_over_range.values
+    ratio = data.dmt_ratio.values
+    accuracy = 0.15  # of the DMT sum, as Figure 4B asks
+    good = error_of_dmt(data).values <= accuracy
+    largest_ratio = 4.0  # up or down, that the colours tell apart
+    norm = mpl.colors.LogNorm(1 / largest_ratio, largest_ratio)
     mesh = ax.pcolormesh(find_cells(ranges), find_cells(lengths), ratio, norm=norm, cmap="RdYlBu_r")
+    dark_ratio = 2.2  # up or down, beyond which a cell's colour asks for white text
+    small = {"ha": "center", "va": "center", "fontsize": 7}
     for (row, column), value in np.ndenumerate(ratio):
         ax.text(
             ranges[column],
             lengths[row],
             f"{value:.2f}" if np.isfinite(value) else "·",
-            color="white" if abs(np.log(value)) > np.log(DARK_RATIO) else BLACK,
+            color="white" if abs(np.log(value)) > np.log(dark_ratio) else BLACK,
             weight="bold" if good[row, column] else "normal",
             bbox={"facecolor": mesh.to_rgba(value), "linewidth": 0, "pad": 0.7},
-            **SMALL,
+            **small,
         )
     ax.set(xscale="log", yscale="log", xlabel=plotting.RANGE, ylabel=plotting.ADHESION_LENGTH)
     ax.autoscale(False)
@@ -69,12 +70,12 @@ def draw_weak(ax, data):
     """Weak adhesion at equal area, and at equal mean gap (open) with its limit (line)."""
     weak = data.isel(adhesion_length_over_range=0)
     for index, load in enumerate(weak.pressure.values):
-        at = weak.sel(pressure=load)
+        loaded = weak.sel(pressure=load)
         look = pick_look(index, markersize=3.5)
-        x = plotting.move_aside(at.range_over_h_rms, index - 1, 1.06)
-        ax.plot(x, at.dmt_ratio_at_gap / at.weak_ratio, linewidth=0.9, color=look["color"])
-        plotting.draw_hollow(ax, x, at.dmt_ratio_at_gap, **look)
-        plotting.draw_points(ax, x, at, "dmt_ratio", **look, label=state(pressure=load))
+        x = plotting.move_aside(loaded.range_over_h_rms, index - 1, 1.06)
+        ax.plot(x, loaded.dmt_ratio_at_gap / loaded.weak_ratio, linewidth=0.9, color=look["color"])
+        plotting.draw_hollow(ax, x, loaded.dmt_ratio_at_gap, **look)
+        plotting.draw_points(ax, x, loaded, "dmt_ratio", **look, label=state(pressure=load))
     x = np.array([0.01, 0.2])
     plotting.draw_guide(ax, x, 3.2 * (x / 0.01) ** (-1 / 3), r"$\epsilon^{-1/3}$", (0.042, 1.25))
     ax.axhline(1, color=GREY, linewidth=0.9)

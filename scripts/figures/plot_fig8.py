@@ -1,5 +1,7 @@
 """Figure 8: Persson's theory over simulation, by surface and by theory, and gamma by simulation."""
 
+from itertools import pairwise
+
 import numpy as np
 
 from common import plotting
@@ -9,12 +11,6 @@ from common.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
 from stickiness import datasets
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
-THEORIES = {
-    VARIANT: "2018, Yang & Persson",
-    f"{VARIANT}, wang2017": "2018, Wang & Müser",
-    f"{VARIANT}, xu2024": "2018, Xu et al.",
-    "almqvist2011": "2011, Yang & Persson",
-}
 SYMBOLS = {
     "area_fraction": r"$A$",
     "mean_gap": r"$\bar{u}$",
@@ -27,23 +23,20 @@ TITLES = {
     "mean_gap": "mean gap",
     "attractive_area": "attractive area",
 }
-RANGE = 0.1  # over h_rms, of the attractive area
 LOADS = {0.01: (BLUE, "o"), LOAD: (BLACK, "s"), 0.4: (RED, "^")}  # the nearest of each case
 GOOD_DIFFERENCE = 0.1  # relative, shaded
 SHOWN = (0.55, 1.5)  # ratios
-KNOWN_TO = 0.2  # relative error of P(u) up to which it counts
-LARGEST_GAP = 3  # over h_rms, up to which P(u) counts
-SMALL = {"va": "center", "fontsize": 7}
 
 
 def main(job):
     files = (datasets.read(path, ["window_holds"]) for path in job.input.comparisons)
-    cases = sorted((file.interp({"range": RANGE}) for file in files), key=read_surface)
+    shown_range = 0.1  # over h_rms, of the attractive area
+    cases = sorted((file.interp({"range": shown_range}) for file in files), key=read_surface)
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
-    rows, heights = "AABBCC;DDDEEE;FFFFFF", [0.3 * len(cases) + 0.6, 2.2, 2.2]
-    with plotting.open_figure(
-        job.output, rows, sum(heights) + 0.9, height_ratios=heights
-    ) as panels:
+    rows = "AABBCC;DDDEEE;FFFFFF"
+    ratios = [0.3 * len(cases) + 0.6, 2.2, 2.2]
+    height = sum(ratios) + 0.9
+    with plotting.open_figure(job.output, rows, height, height_ratios=ratios) as panels:
         for letter, name in zip("ABC", TITLES, strict=True):
             draw_ratios(panels[letter], name, cases)
         labels = [
@@ -66,8 +59,8 @@ def main(job):
 
 def read_surface(case):
     """Hurst exponent, magnification, and longest waves a side of the cell."""
-    made = datasets.parameters(case)
-    return made["hurst"], made["magnification"], made.get("window", 1)
+    parameters = datasets.parameters(case)
+    return parameters["hurst"], parameters["magnification"], parameters.get("window", 1)
 
 
 def find_nearest(case, load):
@@ -79,17 +72,19 @@ def draw_ratios(ax, name, cases):
     """Theory over simulation: a row for every case, a point for every load, open as in the key."""
     for row, case in enumerate(cases):
         for place, (load, (colour, marker)) in enumerate(LOADS.items()):
-            one, height = find_nearest(case, load).sel(variant=VARIANT), row + 0.25 * (place - 1)
-            ratio = 1 + float(one[f"{name}_difference"])
-            error = float(np.nan_to_num(one[f"{name}_difference_total_error"]))
+            point = find_nearest(case, load).sel(variant=VARIANT)
+            height = row + 0.25 * (place - 1)
+            ratio = 1 + float(point[f"{name}_difference"])
+            error = float(np.nan_to_num(point[f"{name}_difference_total_error"]))
             ax.errorbar(ratio, height, xerr=error, color=colour, elinewidth=0.8, alpha=0.6)
-            inside = np.clip(ratio, *SHOWN)  # an arrow if it lies outside
+            inside = np.clip(ratio, SHOWN[0], SHOWN[1])  # an arrow if it lies outside
             marker = marker if inside == ratio else ("<" if ratio < inside else ">")
-            face = colour if one.window_holds == 1 else "white"
+            face = colour if point.window_holds == 1 else "white"
             look = {"color": colour, "mfc": face, "markersize": 4, "mew": 0.8, "clip_on": False}
             ax.plot(inside, height, marker, **look)
-    for row, (one, other) in enumerate(zip(cases, cases[1:], strict=False)):
-        if read_surface(one)[0] != read_surface(other)[0]:
+    # A line between Hurst exponents.
+    for row, (case, next_case) in enumerate(pairwise(cases)):
+        if read_surface(case)[0] != read_surface(next_case)[0]:
             ax.axhline(row + 0.5, color=GREY, linewidth=0.5)
     ax.axvspan(1 - GOOD_DIFFERENCE, 1 + GOOD_DIFFERENCE, color=GREY, alpha=0.15, linewidth=0)
     ax.axvline(1, color=GREY, linewidth=0.7, zorder=0)
@@ -100,10 +95,16 @@ def draw_ratios(ax, name, cases):
 def draw_theories(ax, cases):
     """Root mean square of what each theory is off, by quantity, where the windows hold."""
     names = [*TITLES, "gap_density"]
-    for index, (theory, label) in enumerate(THEORIES.items()):
-        found = [root_mean_square(name, theory, cases) for name in names]
+    theories = {
+        VARIANT: "2018, Yang & Persson",
+        f"{VARIANT}, wang2017": "2018, Wang & Müser",
+        f"{VARIANT}, xu2024": "2018, Xu et al.",
+        "almqvist2011": "2011, Yang & Persson",
+    }
+    for index, (theory, label) in enumerate(theories.items()):
+        errors = [root_mean_square(name, theory, cases) for name in names]
         y = np.arange(len(names)) + 0.2 * (index - 1.5)
-        ax.plot(found, y, **pick_look(index, linestyle="none"), label=label)
+        ax.plot(errors, y, **pick_look(index, linestyle="none"), label=label)
     ax.axvline(100 * GOOD_DIFFERENCE, color=GREY, linestyle=":", linewidth=0.9)
     ax.set_yticks(range(len(names)), [SYMBOLS[name] for name in names])
     ax.set(ylim=(len(names) - 0.5, -0.5), xlabel="theory less simulation, rms [%]")
@@ -116,35 +117,39 @@ def draw_theories(ax, cases):
 
 def root_mean_square(name, theory, cases):
     """In per cent, over every case and load whose window holds."""
-    found = []
+    differences = []
+    known_to = 0.2  # relative error of P(u) up to which it counts
+    largest_gap = 3  # over h_rms, up to which P(u) counts
     for case in cases:
-        at = case.sel(variant=theory)
+        of_theory = case.sel(variant=theory)
         if name == "gap_density":  # at the load of the paper's figures, where simulation knows it
-            one = at.sel(pressure=LOAD, method="nearest")
-            difference, error = one.gap_density_difference, one.gap_density_difference_total_error
-            known = (error < KNOWN_TO * (1 + difference)) & (one.gap < LARGEST_GAP)
-            found.append(difference.where(known).values)
+            loaded = of_theory.sel(pressure=LOAD, method="nearest")
+            difference = loaded.gap_density_difference
+            error = loaded.gap_density_difference_total_error
+            certain = (error < known_to * (1 + difference)) & (loaded.gap < largest_gap)
+            differences.append(difference.where(certain).values)
             continue
-        found.append(at[f"{name}_difference"].values[case.window_holds.values == 1])
-    return 100 * np.sqrt(np.nanmean(np.concatenate(found) ** 2))
+        differences.append(of_theory[f"{name}_difference"].values[case.window_holds.values == 1])
+    return 100 * np.sqrt(np.nanmean(np.concatenate(differences) ** 2))
 
 
 def draw_gamma(ax, gamma):
     """Gamma with its confidence interval for each correction and quantity, of all if they agree."""
     count = gamma.sizes["quantity"]
+    small = {"va": "center", "fontsize": 7}
     for index, (correction, label) in enumerate(CORRECTIONS.items()):
-        at = gamma.sel(correction=correction)
+        fits = gamma.sel(correction=correction)
         aside = 0.26 * (index - 1)
-        if not at.quantities_agree:
-            at = at.sel(quantity=at["quantity"] != "all")
-            ax.text(0.27, count - 1 + aside, f"{label}: none fits all", **SMALL)
-        y = np.arange(at.sizes["quantity"]) + aside
-        bars = np.abs([at.gamma - at.gamma_low, at.gamma_high - at.gamma])
+        if not fits.quantities_agree:
+            fits = fits.sel(quantity=fits["quantity"] != "all")
+            ax.text(0.27, count - 1 + aside, f"{label}: none fits all", **small)
+        y = np.arange(fits.sizes["quantity"]) + aside
+        bars = np.abs([fits.gamma - fits.gamma_low, fits.gamma_high - fits.gamma])
         look = pick_look(index, linestyle="none")
-        ax.errorbar(at.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
-        for height, end, misfit in zip(y, at.gamma_high.values, at.misfit.values, strict=True):
-            ax.text(end + 0.015, height, f"{100 * misfit:.0f} %", **SMALL)
-        ax.plot(float(at.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
+        ax.errorbar(fits.gamma, y, xerr=bars, elinewidth=1, capsize=2, **look, label=label)
+        for height, end, misfit in zip(y, fits.gamma_high.values, fits.misfit.values, strict=True):
+            ax.text(end + 0.015, height, f"{100 * misfit:.0f} %", **small)
+        ax.plot(float(fits.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="published")
     ax.set_yticks(np.arange(count), [SYMBOLS[str(name)] for name in gamma.quantity.values])
     ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.15), xlabel=r"best $\gamma$, 95 %, and misfit")
@@ -154,13 +159,13 @@ def draw_gamma(ax, gamma):
 def draw_windows(ax, cases):
     """Attractive area, simulation over theory, against what of the highest summit is in reach."""
     for case in cases:
-        at = case.sel(variant=VARIANT)
-        over = 1 / (1 + at.attractive_area_difference)
-        error = np.nan_to_num(over**2 * at.attractive_area_difference_total_error)
-        below = at.highest_summit - at.theory_mean_gap
+        quoted = case.sel(variant=VARIANT)
+        ratio = 1 / (1 + quoted.attractive_area_difference)
+        error = np.nan_to_num(ratio**2 * quoted.attractive_area_difference_total_error)
+        below = quoted.highest_summit - quoted.theory_mean_gap
         colour, marker = (RED, "o") if read_surface(case)[2] == 1 else (BLUE, "s")
         look = {"linestyle": "none", "markersize": 3, "elinewidth": 0.6, "mew": 0.7}
-        ax.errorbar(below, over, error, **look, color=colour, marker=marker)
+        ax.errorbar(below, ratio, error, **look, color=colour, marker=marker)
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
     margin = float(cases[0].margin)
     ax.axvline(margin, color=GREY, linestyle=":")

@@ -12,30 +12,33 @@ from stickiness.criteria.registry import CRITERIA, REMAINING
 def main(job):
     compared = datasets.read(job.input.compared, ["against_roughness", "against_magnification"])
     verdicts = datasets.read(job.input.verdicts, ["threshold_by_criterion"])
-    made = datasets.parameters(compared)
-    zeta = rf"$\zeta$ = {number(made['quoted_magnification'])}"
-    height = rf"$h_\mathrm{{rms}}/\epsilon$ = {number(made['quoted_h_rms_over_range'])}"
+    parameters = datasets.parameters(compared)
+    zeta = rf"$\zeta$ = {number(parameters['quoted_magnification'])}"
+    height = rf"$h_\mathrm{{rms}}/\epsilon$ = {number(parameters['quoted_h_rms_over_range'])}"
     with plotting.open_figure(job.output, "AB;CC", 6.8, height_ratios=[1, 1.15]) as panels:
-        draw_thresholds(panels["A"], compared.against_roughness, made, zeta)
-        draw_thresholds(panels["B"], compared.against_magnification, made, height)
+        draw_thresholds(panels["A"], compared.against_roughness, parameters, zeta)
+        draw_thresholds(panels["B"], compared.against_magnification, parameters, height)
         panels["A"].set_xlabel(r"roughness $h_\mathrm{rms}/\epsilon$")
         panels["B"].set_xlabel(r"magnification $\zeta = q_1/q_0$")
         draw_surfaces(panels["C"], verdicts)
 
 
-def draw_thresholds(ax, thresholds, made, held):
+def draw_thresholds(ax, thresholds, parameters, fixed):
     """Threshold of every criterion, the verdict's with its error; `held` is what is fixed."""
     (along,) = set(thresholds.dims) - {"criterion"}
     x = thresholds[along].values
-    low, high = (thresholds.sel(criterion=f"{REMAINING}_{end}") for end in ("low", "high"))
+    low = thresholds.sel(criterion=f"{REMAINING}_low")
+    high = thresholds.sel(criterion=f"{REMAINING}_high")
     plotting.draw_band(ax, x, low, high, RED, alpha=0.2)
     for criterion in select_criteria(thresholds):
         ax.plot(x, thresholds.sel(criterion=criterion.name), **look_of(criterion))
     label = r"adhesion length at the threshold $l_a/\epsilon$"
     ax.set(xscale="log", yscale="log", ylim=(1e-4, 1e4), ylabel=label)
     ax.text(0.03, 0.93, "sticky above", transform=ax.transAxes, color=GREY)
-    both = rf"$H$ = {made['hurst']:g}, $\epsilon q_0$ = {number(made['range_times_q0'])}"
-    ax.text(0.97, 0.04, f"{both}\n{held}", transform=ax.transAxes, ha="right")
+    both = (
+        rf"$H$ = {parameters['hurst']:g}, $\epsilon q_0$ = {number(parameters['range_times_q0'])}"
+    )
+    ax.text(0.97, 0.04, f"{both}\n{fixed}", transform=ax.transAxes, ha="right")
 
 
 def select_criteria(thresholds):
@@ -45,7 +48,9 @@ def select_criteria(thresholds):
 
 
 def look_of(criterion):
-    line, label = criterion.line, criterion.label.replace("a_V", "$a_V$")
+    """Colour, style, width and label of the line of a criterion."""
+    line = criterion.line
+    label = criterion.label.replace("a_V", "$a_V$")
     look = {"color": getattr(plotting, line.colour.upper()), "label": label}
     return look | {"linestyle": line.style, "linewidth": line.width}
 
@@ -59,11 +64,13 @@ def draw_surfaces(ax, verdicts):
     places = np.arange(by.sizes["surface"])
     keys = [make_key(**look_of(CRITERIA[REMAINING]))]
     for index, criterion in enumerate(others):
-        found = ratio.sel(criterion=criterion.name)
-        middle = 10 ** found.mean(("material", "end"))
-        low, high = (10 ** end(("material", "end")) for end in (found.min, found.max))
+        ratios = ratio.sel(criterion=criterion.name)
+        middle = 10 ** ratios.mean(("material", "end"))
+        low = 10 ** ratios.min(("material", "end"))
+        high = 10 ** ratios.max(("material", "end"))
         x = places + 0.09 * (index - (len(others) - 1) / 2)
-        look, marker = look_of(criterion), plotting.pick_look(index)["marker"]
+        look = look_of(criterion)
+        marker = plotting.pick_look(index)["marker"]
         mark = {"marker": marker, "mfc": look["color"] if criterion.line.filled else "white"}
         ax.vlines(x, low, high, color=look["color"], linewidth=1.2)
         ax.plot(x, middle, color=look["color"], linestyle="none", markersize=4.5, **mark)

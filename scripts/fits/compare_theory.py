@@ -13,16 +13,17 @@ from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, par
 
 WINDOW = ("highest_summit", "margin", "window_holds")  # of theory's file
 COMPARED = ("area_fraction", "mean_gap", "attractive_area", "gap_density")
-DIFFERENCE, NOTHING = "theory over simulation less 1", "nothing simulated within the range"
-VARIABLES = {"theory_mean_gap": "mean gap over h_rms that theory predicts"} | {
-    f"{name}_difference": ("1", f"{DIFFERENCE}: {conventions.VARIABLES[name][1]}", NOTHING)
+DIFFERENCE = "theory over simulation less 1"
+NOTHING = "nothing simulated within the range"
+DIFFERENCE_VARIABLES = {"theory_mean_gap": "mean gap over h_rms that theory predicts"} | {
+    f"{name}_difference": ("1", f"{DIFFERENCE}: {conventions.SHARED_VARIABLES[name][1]}", NOTHING)
     for name in COMPARED
 }
 
 
 def main(job):
-    inputs = job.input.ensembles, job.input.theories
-    for ensemble, lattice, output in zip(*inputs, job.output.comparisons, strict=True):
+    files = zip(job.input.ensembles, job.input.theories, job.output.comparisons, strict=True)
+    for ensemble, lattice, output in files:
         simulated = datasets.read(ensemble, [f"{name}_mean" for name in COMPARED])
         theory = datasets.read(lattice, [*COMPARED, *WINDOW])
         title = "theory on the lattice spectrum against simulation"
@@ -32,11 +33,13 @@ def main(job):
 
 
 def compare(simulated, theory):
-    """Relative differences of theory from simulation, with the errors of the simulation."""
+    """Compute relative differences of theory from simulation, with the errors of the simulation."""
     means = {name: simulated[f"{name}_mean"] for name in COMPARED}
     means = {name: mean.where(mean > 0) for name, mean in means.items()}
     dataset = xr.Dataset({f"{n}_difference": theory[n] / mean - 1 for n, mean in means.items()})
-    dataset = conventions.annotate(dataset.assign(theory_mean_gap=theory.mean_gap), **VARIABLES)
+    dataset = conventions.annotate(
+        dataset.assign(theory_mean_gap=theory.mean_gap), **DIFFERENCE_VARIABLES
+    )
     for name, mean in means.items():
         scale = theory[name] / mean**2
         parts = {

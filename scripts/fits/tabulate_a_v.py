@@ -10,12 +10,11 @@ from stickiness import error_budget as budget
 from stickiness.statistics import COVERS
 
 SMALLEST_RANGE = 0.01  # over h_rms; below, simulated areas are extrapolated on most grids
-PER_DECADE = 4  # simulated ranges
 QUOTED = ("a_v", "a_v_limit", "edge_a_v")
 THEORY = [f"{name}{ending}" for name in QUOTED for ending in ("", *budget.ENDINGS)]
 THEORY += ["edge_range", "quadrature_error"]
 APART = "ln of how far other variants and corrections of the theory are"
-VARIABLES = {
+A_V_TABLE_VARIABLES = {
     "a_v": "a_V that theory predicts; to be held constant below edge_range",
     "a_v_limit": "a_V that theory predicts in the limit of infinite magnification",
     "theory_below": f"{APART} below the quoted",
@@ -38,7 +37,7 @@ def main(job):
     needed = ["attractive_area_difference", "window_holds"]
     comparisons = [datasets.read(path, needed) for path in job.input.comparisons]
     dataset = theory[THEORY].isel(variant=0, drop=True).merge(reach(theory))
-    dataset = annotate(dataset.merge(simulated(comparisons)), **VARIABLES)
+    dataset = annotate(dataset.merge(simulated(comparisons)), **A_V_TABLE_VARIABLES)
     error = COVERS * dataset.simulation_error * dataset.simulation_ratio
     counted = budget.not_applicable("counted with the sampling")
     parts = dict.fromkeys(("discretisation", "solver"), counted)
@@ -58,7 +57,7 @@ def main(job):
 
 
 def reach(theory):
-    """How far other variants and corrections reach below and above the quoted theory."""
+    """Find how far other variants and corrections lie below and above the quoted theory."""
     parts = {}
     for name, ending in (("a_v", ""), ("a_v_limit", "_limit")):
         logs = np.log(theory[name]) - np.log(theory[name].isel(variant=0))
@@ -68,7 +67,7 @@ def reach(theory):
 
 
 def simulated(comparisons):
-    """Ratio of simulation to theory at every range, smooth in load and magnification.
+    """Fit the ratio of simulation to theory at every range, smooth in load and magnification.
 
     ln ratio = parabola in ln p + trend log2(zeta/largest zeta), fitted at each range, every case
     with the same say. Cases differ by more than their errors: a variance between them (a random
@@ -79,12 +78,12 @@ def simulated(comparisons):
     between = scatter(points)
     error = np.hypot(points.error, between)
     mean, trend = fit(points, error)
-    say = 1 / (error**2 * points.sharing)
-    common = (say * points.error**2).sum("point") / say.sum("point")
+    weight = 1 / (error**2 * points.sharing)
+    common = (weight * points.error**2).sum("point") / weight.sum("point")
     spread = np.hypot(between, jackknife(points, error))
     # Towards smaller ranges: what a decade of simulated ones changes.
     change = mean.sel(range=10 * SMALLEST_RANGE, method="nearest") - mean.isel(range=0)
-    found = xr.Dataset(
+    dataset = xr.Dataset(
         {
             "simulation_ratio": np.exp(mean),
             "simulation_error": np.sqrt(spread**2 + common),
@@ -94,13 +93,14 @@ def simulated(comparisons):
             "extrapolation_error": np.sqrt((change**2).mean()),
         }
     )
-    return found.rename({"pressure": "simulated_pressure", "range": "simulated_range"})
+    return dataset.rename({"pressure": "simulated_pressure", "range": "simulated_range"})
 
 
 def collect(comparisons):
-    """Logarithms of simulation over theory, with errors, at loads for which windows are large."""
+    """Collect ln(simulation/theory), with errors, at loads whose windows are large enough."""
     parts = []
-    count = round(-np.log10(SMALLEST_RANGE) * PER_DECADE) + 1
+    per_decade = 4  # simulated ranges
+    count = round(-np.log10(SMALLEST_RANGE) * per_decade) + 1
     ranges = np.geomspace(SMALLEST_RANGE, 1, count)
     for case, comparison in enumerate(comparisons):
         quoted = comparison.isel(variant=0, drop=True).interp({"range": ranges})
@@ -110,9 +110,13 @@ def collect(comparisons):
         part = xr.Dataset({"log": -np.log(over), "error": error})
         part = part.rename(pressure="point").dropna("point")
         zeta = datasets.parameters(comparison)["magnification"]
-        known = {"case": case, "sharing": part.sizes["point"], "magnification": zeta}
-        known = {name: xr.full_like(part.point, value, float) for name, value in known.items()}
-        parts.append(part.assign(**known, pressure=part.point).drop_vars("point"))
+        part = part.assign(
+            pressure=part.point,
+            case=xr.full_like(part.point, case, float),
+            sharing=xr.full_like(part.point, part.sizes["point"], float),
+            magnification=xr.full_like(part.point, zeta, float),
+        )
+        parts.append(part.drop_vars("point"))
     points = xr.concat(parts, "point").transpose("point", "range")
     if not points.sizes["point"]:
         raise ValueError(
@@ -123,9 +127,11 @@ def collect(comparisons):
 
 
 def fit(points, error, kept=slice(None)):
-    """Log ratio at every load and the largest magnification, and its change per doubling of it."""
-    loads, largest = np.unique(points.pressure), float(points.magnification.max())
-    points, error = points.isel(point=kept), error.isel(point=kept)
+    """Fit ln ratio at the largest magnification, and its change per doubling of this."""
+    loads = np.unique(points.pressure)
+    largest = float(points.magnification.max())
+    points = points.isel(point=kept)
+    error = error.isel(point=kept)
     degree = min(2, len(np.unique(points.pressure)) - 1)
     several = len(np.unique(points.magnification)) > 1
 
@@ -134,24 +140,27 @@ def fit(points, error, kept=slice(None)):
         return np.column_stack([powers, np.log2(zeta / largest)]) if several else powers
 
     matrix = terms(points.pressure.values, points.magnification.values)
-    root = 1 / np.maximum(error * np.sqrt(points.sharing), 1e-9).values
-    weighed = zip(root.T, points.log.values.T, strict=True)
-    found = [np.linalg.lstsq(matrix * w[:, None], y * w, rcond=None)[0] for w, y in weighed]
-    found = np.transpose(found)
+    weights = 1 / np.maximum(error * np.sqrt(points.sharing), 1e-9).values
+    coefficients = []
+    for weight, log in zip(weights.T, points.log.values.T, strict=True):
+        solution, *_ = np.linalg.lstsq(matrix * weight[:, None], log * weight, rcond=None)
+        coefficients.append(solution)
+    coefficients = np.transpose(coefficients)
     coords = {"pressure": loads, "range": points["range"].values}
-    mean = terms(loads, np.full(len(loads), largest)) @ found
-    trend = xr.DataArray(found[-1] if several else np.zeros(found.shape[1]), dims="range")
+    mean = terms(loads, np.full(len(loads), largest)) @ coefficients
+    trend = xr.DataArray(
+        coefficients[-1] if several else np.zeros(coefficients.shape[1]), dims="range"
+    )
     return xr.DataArray(mean, coords), trend.assign_coords(range=coords["range"])
 
 
 def scatter(points):
-    """Standard deviation between cases at each range, what their errors explain taken away."""
+    """Standard deviation between cases at each range, beyond what their errors explain."""
     mean, trend = fit(points, xr.ones_like(points.error))
     doublings = np.log2(points.magnification / points.magnification.max())
     left = points.log - mean.sel(pressure=points.pressure).drop_vars("pressure") - trend * doublings
-    squares, explained = (
-        (part**2).groupby(points.case).mean().mean("case") for part in (left, points.error)
-    )
+    squares = (left**2).groupby(points.case).mean().mean("case")
+    explained = (points.error**2).groupby(points.case).mean().mean("case")
     count = len(np.unique(points.case))
     spent = 1 + (len(np.unique(points.magnification)) > 1)
     return np.sqrt(np.maximum(squares * count / max(count - spent, 1) - explained, 0))

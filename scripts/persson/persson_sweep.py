@@ -6,45 +6,48 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import annotate, logarithmic_grid
+from common.derived_quantities import write_a_v
 from common.error_budgets import QUADRATURE, theory_parts
 from common.job import start
 from common.model_surfaces import model_spectrum
-from common.quantities import write_a_v
-from common.theory import evaluate, theories
+from common.theory_variants import evaluate, theories
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.error_budget import with_budget
 
 
 def main(job):
-    for sweep, *files in zip(job.params.sweeps, job.output.theory, job.output.a_v, strict=True):
-        write_sweep(sweep, job.params, job.input.laws, *files)
+    outputs = zip(job.params.sweeps, job.output.theory, job.output.a_v, strict=True)
+    for sweep, theory_file, a_v_file in outputs:
+        write_sweep(sweep, job.params, job.input.laws, theory_file)
+        write_a_v(theory_file, a_v_file, job.params.windows, job.input.laws)
 
 
-def write_sweep(sweep, params, laws, output, a_v):
-    """Write theory over one sweep, and a_V fitted to it."""
+def write_sweep(sweep, params, laws, output):
+    """Write theory over one sweep."""
     ranges = logarithmic_grid(params.gaps)
-    axes = {name: np.array(sweep[name], dtype=float) for name in ("hurst", "magnification")}
+    hursts = np.array(sweep["hurst"], dtype=float)
+    magnifications = np.array(sweep["magnification"], dtype=float)
     parts = []
-    for at in product(*axes.values()):
-        spectrum = model_spectrum(dict(zip(axes, map(float, at), strict=True)))
-        named = theories(spectrum, params.variants, params.gamma)
-        parts += [evaluate_sweep(theory, sweep, ranges) for theory in named.values()]
-    axes["variant"] = list(named)
+    for hurst, magnification in product(hursts, magnifications):
+        spectrum = model_spectrum({"hurst": float(hurst), "magnification": float(magnification)})
+        variants = theories(spectrum, params.variants, params.gamma)
+        parts += [evaluate_sweep(theory, sweep, ranges) for theory in variants.values()]
+    axes = {"hurst": hursts, "magnification": magnifications, "variant": list(variants)}
     dataset = stack(parts, axes).sortby(list(axes)).transpose("variant", ...)
-    dataset, models = annotate(dataset), read_models(laws)
+    dataset = annotate(dataset)
+    models = read_models(laws)
     for name in QUADRATURE:
         value = dataset[name].assign_coords(pressure=dataset.pressure)
         dataset = with_budget(dataset, name, **theory_parts(models, name, value))
     title = "Persson's theory on continuous self-affine spectra"
     parameters = {**sweep, "variants": params.variants, "gamma": params.gamma}
     datasets.write(dataset, output, title=title, parameters=parameters)
-    write_a_v(output, a_v, params.windows, laws)
 
 
 def stack(parts, axes):
-    """Datasets in the order of the product of all axes as one; far sooner than by xarray."""
-    shape = tuple(map(len, axes.values()))
+    """Join datasets that are in the order of the product of all axes; far faster than by xarray."""
+    shape = [len(points) for points in axes.values()]
     data = {}
     for name, first in parts[0].data_vars.items():
         values = np.array([part[name].values for part in parts])
@@ -53,7 +56,7 @@ def stack(parts, axes):
 
 
 def evaluate_sweep(theory, sweep, ranges):
-    """Everything at the sweep's loads, which are pressures or mean gaps."""
+    """Evaluate theory at the loads of a sweep, which are pressures or mean gaps."""
     if "pressure" in sweep:
         pressures = np.array(sweep["pressure"], dtype=float)
     else:

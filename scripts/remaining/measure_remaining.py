@@ -30,11 +30,12 @@ OTHERS = {
     "fft_pairs": "convolutions",
     "residual": "largest residual of a state of the path",
 }
-COARSE, HALF = "the grid does not resolve the cohesive zone", "half grid too coarse"
+COARSE = "the grid does not resolve the cohesive zone"
+HALF = "half grid too coarse"
 GRID_ERRORS = {
     f"{n}_grid_error": f"error by half the grid and the steps: {QUOTED[n]}" for n in QUOTED
 }
-VARIABLES = {
+REMAINING_VARIABLES = {
     **{name: ("1", text, COARSE) for name, text in (QUOTED | OTHERS).items()},
     **{name: ("1", text, HALF) for name, text in GRID_ERRORS.items()},
     **{n: ("1", OTHERS[n], f"never attracted, or {COARSE}") for n in OTHERS if "zero_load" in n},
@@ -51,25 +52,31 @@ FEWEST_PIXELS = 1.0  # below, points of the grid snap one by one, and the path i
 
 
 def main(job):
-    made, seed = job.params.surface, int(job.wildcards.seed)
-    length = cell_size(made)
-    heights = make_heights(made, made["points"], seed)
+    setting = job.params.surface
+    seed = int(job.wildcards.seed)
+    length = cell_size(setting)
+    heights = make_heights(setting, setting["points"], seed)
     spectrum = surface.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
-    along, values = "zone", made.get("zones")
+    # Ranges of attraction are given over h_rms, or by the width of the cohesive zone.
+    along = "zone"
+    values = setting.get("zones")
     if values is None:
-        along, values = "range_over_h_rms", made["ranges"]
-    squeezes = made.get("squeezes", [job.params.squeeze])
-    axes = {"energy": made["energies"], along: values, "squeeze": squeezes}
+        along = "range_over_h_rms"
+        values = setting["ranges"]
+    squeezes = setting.get("squeezes", [job.params.squeeze])
+    axes = {"energy": setting["energies"], along: values, "squeeze": squeezes}
     rows = []
     for ratio, value, squeeze in product(*axes.values()):
-        began, adhesion_length = time.process_time(), ratio * energy
+        began = time.process_time()
+        adhesion_length = ratio * energy
         range_ = np.sqrt(value * adhesion_length) if along == "zone" else value
         law = LAWS[job.params.law](adhesion_length, range_)
         row = measure(heights, length, law, squeeze)
         rows.append(row | {"seconds": time.process_time() - began})
         logging.info("w/U %g, %s %g, squeeze %g: %s", ratio, along, value, squeeze, rows[-1])
-    dims, shape = tuple(axes), [len(axis) for axis in axes.values()]
+    dims = tuple(axes)
+    shape = [len(axis) for axis in axes.values()]
     dataset = xr.Dataset(
         {
             **{key: (dims, np.reshape([row[key] for row in rows], shape)) for key in rows[0]},
@@ -82,13 +89,13 @@ def main(job):
         coords=axes,
     )
     title = "adhesion that remains on one rough surface"
-    parameters = {**made, "seed": seed, "law": job.params.law}
-    dataset = annotate(dataset, **VARIABLES)
+    parameters = {**setting, "seed": seed, "law": job.params.law}
+    dataset = annotate(dataset, **REMAINING_VARIABLES)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def measure(heights, length, law, squeeze):
-    """Quantities of one law, with the change from half the grid; NaN if the grid is too coarse."""
+    """Measure one law, with the change from half the grid; NaN if the grid is too coarse."""
     pixels = law.range**2 / law.adhesion_length / (length / heights.shape[0])
     row = dict.fromkeys((*QUOTED, *OTHERS, *GRID_ERRORS), np.nan)
     row |= {"pixels_in_zone": pixels, "range": law.range, "adhesion_length": law.adhesion_length}
@@ -98,11 +105,11 @@ def measure(heights, length, law, squeeze):
         # What a coarse grid does to the result is in the limits.
         warnings.simplefilter("ignore", PlausibilityWarning)
         half_grid = pixels >= 2 * measurement.RESOLVED
-        found = measurement.measure(heights, length, law, squeeze, half_grid=half_grid)
-    row["residual"] = max(point.state.residual for point in found.points)
-    row |= {key: getattr(found, key) for key in (*QUOTED, *OTHERS) if key != "residual"}
+        measured = measurement.measure(heights, length, law, squeeze, half_grid=half_grid)
+    row["residual"] = max(point.state.residual for point in measured.points)
+    row |= {key: getattr(measured, key) for key in (*QUOTED, *OTHERS) if key != "residual"}
     for key in QUOTED:
-        low, high = getattr(found, f"{key}_limits")
+        low, high = getattr(measured, f"{key}_limits")
         row[f"{key}_grid_error"] = (high - low) / 2
     return row
 

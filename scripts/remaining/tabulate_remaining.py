@@ -14,9 +14,6 @@ SIMULATED = (
     *(*QUOTED, "area_at_zero_load", "gap_at_zero_load", "jumps", "pixels_in_zone"),
     *(f"{name}_grid_error" for name in QUOTED),
 )
-MADE = ("hurst", "magnification", "window", "points", "seed")
-BINS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # of w/U_full, of the table of means
-SUMMARISED = ("approach", "separation", "bound", "predicted", "full_contact")
 COMMENT = """\
 # Adhesion that remains, simulated (target remaining_measured), with predictions beside it. To
 # take a new measurement over, copy it here. approach, separation and bound are over the work of
@@ -40,19 +37,22 @@ def main(job):
 def list_rows(path):
     """Rows of one file: its points, in h_rms and q0, with the prediction."""
     data = datasets.read(path, SIMULATED)
-    made = datasets.parameters(data)
+    setting = datasets.parameters(data)
     energy = float(data.full_contact_energy)
     slope = float(data.rms_slope)
-    rough = Roughness(1.0, made.get("rolloff", 1.0), energy, rms_slope=slope)
+    rough = Roughness(1.0, setting.get("rolloff", 1.0), energy, rms_slope=slope)
     along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
     points = data.stack(point=("energy", along, "squeeze")).dropna("point", subset=["bound"])
+    identity = ("hurst", "magnification", "window", "points", "seed")
     for index in range(points.sizes["point"]):  # where the grid was fine enough
         point = points.isel(point=index)
-        ratio, length, range_ = (float(point[n]) for n in ("energy", "adhesion_length", "range"))
-        low, share, high = (float(rough.share(length, range_, sign)) for sign in (-1, 0, 1))
+        ratio = float(point.energy)
+        length = float(point.adhesion_length)
+        range_ = float(point["range"])
+        low, share, high = [float(rough.share(length, range_, sign)) for sign in (-1, 0, 1)]
         yield {
             "set": Path(path).parent.name,
-            **{name: made[name] for name in MADE},
+            **{name: setting[name] for name in identity},
             "full_contact_energy": energy,
             "rms_slope": slope,
             "energy_ratio": ratio,
@@ -72,11 +72,13 @@ def list_rows(path):
 def summarise(frame):
     """Means of simulation and theories by w/U_full, as a table in Markdown."""
     tough = frame[(frame.zone < 0.11) & (frame.window > 1)]
+    bins = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # of w/U_full, of the table of means
+    summarised = ("approach", "separation", "bound", "predicted", "full_contact")
     rows = [
-        (number(g.energy_ratio.mean(), 2), len(g), *(f"{g[n].mean():.3f}" for n in SUMMARISED))
-        for _, g in tough.groupby(pd.cut(tough.energy_ratio, BINS), observed=True)
+        (number(g.energy_ratio.mean(), 2), len(g), *(f"{g[n].mean():.3f}" for n in summarised))
+        for _, g in tough.groupby(pd.cut(tough.energy_ratio, bins), observed=True)
     ]
-    return table(("w/U_full", "points", *(n.replace("_", " ") for n in SUMMARISED)), rows)
+    return table(("w/U_full", "points", *(n.replace("_", " ") for n in summarised)), rows)
 
 
 if __name__ == "__main__":

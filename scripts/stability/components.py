@@ -35,6 +35,8 @@ COMPONENTS = {}
 
 
 def component(name, **values):
+    """Decorator that registers a probe by the name of its component."""
+
     def register(probe):
         COMPONENTS[name] = probe, values
         return probe
@@ -48,6 +50,7 @@ def check(name, error, tolerance):
 
 
 def require(name, met):
+    """Check that a condition is met."""
     return check(name, float(not met), 0.5)
 
 
@@ -114,9 +117,12 @@ def layer_response(k, poisson, backing):
     if k > THICK:
         return 1.0
     with localcontext(prec=150):
-        x, nu = Decimal(k), Decimal(poisson)
-        up, down = (2 * x).exp(), (-2 * x).exp()
-        sinh, cosh = (up - down) / 2, (up + down) / 2
+        x = Decimal(k)
+        nu = Decimal(poisson)
+        up = (2 * x).exp()
+        down = (-2 * x).exp()
+        sinh = (up - down) / 2
+        cosh = (up + down) / 2
         if backing == "slip":
             return float((cosh - 1) / (sinh + 2 * x))
         kappa = 3 - 4 * nu
@@ -134,6 +140,7 @@ def filter_waves(field, factor):
 
 
 def model(hurst, magnification):
+    """Self-affine spectrum of unit rms height."""
     return SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
 
 
@@ -147,7 +154,8 @@ def make_heights(magnification, grid):
 def probe_surface(magnification, grid):
     """Moments of the spectrum, and its heights on two grids."""
     s = model(0.8, magnification)
-    variance, energy = (integrate_band(0.8, magnification, power) for power in (0, 1))
+    variance = integrate_band(0.8, magnification, power=0)
+    energy = integrate_band(0.8, magnification, power=1)
     for name, value, power in (("slope", s.rms_slope, 2), ("curvature", s.rms_curvature, 4)):
         expected = np.sqrt(integrate_band(0.8, magnification, power) / variance)
         yield compare(f"rms {name}", value, expected)
@@ -209,7 +217,8 @@ def check_equilibrium(state, heights):
 )
 def probe_adhesion(range_over_h_rms, adhesion_length_over_range, variant):
     """At a load, and at a mean gap of zero, where contact is full if there is a wall."""
-    heights, pressure = make_heights(8, 16), 0.03
+    heights = make_heights(8, 16)
+    pressure = 0.03
     law = LAWS[variant](adhesion_length_over_range * range_over_h_rms, range_over_h_rms)
     state = adhesive.solve(heights, SIDE, law, pressure=pressure, tol=TOLERANCE)
     yield from check_equilibrium(state, heights)
@@ -246,7 +255,8 @@ def probe_path(pressure, adhesion_length_over_range, variant):
     )  # fmt: skip
     for point in points[:: max(len(points) // 8, 1)]:
         yield from check_equilibrium(point.state, heights)
-    first, last = points[0].state, points[-1]
+    first = points[0].state
+    last = points[-1]
     energies = [point.state.energy - first.energy for point in points]
     scale = max(np.max(np.abs(energies)), 1e-3 * law.adhesion_length)
     lost = np.cumsum([p.dissipated for p in points if np.isfinite(p.dissipated)])
@@ -263,6 +273,7 @@ def probe_path(pressure, adhesion_length_over_range, variant):
 
 @lru_cache(maxsize=2)
 def make_theory(variant, magnification):
+    """Persson's theory of a model spectrum."""
     return Persson(model(0.8, magnification), variant=variant)
 
 
@@ -274,8 +285,10 @@ def make_theory(variant, magnification):
 )
 def probe_theory(magnification, pressure, variant):
     t = make_theory(variant, magnification)
-    area, gap = float(t.area_fraction(pressure)), float(t.mean_gap(pressure))
-    below, everything = (float(t.gap_cumulative(x, pressure)) for x in (0.3, np.inf))
+    area = float(t.area_fraction(pressure))
+    gap = float(t.mean_gap(pressure))
+    below = float(t.gap_cumulative(0.3, pressure))
+    everything = float(t.gap_cumulative(np.inf, pressure))
     yield check("area + gaps = 1", abs(area + everything - 1), 1e-8)
     yield require("sign", min(area, gap, below, float(t.gap_density(0.3, pressure))) >= 0)
     yield check("order", max(below - everything, 0.0), 1e-12)
@@ -288,7 +301,8 @@ def probe_theory(magnification, pressure, variant):
 @component("PSD", hurst=(0.05, 0.2, 0.5, 0.8, 1.0), grid=(2, 3, 4, 16, 31, 64, 97, 128))
 def probe_psd(hurst, grid):
     """Parseval, and the power law that was put in."""
-    s, step = model(hurst, max(0.45 * grid, 1.01)), SIDE / grid
+    s = model(hurst, max(0.45 * grid, 1.01))
+    step = SIDE / grid
     heights = surface.synthesise(s, n=grid, length=SIDE, seed=3)
     plane = psd.power_spectrum(heights, step)
     yield compare("Parseval", plane.total(), np.var(heights))
@@ -303,7 +317,9 @@ def probe_psd(hurst, grid):
 )
 def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     """Formulas of the criteria, and what remains of adhesion: its order, bounds and energy."""
-    s, a_v, eps = model(0.8, 64), 3.0, range_over_h_rms
+    s = model(0.8, 64)
+    a_v = 3.0
+    eps = range_over_h_rms
     la = adhesion_length_over_range * eps
     limit = criteria.h_rms_limit(1.0, la, eps, a_v)
     yield compare("threshold", criteria.violano(limit, 1.0, la, eps, a_v).margin, 1)
@@ -325,15 +341,17 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     yield check("below Hertz' limit", sphere.effect / weak - 1, 1e-9)
     if sphere.strength * np.sqrt(1 + t) < 1e-6:
         yield compare("Hertz' limit", sphere.effect, weak, 1e-4)
-    found, stronger = (remaining.predict(s, factor * la, eps) for factor in (1, 1.1))
-    yield compare("energy ratio", found.energy_ratio, la / energy)
+    predicted = remaining.predict(s, la, eps)
+    stronger = remaining.predict(s, 1.1 * la, eps)
+    yield compare("energy ratio", predicted.energy_ratio, la / energy)
     for name in ("approach", "separation", "pull_off"):
-        value, (low, high) = getattr(found, name), getattr(found, f"{name}_limits")
+        value = getattr(predicted, name)
+        low, high = getattr(predicted, f"{name}_limits")
         yield require(f"{name} within its limits", 0 <= low <= value <= high)
         yield require(f"{name} at most all", name == "pull_off" or high <= 1)
-    left = 1 - 1 / found.energy_ratio
-    yield check("less than full contact leaves", left - found.separation, 1e-12)
-    yield check("order", found.separation - stronger.separation, 1e-9)
+    left = 1 - 1 / predicted.energy_ratio
+    yield check("less than full contact leaves", left - predicted.separation, 1e-12)
+    yield check("order", predicted.separation - stronger.separation, 1e-9)
 
 
 @component(

@@ -12,15 +12,16 @@ from common.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 from stickiness import datasets
 
 COLOURS = (BLUE, YELLOW, ORANGE, BLACK)  # of the outcomes, in order
-COLUMNS, HEIGHT = 3, 2.1  # panels beside each other, inches of a row
 
 
 def main(job):
     every = {Path(path).stem: datasets.read(path, ["outcome"]) for path in job.input.components}
-    names = [*every, *["."] * (-len(every) % COLUMNS)]
-    rows = [names[k : k + COLUMNS] for k in range(0, len(names), COLUMNS)]
+    columns_of_panels = 3  # panels beside each other
+    names = [*every, *["."] * (-len(every) % columns_of_panels)]
+    rows = [names[k : k + columns_of_panels] for k in range(0, len(names), columns_of_panels)]
     counts = sum(np.bincount(data.outcome.values.flat, minlength=4) for data in every.values())
-    with open_figure(job.output, rows, HEIGHT * len(rows)) as panels:
+    height = 2.1  # inches of a row
+    with open_figure(job.output, rows, height * len(rows)) as panels:
         for name, data in every.items():
             draw_map(panels[name], data.outcome)
             panels[name].set_title(name, loc="left", fontweight="bold")
@@ -35,10 +36,12 @@ def main(job):
 
 def draw_map(ax, outcome):
     """Colour every point by its worst outcome over the variants."""
-    down, across = (outcome[name] for name in outcome.dims[:2])
+    down = outcome[outcome.dims[0]]
+    across = outcome[outcome.dims[1]]
     worst = outcome.max(outcome.dims[2:])
     ax.imshow(worst, cmap=ListedColormap(COLOURS), vmin=0, vmax=3, origin="lower", aspect="auto")
-    columns, rows = ([number(value, 6) for value in axis.values] for axis in (across, down))
+    columns = [number(value, 6) for value in across.values]
+    rows = [number(value, 6) for value in down.values]
     ax.set_xticks(range(across.size), columns, rotation=90, fontsize=6)
     ax.set_yticks(range(down.size), rows, fontsize=6)
     ax.tick_params(which="both", length=0)

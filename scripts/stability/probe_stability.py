@@ -21,23 +21,12 @@ from stickiness.repulsive.solver import ConvergenceError
 OUTCOMES = ("right", "refused", "not converged", "failed")
 RIGHT, REFUSED, UNCONVERGED, FAILED = range(4)
 TIME_LIMIT = 30  # seconds of computing for a point; most take less than 0.1
-LONGEST = 160  # characters of a message that are kept
-LABELS = {
-    "magnification": "magnification q1/q0",
-    "hurst": "Hurst exponent",
-    "pressure": "mean pressure over E* q0 h_rms",
-    "range_over_h_rms": "range over h_rms",
-    "adhesion_length_over_range": "adhesion length over range",
-    "thickness": "thickness of a layer times q0",
-    "poisson": "Poisson's ratio of a layer",
-    "grid": "grid points a side",
-    "variant": "kind of theory, law or layer",
-}
 
 
 def main(job):
     name = job.wildcards.component
-    dataset = map_validity(*COMPONENTS[name])
+    probe, values = COMPONENTS[name]
+    dataset = map_validity(probe, values)
     counts = Counter(OUTCOMES[k] for k in dataset.outcome.values.flat)
     logging.info("%s: %d points, %s", name, dataset.outcome.size, dict(counts))
     title = f"validity of {name} over its parameters"
@@ -48,17 +37,31 @@ def main(job):
 def map_validity(probe, values):
     """Probe every combination of the values of the parameters."""
     results = []
-    for point in (dict(zip(values, each, strict=True)) for each in product(*values.values())):
-        results.append(probe_point(probe, **point))
-        if results[-1][0] != RIGHT:
-            logging.info("%s: %s: %s", point, OUTCOMES[results[-1][0]], results[-1][2])
+    for combination in product(*values.values()):
+        point = dict(zip(values, combination, strict=True))
+        outcome, excess, text = probe_point(probe, **point)
+        results.append((outcome, excess, text))
+        if outcome != RIGHT:
+            logging.info("%s: %s: %s", point, OUTCOMES[outcome], text)
     shape = [len(each) for each in values.values()]
     columns = (np.reshape(column, shape) for column in zip(*results, strict=True))
     data = {name: ([*values], column) for name, column in zip(RESULTS, columns, strict=True)}
     dataset = xr.Dataset(data, coords={name: list(each) for name, each in values.items()})
     dataset["outcome"] = dataset.outcome.astype("i1")
-    dataset["text"] = dataset.text.str.replace(r"\s+", " ").str.slice(0, LONGEST)
-    labels = {name: ("1", LABELS[name]) for name in values}
+    longest = 160  # characters of a message that are kept
+    dataset["text"] = dataset.text.str.replace(r"\s+", " ").str.slice(0, longest)
+    labels_of_parameters = {
+        "magnification": "magnification q1/q0",
+        "hurst": "Hurst exponent",
+        "pressure": "mean pressure over E* q0 h_rms",
+        "range_over_h_rms": "range over h_rms",
+        "adhesion_length_over_range": "adhesion length over range",
+        "thickness": "thickness of a layer times q0",
+        "poisson": "Poisson's ratio of a layer",
+        "grid": "grid points a side",
+        "variant": "kind of theory, law or layer",
+    }
+    labels = {name: ("1", labels_of_parameters[name]) for name in values}
     dataset = datasets.annotate(dataset, **RESULTS, **labels)
     dataset.outcome.attrs |= datasets.flags(OUTCOMES)
     return dataset
@@ -72,6 +75,7 @@ RESULTS = {
 
 
 def expire(*_):
+    """Stop a point that takes too long."""
     raise TimeoutError(f"took more than {TIME_LIMIT:g} s")
 
 

@@ -11,10 +11,7 @@ from common.model_surfaces import cell_size, grid_points, make_heights, model_sp
 from stickiness import datasets
 from stickiness import surface as synthesis
 
-SOURCES = ["continuum", "lattice", "heights"]
-MOMENTS = ("h_rms", "rms_slope", "rms_curvature", "nayak")
-SPLIT = ("m40", "m22", "m04")
-VARIABLES = {
+SURFACE_VARIABLES = {
     "x": "position times q0",
     "y": "position times q0",
     "height": "height over h_rms",
@@ -32,16 +29,23 @@ VARIABLES = {
 
 
 def main(job):
-    surface, seeds, pixels = job.params.surface, job.params.seeds, job.params.pixels_per_wavelength
-    spectrum, length, n = model_spectrum(surface), cell_size(surface), grid_points(surface, pixels)
+    surface = job.params.surface
+    seeds = job.params.seeds
+    pixels = job.params.pixels_per_wavelength
+    spectrum = model_spectrum(surface)
+    length = cell_size(surface)
+    n = grid_points(surface, pixels)
     lattice = synthesis.lattice_spectrum(spectrum, length)
     logging.info("n = %d, %d shells", n, len(lattice.q))
     heights = np.array([make_heights(surface, n, seed) for seed in seeds])
     realised = [variance_on_shells(h, length, lattice) for h in heights]
     measured = [synthesis.moments(h, length) for h in heights]
-    sources = [(spectrum, lattice, one) for one in measured]
-    moments = {name: [[getattr(s, name) for s in row] for row in sources] for name in MOMENTS}
+    sources = [(spectrum, lattice, moments_of_seed) for moments_of_seed in measured]
+    moment_names = ("h_rms", "rms_slope", "rms_curvature", "nayak")
+    moments = {name: [[getattr(s, name) for s in row] for row in sources] for name in moment_names}
     x = np.arange(n) * (length / n)
+    derivatives = ("m40", "m22", "m04")
+    source_names = ["continuum", "lattice", "heights"]
     dataset = xr.Dataset(
         {
             "height": (("seed", "x", "y"), heights),
@@ -49,9 +53,12 @@ def main(job):
             "lattice_variance": ("wave_number", lattice.variance),
             "realised_variance": (("seed", "wave_number"), realised),
             **{name: (("seed", "source"), values) for name, values in moments.items()},
-            **{name: ("seed", [getattr(one, name) for one in measured]) for name in SPLIT},
+            **{
+                name: ("seed", [getattr(moments_of_seed, name) for moments_of_seed in measured])
+                for name in derivatives
+            },
         },
-        {"seed": list(seeds), "x": x, "y": x, "wave_number": lattice.q, "source": SOURCES},
+        {"seed": list(seeds), "x": x, "y": x, "wave_number": lattice.q, "source": source_names},
     )
     title = "random surfaces on a periodic window"
     parameters = {
@@ -61,15 +68,16 @@ def main(job):
         "grid_points": n,
         "prescribed": spectrum.prescribed,
     }
-    dataset = annotate(dataset, **VARIABLES)
+    dataset = annotate(dataset, **SURFACE_VARIABLES)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 def variance_on_shells(heights, length, lattice):
-    """Height variance on the shells of a lattice, zero where a surface holds nothing."""
-    found, variance = synthesis.realised_spectrum(heights, length), np.zeros(len(lattice.q))
-    index = np.searchsorted(lattice.q * (1 - 1e-9), found.q) - 1
-    np.add.at(variance, index, found.variance)
+    """Height variance of a surface on the shells of a lattice, zero on shells without waves."""
+    spectrum = synthesis.realised_spectrum(heights, length)
+    variance = np.zeros(len(lattice.q))
+    index = np.searchsorted(lattice.q * (1 - 1e-9), spectrum.q) - 1
+    np.add.at(variance, index, spectrum.variance)
     return variance
 
 

@@ -7,9 +7,9 @@ import numpy as np
 
 from common.contact_curves import SOLVED_FROM
 from common.conventions import FIT_MEASURED, GAPS_MEASURED
+from common.derived_quantities import derive, quote
 from common.model_surfaces import cell_size, model_spectrum
-from common.quantities import derive, quote
-from common.theory import contact_of
+from common.theory_variants import contact_of
 from stickiness import datasets
 from stickiness.accuracy import multilevel
 from stickiness.accuracy.error_models import COARSE, FULL, Settings
@@ -20,7 +20,6 @@ from stickiness.repulsive import richardson
 from stickiness.surface import lattice_spectrum
 from tradeoff.measuring import SETTINGS, split_loads, time_task
 
-MEANS = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
 DESCRIBED_SEEDS = 2048
 REPETITIONS = 60  # of means that are drawn
 
@@ -37,15 +36,25 @@ class SeedPool:
     costs: dict  # of all loads of a seed, by pixels or kind
 
     def __post_init__(self):
-        # The finest grid has few seeds. The best estimate of the mean over all surfaces on it, and
-        # the mean of the fine seeds alone, about which their plain means scatter.
+        # The finest grid has few seeds: the best grid is the finest one with many.
         *_, self.best, self.finest = sorted(self.fine)
-        many, few = self.fine[self.best], self.fine[self.finest]
-        ratio = few.sum(0) / many[: len(few)].sum(0)
-        waves = self.controls, self.elsewhere
-        estimate = multilevel.multilevel_mean(many, self.fine[COARSE], self.coarse, *waves)
-        self.truth, self.truth_error = estimate.mean * ratio, estimate.standard_error * ratio
-        self.fine_mean = many.mean(0) * ratio
+        many = self.fine[self.best]
+        few = self.fine[self.finest]
+        to_finest = few.sum(0) / many[: len(few)].sum(0)
+
+        # The best estimate on the finest grid of the mean over all surfaces, and the mean of the
+        # fine seeds alone, about which their plain means scatter.
+        estimate = multilevel.multilevel_mean(
+            fine=many,
+            coarse=self.fine[COARSE],
+            many=self.coarse,
+            controls=self.controls,
+            elsewhere=self.elsewhere,
+        )
+        self.truth = estimate.mean * to_finest
+        self.truth_error = estimate.standard_error * to_finest
+        self.fine_mean = many.mean(0) * to_finest
+
         # With replacement: means of few seeds then scatter about the mean of all as they would
         # about the mean of the whole ensemble. More seeds include those of fewer, as in a case.
         rng = np.random.default_rng(1)
@@ -53,7 +62,10 @@ class SeedPool:
         self.many = rng.integers(len(self.coarse), size=(REPETITIONS, COARSE_SEEDS[-1]))
         self.others = rng.integers(len(self.elsewhere), size=(REPETITIONS, DESCRIBED_SEEDS))
         self.average_coarse = cache(self._average_coarse)
-        self.loads, self.places = len({load for _, load in self.entries}), {}
+
+        # Places of the entries of each quantity at each load.
+        self.loads = len({load for _, load in self.entries})
+        self.places = {}
         for place, key in enumerate(self.entries):
             self.places.setdefault(key, []).append(place)
 
@@ -76,69 +88,87 @@ class SeedPool:
     def draw(self, settings):
         """Relative errors of the means of every repetition, by quantity and load."""
         chosen = self.chosen[: settings.seeds]
-        fine, truth = self.fine[settings.pixels_per_wavelength][chosen], self.fine_mean
+        fine = self.fine[settings.pixels_per_wavelength][chosen]
+        truth = self.fine_mean
         mean = fine.mean(0)
         if settings.coarse_seeds:
-            level, twin = self.average_coarse(settings.coarse_seeds), self.fine[COARSE][chosen]
-            mean, truth = multilevel.corrected_mean(fine, twin, level).mean, self.truth
+            level = self.average_coarse(settings.coarse_seeds)
+            twin = self.fine[COARSE][chosen]
+            mean = multilevel.corrected_mean(fine, twin, level).mean
+            truth = self.truth
         return self.by_quantity(mean / truth - 1)
 
     def _average_coarse(self, count):
+        """Means of `count` coarse seeds, one for every repetition."""
         means = []
         for many, others in zip(self.many[:, :count], self.others, strict=True):
-            solved = self.coarse[many], self.controls[many], self.elsewhere[others]
-            means.append(multilevel.controlled_mean(*solved).mean)
+            estimate = multilevel.controlled_mean(
+                self.coarse[many], self.controls[many], self.elsewhere[others]
+            )
+            means.append(estimate.mean)
         return multilevel.Estimate(np.array(means), np.zeros(1), np.empty(0))
 
 
 def make_pool(measured):
     """Make the pool of a file of `measure_contact`."""
-    usual, unit = datasets.parameters(measured)["tolerance"], float(measured.pair_time)
-    is_fine = measured.seed < SOLVED_FROM
-    fine_ones, coarse_ones = (measured.isel(solution=k.values) for k in (is_fine, ~is_fine))
-    solved = {p: select(fine_ones, p, usual) for p in np.unique(measured.pixels).tolist()}
-    more = select(coarse_ones, COARSE, usual)
-    fine = {p: flatten(extrapolate(solved, p))[0] for p in solved}
-    coarse, entries = flatten(more)
-    costs = {p: float(one.seconds.mean()) / unit for p, one in (*solved.items(), ("coarse", more))}
+    usual = datasets.parameters(measured)["tolerance"]
+    unit = float(measured.pair_time)
+
+    # Fine seeds on every grid, and further seeds on the coarsest alone.
+    is_fine = (measured.seed < SOLVED_FROM).values
+    fine_seeds = measured.isel(solution=is_fine)
+    solved = {p: select(fine_seeds, p, usual) for p in np.unique(measured.pixels).tolist()}
+    more = select(measured.isel(solution=~is_fine), COARSE, usual)
+
+    costs = {pixels: float(solutions.seconds.mean()) / unit for pixels, solutions in solved.items()}
+    costs["coarse"] = float(more.seconds.mean()) / unit
     costs["described"] = float(measured.describing_seconds) / unit
-    waves = measured.long_waves.values, measured.other_long_waves.values
-    return SeedPool(fine, coarse, *waves, entries, costs)
+    coarse, entries = flatten(more)
+    return SeedPool(
+        fine={pixels: flatten(extrapolate(solved, pixels))[0] for pixels in solved},
+        coarse=coarse,
+        controls=measured.long_waves.values,
+        elsewhere=measured.other_long_waves.values,
+        entries=entries,
+        costs=costs,
+    )
 
 
 def select(measured, pixels, tolerance):
     """Solutions with one grid and tolerance, along the seed."""
     chosen = (measured.pixels == pixels) & (measured.tolerance == tolerance)
-    found = measured.isel(solution=chosen.values).swap_dims(solution="seed")
-    return found.drop_vars(SETTINGS[:2])
+    solutions = measured.isel(solution=chosen.values).swap_dims(solution="seed")
+    return solutions.drop_vars(SETTINGS[:2])
 
 
 def extrapolate(solved, pixels):
     """Solutions on one grid, attractive areas in the limit of fine grids, as in ensembles."""
-    one = solved[pixels]
+    fine = solved[pixels]
     if pixels == COARSE:
-        return one
-    edge_gap, half = one.edge_gap.mean("seed"), solved[pixels // 2].sel(seed=one.seed)
+        return fine
+    edge_gap = fine.edge_gap.mean("seed")
+    half = solved[pixels // 2].sel(seed=fine.seed)
     limit = richardson.estimate(
         "attractive_area",
-        [half.attractive_area, one.attractive_area],
-        one.attractive_area - one.pixel_attractive_area,
-        one.edges,
-        (one["range"] / edge_gap).where(edge_gap > 0, np.inf),
+        [half.attractive_area, fine.attractive_area],
+        fine.attractive_area - fine.pixel_attractive_area,
+        fine.edges,
+        (fine["range"] / edge_gap).where(edge_gap > 0, np.inf),
     )
-    return one.assign(attractive_area=limit.value)
+    return fine.assign(attractive_area=limit.value)
 
 
 def derive_columns(solved):
-    """Columns of all quantities with error models; P(u) at all gaps that its error covers."""
+    """Derive the columns of all quantities with error models, and P(u) at all gaps measured."""
     contact = derive(solved, FIT_MEASURED)
-    found = {name: quote(name, contact) for name in columns_of(MODELLED)}
-    return found | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
+    columns = {name: quote(name, contact) for name in columns_of(MODELLED)}
+    return columns | {"gap_distribution": contact.gap_density.sel(gap=slice(*GAPS_MEASURED))}
 
 
 def flatten(solved):
-    """All columns at all loads as `(seed, entry)`; quantity and load of each entry."""
-    values, entries = [], []
+    """Join all columns at all loads as `(seed, entry)`; list quantity and load of each entry."""
+    values = []
+    entries = []
     for name, column in derive_columns(solved).items():
         column = column.transpose("seed", "pressure", ...)
         values.append(column.values.reshape(column.sizes["seed"], -1))
@@ -158,8 +188,11 @@ def tabulate_contact(measured, records):
 
 def tabulate_grids(pool, records):
     """Errors of single surfaces against the finest grid, errors of means, and costs."""
-    fine, costs, loads = pool.fine, pool.costs, pool.loads
-    exact, grids = fine[pool.finest], [pixels for pixels in fine if pixels < pool.finest]
+    fine = pool.fine
+    costs = pool.costs
+    loads = pool.loads
+    exact = fine[pool.finest]
+    grids = [pixels for pixels in fine if pixels < pool.finest]
     for pixels in grids:
         errors = pool.by_quantity(fine[pixels][: len(exact)] / exact - 1)
         # Areas are extrapolated from two grids.
@@ -188,13 +221,15 @@ def compare_means(coarse, exact):
 
 def tabulate_tolerances(measured, records):
     """Errors by the solver's tolerance, and the share of the cost that a larger one leaves."""
-    made, unit = datasets.parameters(measured), float(measured.pair_time)
-    at_pixels = made["at_pixels"]
+    parameters = datasets.parameters(measured)
+    unit = float(measured.pair_time)
+    at_pixels = parameters["at_pixels"]
     tolerances = np.unique(measured.tolerance.sel(solution=measured.pixels == at_pixels))
     best = select(measured, at_pixels, tolerances[0])
-    exact, loads = derive_columns(best), best.sizes["pressure"]
+    exact = derive_columns(best)
+    loads = best.sizes["pressure"]
     solved = {t: select(measured, at_pixels, t).sel(seed=best.seed) for t in tolerances[1:]}
-    full = float(solved[made["tolerance"]].seconds.mean())
+    full = float(solved[parameters["tolerance"]].seconds.mean())
     for tolerance, solutions in solved.items():
         seconds = float(solutions.seconds.mean())
         records.add_point("tolerance_cost", "", seconds / full, tolerance=tolerance / FULL)
@@ -203,7 +238,7 @@ def tabulate_tolerances(measured, records):
             square = (values / exact[quantity] - 1) ** 2
             error = np.sqrt(square.mean([d for d in square.dims if d not in ("seed", "pressure")]))
             single |= split_loads(quantity, error)
-        together = {key: np.sqrt((one**2).mean()) for key, one in single.items()}
+        together = {key: np.sqrt((errors**2).mean()) for key, errors in single.items()}
         records.add_points("solver", together, tolerance=tolerance)
         records.add("tolerance", f"{tolerance:g}", single, seconds / loads / unit)
 
@@ -222,7 +257,8 @@ def tabulate_seeds(pool, records):
     explained = np.minimum(slopes / pool.coarse.std(0, ddof=1), 1)
     records.add_points("coarse_share", pool.by_quantity(np.sqrt(1 - explained**2)))
 
-    for seeds, more in MEANS:
+    means = ((4, 0), (8, 0), (16, 0), (32, 0), (2, 64), (4, 64), (8, 64), (4, 256), (8, 256))
+    for seeds, more in means:
         settings = Settings(pool.best, FULL, seeds, more)
         text = f"{seeds} + {more}" if more else f"{seeds} plain"
         records.add("seeds", text, pool.draw(settings), pool.cost(settings) / pool.loads)
@@ -230,7 +266,8 @@ def tabulate_seeds(pool, records):
 
 def tabulate_theory(measured, pool, records):
     """Errors of Persson's theory on the lattice spectrum, relative to the simulation."""
-    parameters, loads = datasets.parameters(measured), measured.pressure.values
+    parameters = datasets.parameters(measured)
+    loads = measured.pressure.values
     lattice = lattice_spectrum(model_spectrum(parameters), cell_size(parameters))
     state, seconds = time_task(
         lambda: contact_of(Persson(lattice), loads, measured["range"].values)

@@ -16,11 +16,14 @@ class Records:
     """Rows of the table, and the points that error models are fitted to."""
 
     def __init__(self):
-        self.rows, self.points = [], []
+        self.rows = []
+        self.points = []
 
     def start(self, problem, name, surface):
         """Name the problem and the surface of what is added from now on."""
-        self.problem, self.name, self.surface = problem, name, vars(surface)
+        self.problem = problem
+        self.name = name
+        self.surface = vars(surface)
 
     def add(self, setting, value, errors, cost):
         """Add a row for every quantity and load, with what covers 90 % of its errors."""
@@ -48,7 +51,8 @@ def fit_models(points):
     models = {}
     for key, group in pd.DataFrame(points).groupby(["part", "quantity"], sort=False):
         features = np.column_stack([np.ones(len(group)), group.hurst, np.log(group[SIZES])])
-        values, noise = group.value.to_numpy(), group.noise.to_numpy()
+        values = group.value.to_numpy()
+        noise = group.noise.to_numpy()
         if noise.any():
             coefficients, ratio = fit_noisy(features, values, noise)
         else:
@@ -63,7 +67,8 @@ def fit_least_squares(features, values):
     kept = values > FLOOR
     if not kept.any():
         kept[-1] = True
-    features, values = features[kept], np.maximum(values[kept], FLOOR)
+    features = features[kept]
+    values = np.maximum(values[kept], FLOOR)
     varied = find_varied(features)
     coefficients = np.zeros(features.shape[1])
     coefficients[varied], *_ = np.linalg.lstsq(features[:, varied], np.log(values))
@@ -73,7 +78,8 @@ def fit_least_squares(features, values):
 def fit_noisy(features, values, noise):
     """Fit the standard deviation of values of either sign that are known with some noise."""
     # The spread compares each value with a model fitted without its surface.
-    surfaces, ratio = features[:, 1:4], np.empty(len(values))
+    surfaces = features[:, 1:4]
+    ratio = np.empty(len(values))
     for surface in np.unique(surfaces, axis=0):
         here = (surfaces == surface).all(axis=1)
         others = here if here.all() else ~here
@@ -95,10 +101,10 @@ def maximise_likelihood(features, values, noise):
 
     begin = np.zeros(varied.sum())
     begin[0] = np.log(np.sqrt(np.mean(values**2)))
-    found = optimize.minimize(log_unlikelihood, begin, method="BFGS").x
+    likeliest = optimize.minimize(log_unlikelihood, begin, method="BFGS").x
     coefficients = np.zeros(features.shape[1])
-    coefficients[varied] = found
-    coefficients[0] -= centre @ found
+    coefficients[varied] = likeliest
+    coefficients[0] -= centre @ likeliest
     return coefficients
 
 

@@ -4,6 +4,7 @@ A few realisations are solved with every setting, more on the usual grid and coa
 those tell how the quantities scatter. A press that separates from a load gives the pull-off.
 """
 
+from functools import partial
 from itertools import product
 
 import numpy as np
@@ -17,8 +18,6 @@ from stickiness.repulsive import solver
 from tradeoff import measuring
 
 FINEST_TOLERANCE = 1e-10  # the reference of the other tolerances
-DECADES, PER_DECADE = 4, 10  # of the loads below the largest, for the pull-off by the DMT sum
-POINT = ("range_over_h_rms", "adhesion_length_over_range")
 CLOSED = "a window closes"
 STATES = {
     "pressure": "mean pressure without adhesion at the same mean gap over E* q0 h_rms",
@@ -36,36 +35,63 @@ PULL_OFFS = {
 
 
 def main(job):
-    surface, asked = job.params.case, job.params.adhesion
-    usual = asked["at_pixels"], asked["at_tolerance"]
-    made = {**surface, "q0_h_rms": asked["q0_h_rms"], "at_pixels": usual[0]}
-    grids = [p for p in asked["pixels"] if grid_points(surface, p) <= asked["most_points"]]
-    seeds, more = range(1, asked["seeds"] + 1), range(1, asked["more_seeds"] + 1)
-    wanted = [
-        *product(grids, usual[1:], seeds),
-        *product(usual[:1], [*asked["tolerances"], FINEST_TOLERANCE], seeds),
-        *product([p for p in grids if p <= usual[0]], usual[1:], more),
+    surface = job.params.case
+    measure_states(surface, job.params.adhesion, job.output.states)
+    measure_pull_offs(surface, job.params.adhesion, job.output.pull_off)
+
+
+def measure_states(surface, adhesion, output):
+    """Write the states of all seeds with every grid and tolerance."""
+    usual_pixels = adhesion["at_pixels"]
+    usual_tolerance = adhesion["at_tolerance"]
+    most_points = adhesion["most_points"]
+    grids = [p for p in adhesion["pixels"] if grid_points(surface, p) <= most_points]
+    seeds = range(1, adhesion["seeds"] + 1)
+    more = range(1, adhesion["more_seeds"] + 1)
+    settings = [
+        *product(grids, [usual_tolerance], seeds),
+        *product([usual_pixels], [*adhesion["tolerances"], FINEST_TOLERANCE], seeds),
+        *product([p for p in grids if p <= usual_pixels], [usual_tolerance], more),
     ]
-    states = measuring.record(wanted, lambda *setting: solve_states(surface, asked, *setting))
+    states = measuring.record(settings, partial(solve_states, surface, adhesion))
     title = "full adhesion of the same realisations with various settings"
-    measuring.write(states, job.output.states, title, made | {"tolerance": usual[1]}, **STATES)
+    parameters = {
+        **surface,
+        "q0_h_rms": adhesion["q0_h_rms"],
+        "at_pixels": usual_pixels,
+        "tolerance": usual_tolerance,
+    }
+    measuring.write(states, output, title, parameters, **STATES)
 
-    asked = asked | asked["pull_off"]
-    usual, seeds = (usual[0], asked["at_tolerance"]), range(1, asked["seeds"] + 1)
-    wanted = [
-        *product(asked["pixels"], usual[1:], seeds),
-        *product(usual[:1], asked["tolerances"], seeds),
+
+def measure_pull_offs(surface, adhesion, output):
+    """Write the pull-offs of all seeds with every grid and tolerance."""
+    usual_pixels = adhesion["at_pixels"]
+    adhesion = adhesion | adhesion["pull_off"]
+    usual_tolerance = adhesion["at_tolerance"]
+    seeds = range(1, adhesion["seeds"] + 1)
+    settings = [
+        *product(adhesion["pixels"], [usual_tolerance], seeds),
+        *product([usual_pixels], adhesion["tolerances"], seeds),
     ]
-    found = measuring.record(wanted, lambda *setting: separate(surface, asked, *setting))
-    made |= {"pressure": asked["pressure"], "tolerance": usual[1]}
+    pull_offs = measuring.record(settings, partial(separate, surface, adhesion))
     title = "pull-off of the same realisations with various settings"
-    measuring.write(found, job.output.pull_off, title, made, **PULL_OFFS)
+    parameters = {
+        **surface,
+        "q0_h_rms": adhesion["q0_h_rms"],
+        "at_pixels": usual_pixels,
+        "pressure": adhesion["pressure"],
+        "tolerance": usual_tolerance,
+    }
+    measuring.write(pull_offs, output, title, parameters, **PULL_OFFS)
 
 
-def solve_states(surface, asked, pixels, tolerance, seed):
+def solve_states(surface, adhesion, pixels, tolerance, seed):
     """Solve one realisation at every load and point; NaN if a window closes."""
-    heights, length = measuring.make_heights(surface, pixels, seed)[0], cell_size(surface)
-    loads, (laws, coordinates) = np.array(asked["pressures"]), list_laws(asked)
+    heights = measuring.make_heights(surface, pixels, seed)[0]
+    length = cell_size(surface)
+    loads = np.array(adhesion["pressures"])
+    laws, coordinates = list_laws(adhesion)
     values = {n: np.full((len(loads), len(laws)), np.nan) for n in STATES if n != "pressure"}
     for i, contact in enumerate(solver.load_path(heights, length, loads, tol=tolerance)):
         values["area_alone"][i] = contact.area_fraction
@@ -74,43 +100,65 @@ def solve_states(surface, asked, pixels, tolerance, seed):
             values["attraction_dmt"][i, k] = attraction
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
-            problem = heights, length, law, contact, tolerance
-            state, values["seconds"][i, k] = measuring.time_task(solve_at_gap, *problem)
+            state, seconds = measuring.time_task(
+                solve_at_gap, heights, length, law, contact, tolerance
+            )
+            values["seconds"][i, k] = seconds
             values["external_pressure"][i, k] = state.mean_pressure
             values["repulsive_area"][i, k] = state.repulsive_area_fraction
-    dims = "pressure", "point"
-    return xr.Dataset({n: (dims, v) for n, v in values.items()}, {"pressure": loads} | coordinates)
+    variables = {name: (("pressure", "point"), value) for name, value in values.items()}
+    return xr.Dataset(variables, {"pressure": loads} | coordinates)
 
 
-def separate(surface, asked, pixels, tolerance, seed):
+def separate(surface, adhesion, pixels, tolerance, seed):
     """Find the lowest mean pressure on separation with every law, and the time it took."""
-    heights, length = measuring.make_heights(surface, pixels, seed)[0], cell_size(surface)
-    (laws, coordinates), largest = list_laws(asked), asked["pressure"]
-    options = {"balance": asked["at_balance"], "smallest_jump": asked["at_balance"], "steps": LEAST}
+    heights = measuring.make_heights(surface, pixels, seed)[0]
+    length = cell_size(surface)
+    laws, coordinates = list_laws(adhesion)
+    largest = adhesion["pressure"]
 
-    def lowest(law):
-        turns = largest, -2 * law.strength
-        path = adhesive.path(heights, length, law, turns, tol=tolerance, **options)
+    def find_lowest(law):
+        path = adhesive.path(
+            heights,
+            length,
+            law,
+            (largest, -2 * law.strength),
+            tol=tolerance,
+            balance=adhesion["at_balance"],
+            smallest_jump=adhesion["at_balance"],
+            steps=LEAST,
+        )
         return min(point.state.mean_pressure for point in path if point.event != "pull-off")
 
-    found = [measuring.time_task(lowest, law) for law in laws]
-    values, seconds = zip(*found, strict=True)
+    timed = [measuring.time_task(find_lowest, law) for law in laws]
     limit = np.full(len(laws), np.nan)
-    if (pixels, tolerance) == (asked["at_pixels"], asked["at_tolerance"]):
-        loads = np.geomspace(largest / 10**DECADES, largest, DECADES * PER_DECADE + 1)
-        path = list(solver.load_path(heights, length, loads, tol=tolerance))
+    per_decade = 10  # of these loads
+    decades = 4  # of loads below the largest, for the pull-off by the DMT sum
+    if pixels == adhesion["at_pixels"] and tolerance == adhesion["at_tolerance"]:
+        # By the DMT sum: the lowest load less attraction on the way without adhesion.
+        loads = np.geomspace(largest / 10**decades, largest, decades * per_decade + 1)
+        contacts = list(solver.load_path(heights, length, loads, tol=tolerance))
         limit = [
-            min(c.mean_pressure - dmt.adhesive_pressure(c.gap, law) for c in path) for law in laws
+            min(c.mean_pressure - dmt.adhesive_pressure(c.gap, law) for c in contacts)
+            for law in laws
         ]
-    found = {"pull_off": values, "pull_off_dmt": limit, "seconds": seconds}
-    return xr.Dataset({name: ("point", list(one)) for name, one in found.items()}, coordinates)
+    variables = {
+        "pull_off": ("point", [lowest for lowest, _ in timed]),
+        "pull_off_dmt": ("point", list(limit)),
+        "seconds": ("point", [seconds for _, seconds in timed]),
+    }
+    return xr.Dataset(variables, coordinates)
 
 
-def list_laws(asked):
+def list_laws(adhesion):
     """Traction laws of the points, and the coordinates of these."""
-    points = np.array(asked["points"])
-    laws = [scaled_law(asked, asked["law"], strength, range_) for range_, strength in points]
-    return laws, {name: ("point", of_point) for name, of_point in zip(POINT, points.T, strict=True)}
+    points = np.array(adhesion["points"])
+    laws = [scaled_law(adhesion, adhesion["law"], strength, range_) for range_, strength in points]
+    coordinates = {
+        "range_over_h_rms": ("point", points[:, 0]),
+        "adhesion_length_over_range": ("point", points[:, 1]),
+    }
+    return laws, coordinates
 
 
 if __name__ == "__main__":

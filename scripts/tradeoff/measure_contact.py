@@ -5,11 +5,12 @@ far these are from the best mean of all: fine seeds on every grid, more seeds on
 shortest wavelength, and still more of which only the long waves are described.
 """
 
+from functools import partial
 from itertools import product
 
 import numpy as np
 
-from common.contact_curves import COARSE, DESCRIBED_FROM, SOLVED_FROM, VARIABLES, load_curve
+from common.contact_curves import COARSE, CONTACT_VARIABLES, DESCRIBED_FROM, SOLVED_FROM, load_curve
 from common.conventions import logarithmic_grid
 from common.job import start
 from common.model_surfaces import cell_size, model_spectrum
@@ -18,7 +19,7 @@ from stickiness.accuracy import multilevel
 from tradeoff import measuring
 
 FINEST_TOLERANCE = 1e-12  # the reference of the other tolerances
-TEXTS = VARIABLES | {
+TIMED_CONTACT_VARIABLES = CONTACT_VARIABLES | {
     "seconds": ("s", "processor time of all loads"),
     "coarse_seed": "seed of a realisation that is solved on the coarse grid alone",
     "describing_seconds": ("s", "processor time to describe one seed"),
@@ -26,13 +27,21 @@ TEXTS = VARIABLES | {
 
 
 def main(job):
-    params, surface, counts = job.params, job.params.case, job.params.counts
-    ranges, usual = logarithmic_grid(params.gaps), params.tolerance
-    loads, length = np.array(params.pressures), cell_size(surface)
-    fine, coarse, described = (
-        range(params.first_seed + start, params.first_seed + start + counts[kind])
-        for kind, start in (("fine", 0), ("coarse", SOLVED_FROM), ("described", DESCRIBED_FROM))
-    )
+    params = job.params
+    surface = job.params.case
+    counts = job.params.counts
+    ranges = logarithmic_grid(params.gaps)
+    usual = params.tolerance
+    loads = np.array(params.pressures)
+    length = cell_size(surface)
+
+    def list_seeds(kind, start):
+        first = params.first_seed + start
+        return range(first, first + counts[kind])
+
+    fine = list_seeds("fine", 0)
+    coarse = list_seeds("coarse", SOLVED_FROM)
+    described = list_seeds("described", DESCRIBED_FROM)
 
     def solve(pixels, tolerance, seed):
         heights, finer = measuring.make_heights(surface, pixels, seed)
@@ -48,9 +57,9 @@ def main(job):
         *product([params.at_pixels], [*params.tolerances, FINEST_TOLERANCE], few),
         *product([COARSE], [usual], coarse),
     ]
-    describe = multilevel.descriptors, model_spectrum(surface), length
-    waves, seconds = measuring.time_task(*describe, coarse)
-    other_waves, other_seconds = measuring.time_task(*describe, described)
+    describe = partial(multilevel.descriptors, model_spectrum(surface), length)
+    waves, seconds = measuring.time_task(describe, coarse)
+    other_waves, other_seconds = measuring.time_task(describe, described)
     dataset = measuring.record(wanted, solve).assign(
         long_waves=(("coarse_seed", "descriptor"), waves),
         other_long_waves=(("other", "descriptor"), other_waves),
@@ -62,7 +71,7 @@ def main(job):
         job.output[0],
         "contact of many realisations with several grids and tolerances",
         {**surface, "tolerance": usual, "at_pixels": params.at_pixels},
-        **TEXTS,
+        **TIMED_CONTACT_VARIABLES,
     )
 
 

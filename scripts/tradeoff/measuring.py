@@ -14,10 +14,9 @@ from stickiness import datasets
 from stickiness.accuracy.error_models import COARSE
 from stickiness.repulsive import half_space
 
-UNIT = 1024  # side of the grid whose pair of transforms is the unit of cost
 COVERED = 0.9  # share of cases that a stated error covers
 SETTINGS = ("pixels", "tolerance", "seed")
-TEXTS = {
+SETTING_VARIABLES = {
     "pixels": "grid points per shortest wavelength",
     "tolerance": "tolerance of the solver over h_rms",
     "pair_time": ("s", "processor time of a pair of transforms of 1024 x 1024 doubles"),
@@ -29,23 +28,29 @@ def record(wanted, solve):
 
     The processor time of a solution is added as `seconds`, if it does not have times of its own.
     """
-    wanted, parts = list(dict.fromkeys(wanted)), []
+    wanted = list(dict.fromkeys(wanted))
+    parts = []
     for pixels, tolerance, seed in wanted:
         logging.info("seed %d on %d points, tolerance %g", seed, pixels, tolerance)
         solved, seconds = time_task(solve, pixels, tolerance, seed)
         parts.append(solved if "seconds" in solved else solved.assign(seconds=seconds))
-    settings = zip(SETTINGS, zip(*wanted, strict=True), strict=True)
-    found = xr.concat(parts, "solution")
-    return found.assign_coords({name: ("solution", list(values)) for name, values in settings})
+    dataset = xr.concat(parts, "solution")
+    columns = zip(*wanted, strict=True)
+    settings = {
+        name: ("solution", list(column)) for name, column in zip(SETTINGS, columns, strict=True)
+    }
+    return dataset.assign_coords(settings)
 
 
 def write(dataset, path, title, parameters, **texts):
     """Write solutions with the time of a pair of transforms."""
-    space = half_space.half_space((UNIT, UNIT), (1.0, 1.0), np.float64)
-    field = np.random.default_rng(1).standard_normal((UNIT, UNIT))
+    side = 1024  # side of the grid whose pair of transforms is the unit of cost
+    space = half_space.half_space((side, side), (1.0, 1.0), np.float64)
+    field = np.random.default_rng(1).standard_normal((side, side))
+    # The first transform also makes the plans.
     _, *seconds = (time_task(space.compliance, field)[1] for _ in range(10))
     dataset = dataset.assign(pair_time=statistics.median(seconds))
-    dataset = conventions.annotate(dataset, **TEXTS, **texts)
+    dataset = conventions.annotate(dataset, **SETTING_VARIABLES, **texts)
     datasets.write(dataset, path, title=title, parameters=parameters)
 
 
@@ -65,5 +70,5 @@ def split_loads(quantity, errors):
 def time_task(task, *arguments):
     """Return what a task returns, and the processor time [s] it took."""
     begin = time.process_time()
-    found = task(*arguments)
-    return found, time.process_time() - begin
+    result = task(*arguments)
+    return result, time.process_time() - begin

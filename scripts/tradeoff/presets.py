@@ -31,17 +31,19 @@ ADHESIVE_QUANTITIES = {
     "threshold": ("threshold",),
     "pull_off": ("pull_off",),
 }
-PULL_OFF_UP_TO = 32  # magnification to which pull-offs were measured
 
 
 def adhesive_error(problem, settings, pressure, column):
     """Relative error of a column of full adhesion that covers 90 %."""
+    pull_off_up_to = 32  # magnification to which pull-offs were measured
     if column == "pull_off":
         # It falls so steeply that the model would promise too much beyond what was measured.
-        nearest = min(problem.surface.magnification, PULL_OFF_UP_TO)
+        nearest = min(problem.surface.magnification, pull_off_up_to)
         surface = replace(problem.surface, magnification=nearest)
-        at = problem.models, "discretisation", column, surface, pressure
-        return single_error(*at, pixels=settings.pixels_per_wavelength)
+        pixels = settings.pixels_per_wavelength
+        return single_error(
+            problem.models, "discretisation", column, surface, pressure, pixels=pixels
+        )
     coarse = settings.coarse_seeds if settings.seeds >= FEWEST else 0
     settings = replace(settings, tolerance=LOOSEST, coarse_seeds=coarse)
     return float(predicted_error(problem, settings, pressure, column))
@@ -49,31 +51,40 @@ def adhesive_error(problem, settings, pressure, column):
 
 def adhesive_cost(problem, settings):
     """Cost of one adhesive state of every seed on two grids, and of the coarse seeds."""
-    models, surface, pixels = problem.models, problem.surface, settings.pixels_per_wavelength
+    models = problem.models
+    surface = problem.surface
+    pixels = settings.pixels_per_wavelength
     state = sum(models["adhesive_cost", ""](surface, pixels=grid) for grid in (pixels, pixels // 2))
     return settings.seeds * state + settings.coarse_seeds * models["coarse_cost", ""](surface)
 
 
 def cheapest_adhesive(problem, accuracy):
     """Cheapest settings for an accuracy in all columns of full adhesion."""
-    found = []
-    for knobs in itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS):
-        one = Settings(*knobs)
-        worst = max((adhesive_error(problem, one, *at), *at[::-1]) for at in problem.points)
-        if worst[0] <= accuracy:
-            found.append((adhesive_cost(problem, one), one))
-    if found:
-        return min(found)[1]
-    left, column, pressure = worst  # of the most expensive settings
+    candidates = []
+    knobs = itertools.product(PIXELS, TOLERANCES[:1], SEEDS, COARSE_SEEDS)
+    for pixels, tolerance, seeds, coarse_seeds in knobs:
+        settings = Settings(pixels, tolerance, seeds, coarse_seeds)
+        worst, column, pressure = max(
+            (adhesive_error(problem, settings, pressure, column), column, pressure)
+            for pressure, column in problem.points
+        )
+        if worst <= accuracy:
+            candidates.append((adhesive_cost(problem, settings), settings))
+    if candidates:
+        return min(candidates)[1]
+    # What is left with the last settings, which are the most expensive.
     raise UnreachableError(
-        f"the best that full adhesion reaches is {left:.2g}, for {column} at pressure {pressure:g}"
+        f"the best that full adhesion reaches is {worst:.2g}, for {column} at pressure {pressure:g}"
     )
 
 
 def preset_by_rule(problem, presets, name):
     """Cheapest multilevel settings for the errors of a preset, those of full adhesion included."""
-    adhesive, contact = presets["adhesive"], replace(problem, columns=columns_of(MODELLED))
-    columns = [column for one in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[one]]
+    adhesive = presets["adhesive"]
+    contact = replace(problem, columns=columns_of(MODELLED))
+    columns = [
+        column for quantity in adhesive["quantities"] for column in ADHESIVE_QUANTITIES[quantity]
+    ]
     least = cheapest_adhesive(replace(problem, columns=columns), adhesive["accuracy"][name])
     least = replace(least, coarse_seeds=max(least.coarse_seeds, COARSE_SEEDS[1]))
     return cheapest(contact, presets["accuracy"][name], least=least)

@@ -19,7 +19,7 @@ from tradeoff.contact_table import DESCRIBED_SEEDS, make_pool, tabulate_contact
 from tradeoff.fit_models import Records, fit_models
 from tradeoff.presets import list_presets
 
-TEXTS = {
+TRADEOFF_VARIABLES = {
     "row": "number",
     "problem": "contact without adhesion, full adhesion or pull-off",
     "quantity": "what the error is of",
@@ -33,8 +33,6 @@ TEXTS = {
 COMMENT = """\
 Error and cost models, fitted by the target tradeoff; scripts/stickiness/accuracy/ says how they
 are read. To take a new measurement over, copy it here and set the presets that it gives."""
-# Quantities that cases of the validation ask for.
-VALIDATED = (("area",), ("mean_gap",), ("a_v",), ("area", "attractive_area"), MODELLED)
 
 
 def main(job):
@@ -48,7 +46,8 @@ def main(job):
             measured = datasets.read(path)
             records.start(problem, Path(path).stem, Surface.of(datasets.parameters(measured)))
             tabulate(measured, records)
-    found, models = pd.DataFrame(records.rows), fit_models(records.points)
+    rows = pd.DataFrame(records.rows)
+    models = fit_models(records.points)
     models |= {
         # The control of full adhesion is its DMT sum, in proportion to an attractive area.
         ("coarse_share", column): models["coarse_share", "attractive_area_0.1"]
@@ -57,21 +56,23 @@ def main(job):
     }
     title = "error and cost of every setting"
     parameters = {"surfaces": [Path(path).stem for path in job.input.contact]}
-    table = annotate(found.rename_axis("row").to_xarray(), **TEXTS)
+    table = annotate(rows.rename_axis("row").to_xarray(), **TRADEOFF_VARIABLES)
     datasets.write(table, job.output.dataset, title=title, parameters=parameters)
-    medians = found.groupby(summary.KEYS, sort=False)[["error", "cost"]].median().reset_index()
+    medians = rows.groupby(summary.KEYS, sort=False)[["error", "cost"]].median().reset_index()
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)
     with datasets.whole_file(job.output.laws) as path:
         write_models(path, models, COMMENT)
     models = read_models(job.output.laws)  # as they are written, rounded
-    given = job.params.surface, job.params.descriptor_seeds
+    presets = list_presets(
+        models, job.params.presets, job.params.surface, job.params.descriptor_seeds
+    )
     write_page(
         job.input.template,
         job.output.table,
         tables=summary.tables(medians),
         asked=job.params.presets,
-        presets=list_presets(models, job.params.presets, *given),
+        presets=presets,
         within=np.array(validate(models, job.input.validation, job.params.accuracies)),
     )
 
@@ -82,11 +83,14 @@ def validate(models, paths, accuracies):
     The surfaces are ones that nothing was fitted to.
     """
     within = []
+    # Quantities that cases of the validation ask for.
+    validated = (("area",), ("mean_gap",), ("a_v",), ("area", "attractive_area"), MODELLED)
     for path in paths:
         measured = datasets.read(path)
-        pool, loads = make_pool(measured), measured.pressure.values.tolist()
+        pool = make_pool(measured)
+        loads = measured.pressure.values.tolist()
         surface = Surface.of(datasets.parameters(measured))
-        for quantities, accuracy in itertools.product(VALIDATED, accuracies):
+        for quantities, accuracy in itertools.product(validated, accuracies):
             problem = Problem(models, surface, loads, columns_of(quantities), DESCRIBED_SEEDS)
             try:
                 chosen = cheapest(problem, accuracy)
@@ -98,12 +102,20 @@ def validate(models, paths, accuracies):
 
 def find_worst_errors(pool, problem, settings):
     """Largest error of each repetition over columns and loads, with what the tolerance adds."""
-    errors, worst = pool.draw(settings), []
+    errors = pool.draw(settings)
+    worst = []
     for load, column in problem.points:
-        at = problem.models, "solver", column, problem.surface, load
+        solver = 0.0
         # Down to the tolerance of the measurement, which has no error beside itself.
-        measured = settings.tolerance <= FULL
-        solver = 0.0 if measured else single_error(*at, tolerance=settings.tolerance)
+        if settings.tolerance > FULL:
+            solver = single_error(
+                problem.models,
+                "solver",
+                column,
+                problem.surface,
+                load,
+                tolerance=settings.tolerance,
+            )
         worst.append(np.hypot(errors[column, load], solver))
     return np.max(worst, axis=0)
 

@@ -114,7 +114,7 @@ def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
         solved = contact_curves.coarse_solutions(asked, which, 20, *curves)
         path = tmp_path / f"{name}.nc"
         datasets.write(
-            annotate(solved, **contact_curves.VARIABLES), path, title=name, parameters=asked
+            annotate(solved, **contact_curves.CONTACT_VARIABLES), path, title=name, parameters=asked
         )
         files[name] = datasets.read(path)
     assert files["second"].sizes["other"] == 0

@@ -6,7 +6,7 @@ import xarray as xr
 
 from common import ensemble_means, grid_limits
 from common.contact_curves import load_curve
-from common.quantities import average_a_v, fit_intervals, fit_slope, slope_of_area
+from common.derived_quantities import average_a_v, fit_intervals, fit_slope, slope_of_area
 from contact.ensembles import AVERAGED, add_statistics
 from stickiness import spectrum, surface
 from stickiness.repulsive import richardson

@@ -16,30 +16,25 @@ REWORDED = f'# A comment.\ndef one():\n    """A docstring."""\n{BODY}'
 
 
 @pytest.fixture
-def hash_now(tmp_path, monkeypatch):
+def hash_now(tmp_path):
     """Function that writes one file of the project and hashes the script, as a new process does."""
-    monkeypatch.setattr(code, "SCRIPTS", tmp_path / "scripts")
-    monkeypatch.setattr(code, "CACHE", tmp_path / ".snakemake/source_hashes.json")
 
     def write(name, text):
         path = tmp_path / "scripts" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text, encoding="utf-8")
 
-    def changed(name=None, text=None):
+    def changed(name=None, text=None, cache=".snakemake/source_hashes.json"):
         if name:
             write(name, text)
-        for cached in (code.find_modules, code.read_source, code.load_cache):
-            cached.cache_clear()
-        found = code.source_hash("stage/rule.py")
-        code.save_cache()
-        return found
+        reader = code.SourceReader(tmp_path / "scripts", tmp_path / cache)
+        digest = reader.hash("stage/rule.py")
+        reader.save()
+        return digest
 
-    for item in FILES.items():
-        write(*item)
-    yield changed
-    for cached in (code.find_modules, code.read_source, code.load_cache):
-        cached.cache_clear()
+    for name, text in FILES.items():
+        write(name, text)
+    return changed
 
 
 @pytest.mark.parametrize(
@@ -74,9 +69,8 @@ def test_files_that_did_not_change_are_not_parsed_again(hash_now, monkeypatch):
     assert len(parsed) == 1
 
 
-def test_a_cache_that_cannot_be_read_or_written_does_no_harm(hash_now, tmp_path, monkeypatch):
+def test_a_cache_that_cannot_be_read_or_written_does_no_harm(hash_now, tmp_path):
     before = hash_now()
     (tmp_path / "file").write_text("not a folder, and not JSON", encoding="utf-8")
-    for cache in (tmp_path / "file", tmp_path / "file/below.json"):
-        monkeypatch.setattr(code, "CACHE", cache)
-        assert hash_now() == before
+    for cache in ("file", "file/below.json"):
+        assert hash_now(cache=cache) == before

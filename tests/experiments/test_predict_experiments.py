@@ -67,7 +67,7 @@ def test_observations_are_read_in_si_units():
 def predict_quantity(quantity, value=None, **conditions):
     """Low limit, value and high limit, every input in the middle."""
     observed = seen(quantity, value) if isinstance(quantity, str) else quantity
-    return experiments.predict(observe(observed, **conditions))[0][:, 0]
+    return experiments.predict(observe(observed, **conditions)).quantity[:, 0]
 
 
 @pytest.mark.parametrize("h_rms", [0.2, 1.0, 3.0])

@@ -11,11 +11,11 @@ from stickiness.persson.theory import Persson
 def theories(spectrum, variants, gamma, nodes=1.0):
     """Theories of a spectrum by names: the `variants`, then the quoted one otherwise corrected."""
     first = Persson(spectrum, variants[0], gamma, nodes)
-    found = {name: first.with_variant(name) for name in variants}
+    named = {name: first.with_variant(name) for name in variants}
     for correction in CORRECTIONS[1:]:  # each with the gamma of its source
         name = f"{VARIANT}, {correction}"
-        found[name] = Persson(spectrum, VARIANT, nodes=nodes, correction=correction)
-    return found
+        named[name] = Persson(spectrum, VARIANT, nodes=nodes, correction=correction)
+    return named
 
 
 def between_corrections(values):

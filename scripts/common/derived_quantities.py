@@ -10,7 +10,7 @@ import xarray as xr
 
 from common import grid_limits
 from common.conventions import LINEAR_UP_TO, annotate, middles
-from common.ensemble_means import SUFFIXES, add_errors, coarse, describe_errors, standard_error
+from common.ensemble_means import add_errors, coarse, describe_errors, standard_error
 from common.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, theory_parts
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -42,21 +42,25 @@ A_V_VARIABLES = {
 
 
 def statistics(column, **files):
-    """Mean, standard error and discretisation error of a column, from files by `Column.file`."""
-    known = COLUMNS[column]
-    found, name = files[known.file], known.variable
-    found = found.isel(window=0) if known.file == "a_v" else at_point(found, known)
-    mean = found[name if known.file == "kappa" else f"{name}_mean"]
-    return mean, found[f"{name}_standard_error"], found[f"{name}_discretisation_error"]
+    """Take mean, standard error and grid error of a column from files by `Column.file`."""
+    entry = COLUMNS[column]
+    name = entry.variable
+    if entry.file == "a_v":
+        data = files["a_v"].isel(window=0)
+    else:
+        data = at_point(files[entry.file], entry)
+    mean = data[name if entry.file == "kappa" else f"{name}_mean"]
+    return mean, data[f"{name}_standard_error"], data[f"{name}_discretisation_error"]
 
 
 def quote(column, contact):
-    """A column of a contact to which `derive` has added its quantities."""
-    known = COLUMNS[column]
-    return at_point(contact, known)[known.variable]
+    """Take a column from a contact to which `derive` has added its quantities."""
+    entry = COLUMNS[column]
+    return at_point(contact, entry)[entry.variable]
 
 
 def at_point(dataset, column):
+    """A dataset at the gap or range that a column is for, if it is for one."""
     return dataset.sel(column.at, method="nearest", drop=True) if column.at else dataset
 
 
@@ -90,24 +94,41 @@ def fit_slope(ensemble):
 
 
 def fit_a_v(areas, fit_interval):
-    """a_V and the standard error of its fit, along every dimension but the range's."""
-    ranges, window = areas["range"].values, tuple(fit_interval)
+    """Fit a_V and its standard error, along every dimension but the range's."""
+    ranges = areas["range"].values
+    window = tuple(fit_interval)
 
     def fit(area, pressure):
-        found = a_v_fit.fit_a_v(ranges, area, float(pressure), window=window)
-        return found.value, found.standard_error
+        fitted = a_v_fit.fit_a_v(ranges, area, float(pressure), window=window)
+        return fitted.value, fitted.standard_error
 
-    dims = {"input_core_dims": [["range"], []], "output_core_dims": [[], []]}
-    return xr.apply_ufunc(fit, areas.attractive_area, areas.pressure, **dims, vectorize=True)
+    return xr.apply_ufunc(
+        fit,
+        areas.attractive_area,
+        areas.pressure,
+        input_core_dims=[["range"], []],
+        output_core_dims=[[], []],
+        vectorize=True,
+    )
 
 
 def fit_intervals(areas, windows):
-    """a_V in every fit interval, and the standard error of its fit."""
-    fits = (fit_a_v(areas, window) for window in windows)
-    found = [xr.concat(one, "window") for one in zip(*fits, strict=True)]
+    """Fit a_V and its standard error in every fit interval."""
+    values = []
+    errors = []
+    for window in windows:
+        value, error = fit_a_v(areas, window)
+        values.append(value)
+        errors.append(error)
     low, high = np.transpose(np.array(windows, float))
-    ends = {"window_low": ("window", low), "window_high": ("window", high)}
-    return xr.Dataset(dict(zip(("a_v", "a_v_fit_error"), found, strict=True)) | ends)
+    return xr.Dataset(
+        {
+            "a_v": xr.concat(values, "window"),
+            "a_v_fit_error": xr.concat(errors, "window"),
+            "window_low": ("window", low),
+            "window_high": ("window", high),
+        }
+    )
 
 
 def local_exponent(areas):
@@ -118,7 +139,7 @@ def local_exponent(areas):
 
 
 def fit_kappa(ensemble, models):
-    """Kappa of an ensemble at every load and fitted, and the mean area, with their errors."""
+    """Compute kappa of an ensemble, load by load and fitted, beside the mean area, with errors."""
     area = ensemble.area_fraction_mean
     dataset = xr.Dataset({"area_fraction": area})
     # The errors of the fit are those at the largest of its loads.
@@ -129,13 +150,18 @@ def fit_kappa(ensemble, models):
         ("kappa_fit", fit_slope, largest),
     ):
         limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
-        values, more = quantity(ensemble), coarse(ensemble, quantity)
+        values = quantity(ensemble)
+        more = coarse(ensemble, quantity)
         dataset = add_errors(dataset, name, values, more, plain=True, limit=limit)
         texts = {n: text for n, text in KAPPA_VARIABLES.items() if n.startswith(name)}
         dataset = annotate(dataset, **texts)
-        errors = (dataset[f"{name}_{kind}"] for kind in list(SUFFIXES)[1:])
-        value = dataset[name].assign_coords(pressure=load)
-        parts = simulation.parts("kappa", value, *errors, grid_limits.INHERITED)
+        parts = simulation.parts(
+            "kappa",
+            dataset[name].assign_coords(pressure=load),
+            dataset[f"{name}_standard_error"],
+            dataset[f"{name}_discretisation_error"],
+            text=grid_limits.INHERITED,
+        )
         dataset = with_budget(dataset, name, **parts)
     for ending in ENDINGS:
         dataset[f"area_fraction{ending}"] = ensemble[f"area_fraction_mean{ending}"]
@@ -157,12 +183,14 @@ def write_a_v(areas_file, output, windows, laws):
     dataset["exponent"] = local_exponent(areas)
     if "edge_gap_mean" in areas:
         dataset["exponent"] = dataset.exponent.where(areas["range"] >= areas.edge_gap_mean)
-    add_budgets = add_theory_budgets
     if "seed" in dataset.a_v.dims:
-        dataset, add_budgets = average_a_v(dataset, areas, windows), add_simulation_budgets
+        dataset = average_a_v(dataset, areas, windows)
+        add_budgets = add_simulation_budgets
+    else:
+        add_budgets = add_theory_budgets
+    dataset = add_budgets(annotate(dataset, **A_V_VARIABLES), areas, read_models(laws))
     title = "a_V from attractive areas"
     parameters = {**datasets.parameters(areas), "windows": windows}
-    dataset = add_budgets(annotate(dataset, **A_V_VARIABLES), areas, read_models(laws))
     datasets.write(dataset, output, title=title, parameters=parameters)
 
 
@@ -177,10 +205,15 @@ def average_a_v(dataset, ensemble, windows):
 
 
 def add_simulation_budgets(dataset, ensemble, models):
-    """Budgets of the means over the seeds; the choice of the window is no source of error."""
+    """Add budgets to the means over seeds; the choice of the window is no source of error."""
     simulation = Simulation(models, datasets.parameters(ensemble))
-    mean = (dataset[f"a_v_{kind}"] for kind in SUFFIXES)
-    parts = simulation.parts("a_v", *mean, grid_limits.INHERITED)
+    parts = simulation.parts(
+        "a_v",
+        dataset.a_v_mean,
+        dataset.a_v_standard_error,
+        dataset.a_v_discretisation_error,
+        text=grid_limits.INHERITED,
+    )
     dataset = with_budget(dataset, "a_v_mean", **parts)
     limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
     steps = np.diff(np.log(ensemble["range"].values)).min()
@@ -198,10 +231,10 @@ def add_simulation_budgets(dataset, ensemble, models):
 
 
 def add_theory_budgets(dataset, areas, models):
-    """Budgets of the fits to theory, on a lattice spectrum or on continuous ones."""
-    made = datasets.parameters(areas)
+    """Add budgets to the fits to theory, on a lattice spectrum or on continuous ones."""
+    parameters = datasets.parameters(areas)
     like = dataset.a_v.assign_coords(pressure=areas.pressure)
-    surface = made if "case" in made else None
+    surface = parameters if "case" in parameters else None
     parts = theory_parts(models, "a_v", like, surface, "attractive_area")
     dataset = with_budget(dataset, "a_v", **parts)
     error = 2 * QUADRATURE["attractive_area"] / np.diff(np.log(areas["range"].values)).min()
