@@ -1,7 +1,8 @@
-"""Write heights of a painted wall, made up, as a profilometer might export them.
+"""Write synthetic heights of a painted wall, as a profilometer might export them.
 
-The tutorial's stand-in for a measurement: 2 mm by 2 mm, a tilt of the stage, waves from 1 mm to the
-pixel, flat in the spectrum above 0.2 mm, an rms height of about 10 um. In the environment made:
+The tutorial uses this file as its measurement. It covers 2 mm by 2 mm with the tilt of a stage. Its
+wavelengths range from 1 mm to the pixel, the spectrum is flat above 0.2 mm, and the rms height is
+about 10 um. In the environment of the project:
 ``PYTHONPATH=scripts python examples/make_wall.py wall.txt``.
 """
 
@@ -15,7 +16,7 @@ SIDE, PIXELS = 2000.0, 256  # um
 
 
 def heights() -> np.ndarray:
-    """Heights [um], not periodic: a quarter of a periodic surface, tilted."""
+    """Heights [um]: a quarter of a periodic surface, tilted, and therefore not periodic."""
     step = SIDE / PIXELS
     wall = spectrum.SelfAffine(
         hurst=0.8,

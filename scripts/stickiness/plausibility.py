@@ -55,8 +55,8 @@ def warn_of_pressure(pressure: float, rms_slope: float) -> None:
     """Warn if a mean pressure [E*] is far above that at which contact is full anyway."""
     # Heights in units larger than those of lengths have pressures above 1.
     if pressure > max(1.0, _MOST_PRESSURE * rms_slope):
-        text = f"pressure = {pressure!r} is in units of E* and closes any gap of this surface "
-        text += f"(rms slope {rms_slope:.3g}) many times over: divide pascals by E*"
+        text = f"pressure = {pressure!r} is far above the pressure of full contact (rms slope "
+        text += f"{rms_slope:.3g}); pressures are in units of E*: divide pascals by E*"
         warnings.warn(text, PlausibilityWarning, stacklevel=3)
 
 
@@ -64,9 +64,7 @@ def warn_of_heights(rms_height: float, length: float) -> None:
     """Warn if heights and the side of the cell can hardly be in one unit of length."""
     if rms_height > 0 and not _LEAST_HEIGHT <= rms_height / length <= _MOST_HEIGHT:
         text = f"heights of {rms_height:.3g} rms on a cell of length = {length:.3g}: heights and "
-        warnings.warn(
-            text + "length must be in one unit, are they?", PlausibilityWarning, stacklevel=3
-        )
+        warnings.warn(text + "length must have the same unit", PlausibilityWarning, stacklevel=3)
 
 
 def warn_of_si(**values: float) -> None:

@@ -313,7 +313,6 @@ def test_the_page_has_every_case_and_source(made, dataset):
         (row,) = (line for line in page.splitlines() if f"| {case['case']} |" in line)
         assert all(case[key] in row for key in ("observed", "predicted", "outcome", "depends"))
     for text in (
-        f"overlap with {described['counts'][2]} of ",
         "- soft ball: the color of the ball",
         "- hard plate: no sou",
     ):

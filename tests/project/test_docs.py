@@ -1,12 +1,16 @@
-"""Links between the pages lead somewhere, and the example of the library runs."""
+"""Links and paths in the documentation exist, versions agree, and the example runs."""
 
 import os
 import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
+
+import stickiness
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "config/README.md"]
@@ -35,24 +39,10 @@ def test_paths_in_the_map_exist():
     assert [path for path in paths if not (ROOT / path).exists()] == []
 
 
-# Heads of columns that every reader knows, or that name what the table is about.
-PLAIN = """material surface errors source no claim claimed remark from subject printed correct proof
-recomputed experiment quantity observed predicted outcome on paper remarks case value allowed cost
-grid largest measured answer reason within the both ways heights theory without in all waves and
-means below"""
-
-
-def test_heads_of_tables_are_in_the_glossary():
-    terms = re.findall(r"^\| ([^|]+) \|", (ROOT / "docs/glossary.md").read_text("utf-8"), re.M)
-    known = {*PLAIN.split(), *re.findall(r"[\w*]+", re.sub(r"[\\_]", "", " ".join(terms)).lower())}
-    missing = set()
-    for page in sorted((ROOT / "report").glob("*.html.j2")):
-        text = re.sub(r"{%.*?%}|{{.*?}}", " ", page.read_text(encoding="utf-8"))
-        for head in re.findall(r'<th scope="col"[^>]*>(.*?)</th>', text):
-            plain = re.sub(r"<br>.*|<[^>]*>|\[.*?\]|&\w+;", "", head).lower()
-            words = re.findall(r"[^\W\d][\w*]*", plain)
-            missing |= {(page.name, head, word) for word in words if word not in known}
-    assert missing == set()
+def test_places_of_the_version_agree():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text())["version"]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert stickiness.__version__ == project["version"] == cited
 
 
 @pytest.mark.slow
@@ -69,4 +59,3 @@ def test_the_example_of_the_library_runs(tmp_path):
     found = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
     area, theory = (float(found[name].split()[0]) for name in ("contact area", "predicted area"))
     assert area == pytest.approx(theory, rel=0.3)
-    assert done.stdout.startswith("sticks: ")

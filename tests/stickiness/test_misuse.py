@@ -260,9 +260,9 @@ def test_heights_of_any_kind_of_number_are_taken_as_they_are(kind):
 
 TOO_COARSE = adhesive.Maugis(0.01, 0.002)
 DOUBTS = [
-    (lambda: press(pressure=1e5), "divide pascals by E"),
-    (lambda: adhesive.solve(HEIGHTS, SIDE, LAW, pressure=1e5), "divide pascals by E"),
-    (lambda: press(length=1e-6 * SIDE), "must be in one unit"),
+    (lambda: press(pressure=1e5), "pressure = 100000.0"),
+    (lambda: adhesive.solve(HEIGHTS, SIDE, LAW, pressure=1e5), "pressure = 100000.0"),
+    (lambda: press(length=1e-6 * SIDE), "length = "),
     (
         lambda: adhesive.solve(HEIGHTS, SIDE, TOO_COARSE, pressure=0.1),
         "Take pixels of at most 0.0002 ",

@@ -211,9 +211,9 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
     result = scaled.adhesion(state, branch, control)
     if state.separated:
         raise PullOffError(
-            f"pressure = {control.pressure!r} pulls the surfaces apart: they hold less on this "
-            f"branch (the strength of the law is {scaled.law.strength:.6g}); "
-            "control mean_gap instead",
+            f"pressure = {control.pressure!r} separates the surfaces: the tension exceeds the "
+            f"pull-off stress of this branch (the strength of the law is "
+            f"{scaled.law.strength:.6g}); control mean_gap instead",
             result,
         )
     if not state.residual <= effort.tol:
@@ -225,10 +225,10 @@ def relax_from(scaled, gap, branch, control, effort, unloaded=None):
     imbalance = state.residual * problem.unit * scaled.stress
     largest = max(np.abs(result.pressure).max(), scaled.flattening * scaled.stress)
     if imbalance > 0.1 * largest > 0:
-        text = f"{imbalance:.2g} E* is out of balance, the largest pressure is {largest:.2g} E*: "
-        raise ConvergenceError(
-            f"{text}lower tol = {effort.tol:.2e}, or take a longer range", result
+        text = (
+            f"forces are out of balance by {imbalance:.2g} E* (largest pressure {largest:.2g} E*): "
         )
+        raise ConvergenceError(f"{text}lower tol = {effort.tol:.2e}, or use a longer range", result)
     return result
 
 

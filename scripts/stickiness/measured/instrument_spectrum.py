@@ -175,7 +175,7 @@ def isotropic(
         if demand and not fit.hurst > LOWEST_HURST:
             raise ValueError(
                 f"the profile's spectrum goes as q^{-2 * fit.hurst - 1:.2f}: it falls too slowly "
-                "for a surface, rather noise; lower the highest wave number of the fit"
+                "for a surface and is probably noise; lower the highest wave number of the fit"
             )
         hurst = max(fit.hurst, LOWEST_HURST)
         rings = replace(line, psd=line.psd * abel_ratio(line.q, hurst, fit.q_rolloff))

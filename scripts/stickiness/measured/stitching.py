@@ -195,8 +195,9 @@ def draw(
     """
     if extend_to is not None and not spectrum.fit.is_self_affine:
         raise ValueError(
-            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is no self-affine surface's and "
-            "cannot extrapolate the spectrum; leave extend_to out or narrow fit_from … fit_to"
+            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is outside the range of "
+            "self-affine surfaces and cannot extrapolate the spectrum; leave extend_to out or "
+            "narrow fit_from … fit_to"
         )
     if extend_to is not None and not extend_to > spectrum.cutoff.q:
         raise ValueError(
