@@ -7,6 +7,7 @@ import difflib
 import math
 import os
 import re
+from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -48,6 +49,57 @@ def _parsed(value: str) -> pint.Quantity | float:
     return _registry().Quantity(value)
 
 
+class Quantity(float):
+    """A number in SI units that remembers how it was written.
+
+    It calculates as a float and is shown as the text: ``Quantity.read("10 um", "m")`` is 1e-5 and
+    prints ``10 um``.
+
+    Parameters
+    ----------
+    value : float
+        The number in SI units.
+    text : str
+        The text with its unit.
+    """
+
+    text: str
+
+    def __new__(cls, value: float, text: str) -> Quantity:
+        """Make a number that remembers a text."""
+        quantity = super().__new__(cls, value)
+        quantity.text = text
+        return quantity
+
+    @classmethod
+    def read(cls, text: str, unit: str) -> Quantity:
+        """Read a text such as "10 um" in the SI unit `unit`; see `si` for what is raised."""
+        return cls(si(text, unit), text)
+
+    def __repr__(self) -> str:
+        """Show the text in quotes, as in the configuration."""
+        return repr(self.text)
+
+    def __str__(self) -> str:
+        """Show the text."""
+        return self.text
+
+    def __reduce__(self) -> tuple[type, tuple[float, str]]:
+        """Return what a copy is made from, for pickling."""
+        return Quantity, (float(self), self.text)
+
+
+def write_quantities(entry: Any) -> Any:
+    """Return an entry of the configuration with the texts of its quantities in place of numbers."""
+    if isinstance(entry, Quantity):
+        return entry.text
+    if isinstance(entry, Mapping):
+        return {key: write_quantities(value) for key, value in entry.items()}
+    if isinstance(entry, list | tuple):
+        return [write_quantities(value) for value in entry]
+    return entry
+
+
 def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
@@ -63,6 +115,10 @@ def si(value: str, unit: str) -> float:
         raise ValueError(f"{value!r} has no unit: {wanted}, as a text with its unit")
     if "," in value:  # a comma would be dropped, and 2,5 nm become 25 nm
         raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
+    if not re.match(r"\s*[-+]?(\.?\d|nan|inf)", value):
+        raise ValueError(f"{value!r} does not begin with a number: {wanted}")
+    if re.search(r"[±~\[\]]|\+/-|\d\s*[-–]\s*\d", value):
+        raise ValueError(f"{value!r} is no single number with a unit: {wanted}")
     for typed, (meaning, meant, instead) in _ASKED_BACK.items():
         if re.search(rf"(?<![A-Za-z]){typed}(?![A-Za-z])(?!{_SECONDS})", value):
             raise ValueError(
@@ -71,14 +127,17 @@ def si(value: str, unit: str) -> float:
             )
     try:
         quantity = _parsed(value)
-        magnitude = float(quantity.to(unit).magnitude)
-    except pint.DimensionalityError:
-        found = _known(quantity.dimensionality)
-        kind = f"is {found[1]}" if found else f"is in {quantity.units:~P}"
-        kind = "has no unit" if quantity.dimensionless else kind
-        raise ValueError(f"{value!r} {kind}; {wanted}") from None
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
         raise ValueError(f"{value!r} cannot be read: {_meant(value, units) or wanted}") from None
+    try:
+        magnitude = float(quantity.to(unit).magnitude)
+    except pint.DimensionalityError:
+        other = _known(quantity.dimensionality)
+        kind = f"is {other[1]}" if other else f"is in {quantity.units:~P}"
+        kind = "has no unit" if quantity.dimensionless else kind
+        raise ValueError(f"{value!r} {kind}; {wanted}") from None
+    except (AttributeError, TypeError):  # a number without a unit is a float
+        raise ValueError(f"{value!r} has no unit; {wanted}") from None
     if not math.isfinite(magnitude):
         raise ValueError(f"{value!r} is not finite: {wanted}")
     return magnitude

@@ -1,0 +1,143 @@
+"""Models of a material in the configuration."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Discriminator, Field, Strict, Tag, ValidationInfo, model_validator
+
+from stickiness.entries import fields as f
+from stickiness.entries.errors import EntryError, suggest
+from stickiness.entries.fields import Section, needed, optional
+from stickiness.solids.moduli import REFERENCE_FREQUENCY, relaxation_frequency
+from stickiness.traction_laws import EXPONENTIAL
+from stickiness.units import Quantity
+
+_MODULI = ("plane_strain_modulus", "youngs_modulus and poisson_ratio")
+
+
+class ElasticPair(Section):
+    """Elasticity and adhesion of a pair of solids."""
+
+    one_of = (_MODULI,)
+
+    plane_strain_modulus: f.Modulus = optional('E* of the pair, e.g. "2 MPa"')
+    youngs_modulus: f.Modulus = optional('Young\'s modulus, e.g. "3 GPa"')
+    poisson_ratio: Annotated[float, Field(gt=-1, le=0.5)] = optional("Poisson's ratio")
+    work_of_adhesion: f.Energy = needed('work of adhesion of the pair, e.g. "50 mJ/m^2"')
+    range: f.Range = needed('range of the attraction, e.g. "0.2 nm"')
+
+
+class Prony(Section):
+    """Prony series of Young's modulus, e.g. `[["0.3 MPa", "1 ms"]]` for its terms."""
+
+    equilibrium: f.Modulus = needed('modulus at rest, e.g. "30 kPa"')
+    terms: f.Several[Annotated[tuple[f.Modulus, f.Time], Strict(False)]] = needed(
+        "pairs of modulus and relaxation time"
+    )
+
+
+class Film(Section):
+    """Film that carries an adhesive, such as that of a tape; it bends as a plate."""
+
+    youngs_modulus: f.Modulus = needed('Young\'s modulus of the film, e.g. "3 GPa"')
+    poisson_ratio: f.Poisson = needed("Poisson's ratio of the film")
+    thickness: f.Length = needed('thickness of the film, e.g. "25 um"')
+
+
+def _name_backing(backing: object) -> str:
+    return "film" if isinstance(backing, dict | Film) else "base"
+
+
+Backing = Annotated[
+    Annotated[Film, Tag("film")] | Annotated[Literal["bonded", "slip"], Tag("base")],
+    Discriminator(_name_backing),
+]
+
+
+class Material(ElasticPair, f.Labelled):
+    """An elastic solid against a rigid rough counterface."""
+
+    one_of = (
+        (
+            *_MODULI,
+            "youngs_modulus_table and poisson_ratio",
+            "youngs_modulus_prony and poisson_ratio",
+        ),
+    )
+
+    youngs_modulus_table: f.AtLeastTwo[Annotated[tuple[f.Frequency, f.Modulus], Strict(False)]] = (
+        optional('pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]')
+    )
+    youngs_modulus_prony: Prony = optional("Prony series of Young's modulus")
+    dwell: f.Time = optional('time for which contact is made, e.g. "60 s"')
+    broken_at: f.Frequency = optional("rate at which contact is broken after a dwell (1 Hz)")
+    thickness: f.Thickness = optional("thickness of a layer; without it infinitely deep")
+    backing: Backing = optional(
+        "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
+    )
+    surface: str = optional("name of the rough surface of the solid itself, added to the other")
+    pressed: f.Pressure = optional('pressure before separation, e.g. "10 kPa"; a touch without it')
+    law: f.PredictedLaw = optional(
+        "traction law; default exponential. The range of van_der_waals is D0", EXPONENTIAL
+    )
+
+    @model_validator(mode="after")
+    def check_rates(self) -> Self:
+        """Check that the modulus is known at the rates at which verdicts are made."""
+        frequencies = [frequency for frequency, _ in self.youngs_modulus_table or []]
+        if frequencies != sorted(set(frequencies)):
+            listed = ", ".join(frequency.text for frequency in frequencies)
+            raise EntryError("youngs_modulus_table", listed, "frequencies must ascend")
+        if self.dwell is None and self.broken_at is not None:
+            raise EntryError("broken_at", self.broken_at, "belongs to a dwell: give it, too")
+        quoted = Quantity(REFERENCE_FREQUENCY, f"{REFERENCE_FREQUENCY:g} Hz")
+        roles = {quoted: "at which the verdict is quoted"}
+        if self.dwell is not None:
+            if not frequencies and self.youngs_modulus_prony is None:
+                text = "give youngs_modulus_table or youngs_modulus_prony"
+                raise EntryError("dwell", self.dwell, text)
+            self.broken_at = self.broken_at or quoted
+            rate = relaxation_frequency(self.dwell)
+            relaxed = Quantity(float(f"{rate:.3g}"), f"{rate:.3g} Hz")
+            roles = {
+                self.broken_at: "at which the verdict is quoted",
+                relaxed: f"1/(pi^2 dwell) for dwell = {self.dwell!r}",
+            }
+        for frequency, role in roles.items():
+            if frequencies and not frequencies[0] <= frequency <= frequencies[-1]:
+                covered = f"{frequencies[0].text} to {frequencies[-1].text}"
+                text = f"runs from {covered} and must cover {frequency.text}, {role}"
+                raise EntryError("youngs_modulus_table", None, text)
+        return self
+
+    @model_validator(mode="after")
+    def check_layer(self) -> Self:
+        """Check what only layers have, and fill in that they are bonded."""
+        if self.thickness is None:
+            if self.backing is not None:
+                text = "belongs to a layer: give its thickness, too"
+                raise EntryError("backing", self.backing, text)
+            return self
+        if self.plane_strain_modulus is not None:
+            text = "a layer needs youngs_modulus and poisson_ratio instead of plane_strain_modulus"
+            raise EntryError("thickness", self.thickness, text)
+        if self.poisson_ratio < 0:
+            text = "must be between 0 and 0.5 for a layer"
+            raise EntryError("poisson_ratio", self.poisson_ratio, text)
+        self.backing = self.backing or "bonded"
+        return self
+
+    @model_validator(mode="after")
+    def check_surface(self, info: ValidationInfo) -> Self:
+        """Check that the surface of the solid itself is among those of the configuration."""
+        surfaces = (info.context or {}).get("surfaces")
+        if None not in (self.surface, surfaces) and self.surface not in surfaces:
+            raise EntryError(
+                "surface", self.surface, f"unknown name; {suggest(self.surface, surfaces)}"
+            )
+        return self
+
+
+class Materials(Section):
+    """The file of materials."""
+
+    materials: f.Names[Material] = needed("materials by name")

@@ -1,0 +1,378 @@
+"""Models of a real surface in the configuration."""
+
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    AfterValidator,
+    Discriminator,
+    Field,
+    PlainValidator,
+    Tag,
+    ValidationInfo,
+    WithJsonSchema,
+    model_validator,
+)
+
+from stickiness import plausibility
+from stickiness.entries import fields as f
+from stickiness.entries.errors import EntryError
+from stickiness.entries.fields import Section, needed, optional
+from stickiness.entries.material_entry import ElasticPair
+from stickiness.measured import readers, texture
+from stickiness.measured.levelling import MAX_MISSING
+from stickiness.spectrum import kinds
+from stickiness.units import Quantity, si
+
+JACKSBORO = "builtin:jacksboro"  #: the topography that comes with the project
+
+
+def _as_list(value: Any) -> list[Any]:
+    """Return a value, a list of values or None as a list."""
+    if value is None:
+        return []
+    return value if isinstance(value, list) else [value]
+
+
+def _check_order(section: Section, key: str) -> None:
+    values = _as_list(getattr(section, key))
+    if values != sorted(values):
+        raise EntryError(key, values, "must be [low, high]")
+
+
+def _read_prefactor(value: Any, info: ValidationInfo) -> Quantity:
+    """Read C0, whose unit depends on the Hurst exponent."""
+    if isinstance(value, Quantity) or "hurst" not in info.data:
+        return value
+    unit = f"m^{2 - 2 * info.data['hurst']:g}"
+    if isinstance(value, int | float) and (info.context or {}).get("numbers"):
+        value = f"{value!r} {unit}"
+    prefactor = Quantity.read(value, unit)
+    if not prefactor > 0:
+        raise ValueError("must be positive")
+    return prefactor
+
+
+Prefactor = Annotated[Quantity, PlainValidator(_read_prefactor), WithJsonSchema({"type": "string"})]
+
+
+class SelfAffine(f.Labelled, f.Direction):
+    """A surface of `kind: self_affine`."""
+
+    one_of = (("longest_wavelength", "q0"), ("shortest_wavelength", "q1"), ("h_rms", "C0"))
+
+    kind: Literal["self_affine"] = needed("parameters of a spectrum")
+    hurst: f.Hurst
+    longest_wavelength: f.Length = optional('longest wavelength, e.g. "6 mm"; or give q0')
+    shortest_wavelength: f.Length = optional('shortest wavelength, e.g. "1 um"; or give q1')
+    q0: f.WaveNumber = optional('lowest wave number, e.g. "1e3 1/m"')
+    q1: f.WaveNumber = optional('highest wave number, e.g. "1e9 1/m"')
+    rolloff_wavelength: f.Length = optional("wavelength above which the spectrum is flat")
+    h_rms: f.OneOrTwo[f.Length] = optional('rms height or its range, e.g. ["0.5 um", "2 um"]')
+    C0: f.OneOrTwo[Prefactor] = optional(
+        'prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"'
+    )
+
+    @model_validator(mode="after")
+    def check_wavelengths(self) -> Self:
+        """Check the order of the wavelengths."""
+        longest = self.longest_wavelength or 2 * math.pi / self.q0
+        shortest = self.shortest_wavelength or 2 * math.pi / self.q1
+        if not shortest < longest:
+            key = "q1" if self.shortest_wavelength is None else "shortest_wavelength"
+            text = f"the shortest wavelength must be below the longest, {longest:g} m"
+            raise EntryError(key, getattr(self, key), text)
+        rolloff = self.rolloff_wavelength
+        if rolloff is not None and not shortest < rolloff < longest:
+            text = f"must be in {shortest:g} … {longest:g} m"
+            raise EntryError("rolloff_wavelength", rolloff, text)
+        return self
+
+    @model_validator(mode="after")
+    def check_heights(self) -> Self:
+        """Check the order of both ends, and that the rough end is not too steep."""
+        key = "h_rms" if self.C0 is None else "C0"
+        _check_order(self, key)
+        roughest = _as_list(getattr(self, key))[-1]
+        rough = kinds.SelfAffine(
+            hurst=self.hurst,
+            q0=self.q0 or 2 * math.pi / self.longest_wavelength,
+            q1=self.q1 or 2 * math.pi / self.shortest_wavelength,
+            q_rolloff=self.rolloff_wavelength and 2 * math.pi / self.rolloff_wavelength,
+            h_rms=float(roughest) if key == "h_rms" else None,
+            C0=float(roughest) if key == "C0" else None,
+        )
+        if rough.rms_slope > plausibility.LARGEST_SLOPE:
+            text = (
+                f"means an rms slope of {rough.rms_slope:.3g}, above "
+                f"{plausibility.LARGEST_SLOPE:g}, which no surface has; correct it, its unit or "
+                "the wavelengths"
+            )
+            raise EntryError(key, roughest, text)
+        return self
+
+
+class SurfaceTexture(f.Labelled):
+    """A surface of `kind: surface_texture`, by the parameters of profiles on drawings.
+
+    The heights are assumed to be Gaussian and isotropic, with Hurst exponents from 0.6 to 1.
+    """
+
+    one_of = (("Ra", "Rq"),)
+
+    kind: Literal["surface_texture"] = needed("parameters of profiles (ISO 21920, ISO 4287)")
+    Ra: f.OneOrTwo[f.Length] = optional('mean deviation or its range, e.g. "0.8 um"')
+    Rq: f.OneOrTwo[f.Length] = optional("rms deviation or its range, instead of Ra")
+    Rz: f.Length = optional("maximum height, to check that heights can be Gaussian")
+    RSm: f.OneOrTwo[f.Length] = optional(
+        "mean spacing of profile elements; default 0.04 to 0.5 times lambda_c"
+    )
+    lambda_c: f.Length = optional("cut-off of the profile filter; default by ISO 4288")
+    shortest_wavelength: f.Length = optional("shortest wavelength; default 1 nm")
+
+    @model_validator(mode="after")
+    def check_parameters(self) -> Self:
+        """Check that a surface with Gaussian heights can have all parameters."""
+        self.shortest_wavelength = self.shortest_wavelength or Quantity.read("1 nm", "m")
+        for key in ("Ra", "Rq", "RSm"):
+            _check_order(self, key)
+        widths = _as_list(self.RSm)
+        if any(width >= (self.lambda_c or 8e-3) for width in widths):
+            raise EntryError("RSm", self.RSm, "must be below lambda_c, at most 8 mm")
+        rq = _as_list(self.Rq) or [texture.RQ_OVER_RA * ra for ra in _as_list(self.Ra)]
+        if widths and 2 * math.pi * rq[0] > plausibility.LARGEST_SLOPE * max(widths):
+            text = "is too narrow for such heights: no surface is as steep"
+            raise EntryError("RSm", self.RSm, text)
+        if widths and self.shortest_wavelength >= min(widths) / 2:
+            text = "must be below half of RSm"
+            raise EntryError("shortest_wavelength", self.shortest_wavelength, text)
+        low, high = texture.RZ_OVER_RQ
+        if self.Rz is not None and not low * rq[0] <= self.Rz <= high * rq[-1]:
+            text = (
+                f"is outside {low * rq[0]:.2g} m to {high * rq[-1]:.2g} m of Gaussian heights, "
+                "which are assumed: measure the surface, or leave Rz out"
+            )
+            raise EntryError("Rz", self.Rz, text)
+        return self
+
+
+def _check_length_unit(unit: str) -> str:
+    si(f"1 {unit}", "m")
+    return unit
+
+
+LengthUnit = Annotated[str, AfterValidator(_check_length_unit)]
+
+
+class Reading(Section):
+    """How a measured file is read and analysed."""
+
+    file: f.Text = needed('file of any instrument, .nc, .npz, .npy, text or "builtin:jacksboro"')
+    format: f.Text = optional(
+        "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
+    )
+    channel: str | f.Index = optional("channel of an instrument's file")
+    variable: str = optional("NetCDF variable or npz key")
+    length: f.OneOrTwo[f.Length] = optional("side, or sides along x and y, of what was measured")
+    pixel_size: f.OneOrTwo[f.Length] = optional("grid step, instead of length")
+    height_unit: LengthUnit = optional('unit of the heights, e.g. "nm"')
+    position_unit: LengthUnit = optional('unit of the positions of a line profile, e.g. "um"')
+    missing_value: float = optional("number that marks missing points besides NaN")
+    missing: Literal["fill", "crop", "refuse"] = optional(
+        "interpolate missing points, cut to the largest rectangle without any, or stop", "fill"
+    )
+    max_missing: Annotated[float, Field(ge=0, lt=1)] = optional(
+        "largest share that is filled", MAX_MISSING
+    )
+    missing_rim: Literal["detect"] | f.Index = optional(
+        "points dropped around missing ones; default detect: as far as they stand out", "detect"
+    )
+    spikes: Literal["mask", "keep"] = optional(
+        "mask (default) points far off their neighbours", "mask"
+    )
+    detrend: Literal["mean", "plane", "quadratic"] = optional(
+        "what to subtract from the heights", "plane"
+    )
+    window: Literal["none", "hann", "hann_radial"] = optional(
+        "taper; none for periodic heights", "hann"
+    )
+    fit_from: f.Length = optional("longest wavelength of the fit; default a quarter of the side")
+    fit_to: f.Length = optional("shortest wavelength of the fit; overrides the next three")
+    resolution: f.Length = optional("shortest wavelength that the instrument resolves")
+    tip_radius: f.Length = optional('radius of a scanning tip, e.g. "10 nm"')
+    cutoff: Literal["detect", "ignore"] = optional(
+        "blur and noise in the spectrum; default detect", "detect"
+    )
+
+    @model_validator(mode="after")
+    def check_file(self, info: ValidationInfo) -> Self:
+        """Check what is known of a file before it is read.
+
+        The context says with `made` that another workflow makes the file, which may be missing, and
+        with `unread` that reading it will tell.
+        """
+        context = info.context or {}
+        if self.file is None or context.get("unread"):
+            return self
+        if self.file.startswith("builtin:"):
+            if self.file != JACKSBORO:
+                raise EntryError("file", self.file, f"unknown name; built in: {JACKSBORO}")
+            return self
+        path = Path(self.file)
+        if not path.is_file():
+            if context.get("made"):
+                return self
+            problem = "a folder" if path.is_dir() else "no such file"
+            raise EntryError(
+                "file", self.file, f"{problem}; give a path from the working directory"
+            )
+        if advice := readers.find_packing(self.file):
+            raise EntryError("file", self.file, advice)
+        self._check_keys_of_format()
+        return self
+
+    def _check_keys_of_format(self) -> None:
+        """Check keys that belong to other keys, or to files of other formats."""
+        if self.length is not None and self.pixel_size is not None:
+            raise EntryError("pixel_size", self.pixel_size, "give length or pixel_size, not both")
+        if self.missing != "fill" and "max_missing" in self.model_fields_set:
+            text = (
+                f"is the share that missing: fill fills; leave it out with missing: {self.missing}"
+            )
+            raise EntryError("max_missing", self.max_missing, text)
+        kind = readers.format_of(self.file, self.format)
+        if kind != readers.INSTRUMENT and self.channel is not None:
+            raise EntryError(
+                "channel", self.channel, f"a {kind} file has no channels; leave it out"
+            )
+        if kind not in ("netcdf", "numpy") and self.variable is not None:
+            text = "is for NetCDF and npz, this file is neither"
+            raise EntryError("variable", self.variable, text)
+        if self.fit_from and self.fit_to and not self.fit_to < self.fit_from:
+            raise EntryError("fit_to", self.fit_to, f"must be below fit_from = {self.fit_from!r}")
+
+
+def _name_load(load: object) -> str:
+    return "pressure" if isinstance(load, str | Quantity) else "number"
+
+
+Load = Annotated[
+    Annotated[f.Pressure, Tag("pressure")] | Annotated[f.Positive, Tag("number")],
+    Discriminator(_name_load),
+]
+
+
+class Contact(Section):
+    """Contact of the measured heights themselves.
+
+    A job asks for 2 GB of memory at 2048 points along a side, 7 GB at 4096 and 25 GB at 8192. A
+    load without adhesion takes about 5 s of processor at 2048 and 30 s at 4096; with adhesion
+    whose edges the grid does not resolve, about 3 min at 2048 and, extrapolated, 20 min at 4096.
+    """
+
+    pressures: f.Several[Load] = needed(
+        'mean pressures over E* q0 h_rms; or with a unit, e.g. "0.25 MPa", beside `adhesion`'
+    )
+    shortest_wavelength: f.Length = optional("shortest wavelength to keep")
+    measurement: f.Index = optional("which of `measurements`, counted from 0; default the first", 0)
+    periodic: bool = optional(
+        "true: the heights are periodic and pressed on the grid of the file", False
+    )
+    most_points: Annotated[int, Field(ge=64, le=8192)] = optional(
+        "largest grid along a side; default 2048", 2048
+    )
+    adhesion: ElasticPair = optional("contact on approach with exponential attraction as well")
+
+    @model_validator(mode="after")
+    def check_units(self) -> Self:
+        """Check that all pressures have a unit or none, and a modulus if they have one."""
+        with_unit = [isinstance(pressure, Quantity) for pressure in self.pressures]
+        for index, pressure in enumerate(self.pressures if any(with_unit) else []):
+            key = f"pressures[{index}]"
+            if not with_unit[index]:
+                text = "has no unit, while others have; give all of them one kind"
+                raise EntryError(key, pressure, text)
+            if self.adhesion is None:
+                text = (
+                    "needs bem.adhesion, which gives the modulus; or give it over E* q0 h_rms, "
+                    "without a unit"
+                )
+                raise EntryError(key, pressure, text)
+        return self
+
+
+class Measured(f.Labelled, Reading):
+    """A surface of `kind: measured`.
+
+    Keys of reading apply to every measurement that does not give its own.
+    """
+
+    one_of = (("file", "measurements"),)
+
+    kind: Literal["measured"] = needed("a measurement")
+    file: f.Text = optional("as in a measurement")
+    measurements: f.AtLeastTwo[Reading] = optional("several files, averaged into one spectrum")
+    plausibility: Literal["check", "ignore"] = optional(
+        "ignore: a verdict on implausible data, too", "check"
+    )
+    extend_to: f.Length = optional("wavelength to which the fit is extended beyond the instrument")
+    bem: Contact = optional("contact of the measured heights themselves, made periodic")
+
+    @model_validator(mode="before")
+    @classmethod
+    def share_keys(cls, entry: Any) -> Any:
+        """Give the keys of reading to every measurement that does not have its own."""
+        if not isinstance(entry, dict) or not isinstance(entry.get("measurements"), list):
+            return entry
+        shared = {key: entry[key] for key in Reading.model_fields if key in entry}
+        measurements = [
+            shared | measurement if isinstance(measurement, dict) else measurement
+            for measurement in entry["measurements"]
+        ]
+        return entry | {"measurements": measurements}
+
+    @model_validator(mode="after")
+    def check_sides(self, info: ValidationInfo) -> Self:
+        """Check the sides of what was measured, which are mistyped most often."""
+        if self.plausibility == "ignore" or (info.context or {}).get("unread"):
+            return self
+        for index, measurement in enumerate(self.measurements or [self]):
+            key = f"measurements[{index}].length" if self.measurements else "length"
+            for side in _as_list(measurement.length):
+                if side > plausibility.LONGEST_SIDE:
+                    raise EntryError(key, side, plausibility.REFUSED_SIDE)
+                if side < plausibility.SHORTEST_SIDE:
+                    text = (
+                        f"is shorter than {plausibility.SHORTEST_SIDE:g} m, a few atoms; correct "
+                        "it, or give plausibility: ignore if it is so"
+                    )
+                    raise EntryError(key, side, text)
+        return self
+
+    @model_validator(mode="after")
+    def check_contact(self) -> Self:
+        """Check which measurement is pressed, and that nothing breaks its period."""
+        if self.bem is None:
+            return self
+        measurements = self.measurements or [self]
+        if self.bem.measurement >= len(measurements):
+            text = f"is counted from 0 and must be below {len(measurements)}"
+            raise EntryError("bem.measurement", self.bem.measurement, text)
+        pressed = measurements[self.bem.measurement]
+        breaks = "would break the period that bem.periodic states; give"
+        levelled = "detrend" in pressed.model_fields_set and pressed.detrend != "mean"
+        if self.bem.periodic and levelled:
+            raise EntryError("detrend", pressed.detrend, f"{breaks} detrend: mean")
+        if self.bem.periodic and pressed.missing == "crop":
+            raise EntryError("missing", "crop", f"{breaks} missing: fill or refuse")
+        return self
+
+
+Surface = Annotated[Measured | SurfaceTexture | SelfAffine, Field(discriminator="kind")]
+
+
+class Surfaces(Section):
+    """The file of real surfaces."""
+
+    surfaces: f.Names[Surface] = needed("real surfaces by name")

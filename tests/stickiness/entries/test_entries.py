@@ -1,0 +1,97 @@
+"""Entries of materials and surfaces: checked, in SI units, complete."""
+
+import pickle
+import subprocess
+import sys
+
+import pytest
+
+from stickiness import entries
+from stickiness.units import Quantity, write_quantities
+
+TAPE = {
+    "youngs_modulus": "0.2 MPa",
+    "poisson_ratio": 0.5,
+    "work_of_adhesion": "60 mJ/m^2",
+    "range": "0.3 nm",
+}
+SERIES = {"equilibrium": "30 kPa", "terms": [["0.3 MPa", "1 ms"]]}
+
+
+def test_numbers_are_in_si_units_and_remember_their_text():
+    tape = entries.check_material(TAPE | {"thickness": 5e-5})
+    assert tape["youngs_modulus"] == pytest.approx(2e5)
+    assert str(tape["youngs_modulus"]) == "0.2 MPa"
+    assert tape["thickness"] == 5e-5
+    assert tape["backing"] == "bonded"
+    assert tape["dwell"] is None
+
+
+def test_a_checked_entry_may_be_checked_again_and_so_may_its_texts():
+    film = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.3, "thickness": "25 um"}
+    tape = entries.check_material(TAPE | {"thickness": "50 um", "backing": film})
+    assert entries.check_material(tape) == tape
+    assert entries.check_material(write_quantities(tape)) == tape
+
+
+def test_a_dwell_is_broken_at_1_hz():
+    series = {"youngs_modulus": None, "youngs_modulus_prony": SERIES, "dwell": "1 min"}
+    tape = entries.check_material(TAPE | series)
+    assert (tape["dwell"], tape["broken_at"]) == (60.0, 1.0)
+    ((modulus, time),) = tape["youngs_modulus_prony"]["terms"]
+    assert (modulus, time) == (pytest.approx(3e5), 1e-3)
+
+
+def test_sides_may_be_a_tuple_of_numbers():
+    surface = {"kind": "measured", "file": "a", "length": (1e-6, 2e-6)}
+    assert entries.check_surface(surface)["length"] == [1e-6, 2e-6]
+
+
+def test_measurements_share_the_keys_beside_their_list():
+    files = [{"file": "a"}, {"file": "b", "detrend": "mean", "length": ["1 um", "2 um"]}]
+    surface = {"kind": "measured", "detrend": "quadratic", "measurements": files}
+    first, second = entries.list_measurements(entries.check_surface(surface))
+    assert (first["file"], first["detrend"], first["length"]) == ("a", "quadratic", None)
+    assert (second["file"], second["detrend"], second["length"]) == ("b", "mean", [1e-6, 2e-6])
+    (single,) = entries.list_measurements(entries.check_surface({"kind": "measured", "file": "a"}))
+    assert (single["file"], single["window"], single["max_missing"]) == ("a", "hann", 0.1)
+
+
+@pytest.mark.parametrize(
+    ("check", "entry", "key", "value"),
+    [
+        (entries.check_material, TAPE | {"range": "0.3 mm"}, "range", "0.3 mm"),
+        (entries.check_material, TAPE | {"tickness": "1 mm"}, "tickness", None),
+        (entries.check_material, {}, "", None),
+        (entries.check_surface, {"kind": "measure"}, "kind", "measure"),
+        (entries.check_surface, {}, "kind", None),
+    ],
+)
+def test_an_error_has_a_key_and_a_value(check, entry, key, value):
+    with pytest.raises(entries.EntryError) as caught:
+        check(entry)
+    assert (caught.value.key, caught.value.value) == (key, value)
+
+
+def test_materials_are_read_from_a_file(tmp_path):
+    path = tmp_path / "tape.yaml"
+    path.write_text(
+        "materials: {tape: {label: tape, source: own, plane_strain_modulus: 1 MPa, "
+        "work_of_adhesion: 50 mJ/m^2, range: 0.3 nm}}",
+        encoding="utf-8",
+    )
+    assert entries.read_materials(path)["tape"]["plane_strain_modulus"] == 1e6
+
+
+def test_quantities_are_pickled_and_written():
+    length = Quantity.read("10 um", "m")
+    copy = pickle.loads(pickle.dumps(length))
+    assert copy == length == pytest.approx(1e-5)
+    assert (copy.text, repr(copy), f"{copy}") == ("10 um", "'10 um'", "10 um")
+    assert write_quantities({"length": [length, None]}) == {"length": ["10 um", None]}
+
+
+def test_importing_the_library_needs_neither_pydantic_nor_yaml():
+    code = "import sys, stickiness.entries; print({'pydantic', 'yaml'} & {*sys.modules})"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "set()"
