@@ -92,5 +92,4 @@ for target, files in TARGETS.items():
             files,
 
 
-check_targets()
 save_cache()

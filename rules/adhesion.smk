@@ -7,8 +7,8 @@ from functools import cache
 @cache
 def model_of(adhesion):
     """Model of every point of a set of adhesive parameters."""
-    asked = ADHESION[adhesion]
-    return model_choice.choose(asked, model_surface_of(asked["case"]), DMT_ERRORS)
+    entry = ADHESION[adhesion]
+    return model_choice.choose(entry, model_surface_of(entry["case"]), DMT_ERRORS)
 
 
 def case_of(wildcards):
@@ -30,8 +30,8 @@ def seeds_in_full(adhesion):
     """Seeds that are solved in full; none if the DMT sum is good enough everywhere."""
     if not model_of(adhesion).full.any():
         return []
-    asked = ADHESION[adhesion]
-    return seeds_of(asked["case"])[: asked.get("seeds")]
+    entry = ADHESION[adhesion]
+    return seeds_of(entry["case"])[: entry["seeds"]]
 
 
 def seeds_by_grids(wildcards):

@@ -14,7 +14,7 @@ def describe_plan(wildcards):
         "simulated": planned.simulated,
         "settings": vars(planned.settings),
         "surface": model_surface_of(wildcards.case),
-        "accuracy": case.get("accuracy"),
+        "accuracy": case["accuracy"],
     }
 
 

@@ -1,61 +1,73 @@
 # Checks the configuration and turns it into the tables that the rules use. No rule stands here.
 
-import difflib
 import re
 import time
 from collections import Counter
 from pathlib import Path
 
-from snakemake.cli import get_argument_parser
 from snakemake.utils import update_config
 
-
+from common.config.simulations import ModelSurface
 from common.source_hash import save_cache, source_hash
 from stickiness.accuracy import model_choice, plan
 from stickiness.accuracy.error_models import read_models
-from common.config.entries import MOST_POINTS, measurements
+from stickiness.entries import list_measurements
+
+STARTED = time.time()
 
 # Tables that this project measured, which are committed.
-ERROR_MODELS, TRADE_SUMMARY, REMAINING_TABLE, DMT_ERROR_TABLE = (
-    project_file(f"config/{name}.csv")
-    for name in ("accuracy", "tradeoff", "remaining", "dmt_error")
-)
+ERROR_MODELS = project_file("config/accuracy.csv")
+TRADE_SUMMARY = project_file("config/tradeoff.csv")
+REMAINING_TABLE = project_file("config/remaining.csv")
+DMT_ERROR_TABLE = project_file("config/dmt_error.csv")
+
+
+def read_configuration():
+    """Checked content of every file of the configuration, in SI units and with all defaults."""
+    whole = load.defaults(PROJECT, project_file)
+    update_config(whole, config)
+    campaigns = {name: load.load(Path(PROJECT, path)) for name, path in load.CAMPAIGNS.items()}
+    # What errors call the user's configuration: its file, and those of the command.
+    files = [word for word in sys.argv[1:] if word.endswith((".yaml", ".yml"))]
+    name = f"config of module {MODULE}" if MODULE else " or ".join([load.USER, *files])
+    return load.check_all(whole, campaigns, config, name, made=bool(MODULE))
+
 
 with one_line():
-    # What a user leaves out is as in the project.
-    given, config = config, load.defaults(PROJECT, project_file)
-    update_config(config, given)
-    campaigns = {name: load.load(Path(PROJECT, path)) for name, path in load.CAMPAIGNS.items()}
-    TRADE, REMAINING_CAMPAIGN = campaigns["tradeoff"], campaigns["remaining"]
-    if workflow.is_main_process:  # whose jobs read what was checked here
-        more = [word for word in sys.argv[1:] if word.endswith((".yaml", ".yml"))]
-        name = f"config of module {MODULE}" if MODULE else " or ".join([load.USER, *more])
-        load.check_all(config, campaigns, given, name, made=bool(MODULE))
-    MATERIALS, REAL_SURFACES, EXPERIMENTS = (
-        load.load(config[table])[table] for table in load.TABLES
-    )
+    checked = read_configuration()
+    config = checked["config"]
     PLANS = plan.plans_of(config, read_models(ERROR_MODELS))
     DMT_ERRORS = model_choice.read_table(DMT_ERROR_TABLE)
 
-STARTED = time.time()
+MATERIALS = checked["materials"]["materials"]
+REAL_SURFACES = checked["surfaces"]["surfaces"]
+EXPERIMENTS = checked["experiments"]["experiments"]
+TRADE = checked["tradeoff"]
+REMAINING_CAMPAIGN = checked["remaining"]
+
 FIDELITY = config["fidelities"][config["fidelity"]]
-RESULTS = f"{config['results']}/{config['fidelity']}"
-for folder in (Path(RESULTS), *Path(RESULTS).parents):
-    if folder.exists() and not folder.is_dir():
-        sys.exit(f"{folder} must be a folder: move this file, or set `results` in {load.USER}")
-TRADEOFF = f"{config['results']}/tradeoff"
-REMAINING = f"{config['results']}/remaining"
-MODEL_SURFACES, CASES = config["model_surfaces"], config["cases"]
-SWEEPS, ADHESION, LOOPS = config["theory"]["sweeps"], config["adhesion"], config["loops"]
-GAMMA, GAPS = config["theory"]["gamma"], config["gaps"]
+MODEL_SURFACES = config["model_surfaces"]
+CASES = config["cases"]
+SWEEPS = config["theory"]["sweeps"]
+ADHESION = config["adhesion"]
+LOOPS = config["loops"]
+GAMMA = config["theory"]["gamma"]
+GAPS = config["gaps"]
+COMPARISONS = {
+    name: config["comparisons"]["surfaces"][name]
+    for name in FIDELITY["comparisons"] or config["comparisons"]["surfaces"]
+}
 LABELS = {name: entry["label"] for name, entry in REAL_SURFACES.items()}
 MEASURED_SURFACES = [name for name, entry in REAL_SURFACES.items() if entry["kind"] == "measured"]
 # Figures and report show the cases that are simulated for every quantity.
 COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
-COMPARISONS = {
-    name: config["comparisons"]["surfaces"][name]
-    for name in FIDELITY.get("comparisons", config["comparisons"]["surfaces"])
-}
+
+RESULTS = f"{config['results']}/{config['fidelity']}"
+TRADEOFF = f"{config['results']}/tradeoff"
+REMAINING = f"{config['results']}/remaining"
+for folder in (Path(RESULTS), *Path(RESULTS).parents):
+    if folder.exists() and not folder.is_dir():
+        sys.exit(f"{folder} must be a folder: move this file, or set `results` in {load.USER}")
 
 
 def choices(names):
@@ -79,8 +91,8 @@ def model_surface_of(name):
     """Parameters of the surface that a case, or a comparison of theory with simulation, is on."""
     if name in CASES:
         return MODEL_SURFACES[CASES[name]["surface"]]
-    keys = ("hurst", "magnification", "window")
-    return {key: COMPARISONS[name][key] for key in keys if key in COMPARISONS[name]}
+    band = {key: COMPARISONS[name][key] for key in ("hurst", "magnification", "window")}
+    return ModelSurface(**band).model_dump()
 
 
 def pressures_of(name):
@@ -127,28 +139,15 @@ def a_v_of_simulation(case):
     return f"{RESULTS}/fits/a_v/ensembles/{case}.nc"
 
 
-def check_targets():
-    """Stop if the command names a target that no rule makes, and say what may be meant."""
-    by_command = workflow.is_main_process and Path(sys.argv[0]).stem in ("snakemake", "__main__")
-    if MODULE or not by_command:
-        return
-    files = [
-        file
-        for found in TARGETS.values()
-        for file in ([found] if isinstance(found, str) else found)
-    ]
-    for target in get_argument_parser().parse_known_args()[0].targets:
-        asked = re.match(rf"{re.escape(config['results'])}/([^/]+)/", target)
-        if asked and asked[1] in config["fidelities"] and asked[1] != config["fidelity"]:
-            sys.exit(
-                f"{target} is of fidelity {asked[1]}, this run of {config['fidelity']}: "
-                f"add --config fidelity={asked[1]}"
-            )
-        made = any(target == rule.name or rule.is_producer(target) for rule in workflow.rules)
-        if not made and not Path(target).exists():
-            close = difflib.get_close_matches(target, [*TARGETS, *files], n=1)
-            hint = f"did you mean {close[0]!r}?" if close else f"choose from {', '.join(TARGETS)}"
-            sys.exit(f"{target!r} is no target; {hint}")
+def find_results(pattern):
+    """Files that this run has made."""
+    results = Path(rules.write_report.output[0]).parents[1]  # with the prefix of a module
+    return sorted(path for path in results.glob(pattern) if path.stat().st_mtime >= STARTED)
+
+
+def count_words(words):
+    """Words by how often they occur: "3 true; 1 false"."""
+    return "; ".join(f"{number} {word}" for word, number in Counter(words).most_common())
 
 
 def summarise():
@@ -156,41 +155,29 @@ def summarise():
     from stickiness import datasets
     from stickiness.criteria.pair import WORDS
 
-    def find(pattern):  # files of this run, not of an earlier one
-        return [path for path in results.glob(pattern) if path.stat().st_mtime >= STARTED]
-
-    def count(words):
-        return "; ".join(f"{n} {word}" for word, n in Counter(map(str, words)).most_common())
-
-    results = Path(rules.write_report.output[0]).parents[1]  # with the prefix of a module
+    results = Path(rules.write_report.output[0]).parents[1]
     lines = [("results", results)]
-    lines += [("report", path) for path in find("report/report.html")]
-    for path in find("claims/claims.nc"):
-        lines.append(("claims", count(datasets.read(path, ["verdict"]).verdict.values)))
-    for path in find("criteria/verdicts.nc"):
+    for path in find_results("report/report.html"):
+        lines.append(("report", path))
+    for path in find_results("claims/claims.nc"):
+        verdicts = datasets.read(path, ["verdict"]).verdict.values
+        lines.append(("claims", count_words(map(str, verdicts))))
+    for path in find_results("criteria/verdicts.nc"):
         codes = datasets.read(path, ["verdict"]).verdict.values.ravel()
-        lines.append(("pairs", count(WORDS[code] for code in codes)))
-    for case in CASES:
+        lines.append(("pairs", count_words(WORDS[code] for code in codes)))
+    for case, entry in CASES.items():
         path = results / f"cases/{case}.nc"
-        if "accuracy" in CASES[case] and path.exists():
+        if entry["accuracy"] is not None and path.exists():
             missed = datasets.read(path).attrs.get("missed")
             lines += [("missed", missed)] if missed else []
-    if pages := find("report/surfaces/*.html"):
-        lines.append(("pages", ", ".join(sorted(map(str, pages)))))
-    print("\n".join(f"  {what:<9} {text}" for what, text in lines), file=sys.stderr)
+    if pages := find_results("report/surfaces/*.html"):
+        lines.append(("pages", ", ".join(map(str, pages))))
+    for what, text in lines:
+        print(f"  {what:<9} {text}", file=sys.stderr)
 
 
 onsuccess:
     summarise()
-
-
-def explain(job):
-    """Say which files a job failed to make, why, and where its log is."""
-    path = Path(str(job.log[0]))
-    said = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
-    errors = re.findall(r" ERROR (.*)", said)
-    reason = errors[-1] if errors else "ended without a word; was it killed, or out of memory?"
-    return f"{', '.join(job.output)}: {reason} (log: {path})"
 
 
 onerror:
@@ -200,7 +187,7 @@ onerror:
         "            was made.",
         file=sys.stderr,
     )
-    # Snakemake's log, which it offers here, lacks the errors of a quiet run.
-    failed = (job if job.is_group() else [job] for job in workflow.scheduler.failed)
-    for line in sorted(explain(job) for group in failed for job in group):
-        print(f"  failed    {line}", file=sys.stderr)
+    for path in find_results("logs/**/*.log"):
+        errors = re.findall(r" ERROR (.*)", path.read_text(encoding="utf-8", errors="replace"))
+        if errors:
+            print(f"  failed    {errors[-1]} (log: {path})", file=sys.stderr)

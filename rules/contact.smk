@@ -33,16 +33,17 @@ def gaps_of(wildcards):
 
 
 def comparison_pixels(wildcards):
-    asked = COMPARISONS[wildcards.comparison]
+    """Grid points per shortest wavelength of a comparison: its own at most."""
     preset = FIDELITY["pixels_per_wavelength"]
-    return min(asked.get("pixels_per_wavelength", preset), preset)
+    most = COMPARISONS[wildcards.comparison]["pixels_per_wavelength"]
+    return preset if most is None else min(most, preset)
 
 
 def comparison_solutions(wildcards):
     """Fine solutions of a comparison, and its coarse ones by what they cost beside these."""
-    asked = COMPARISONS[wildcards.comparison]
-    coarse = asked.get("coarse_seeds", 0) * (2 / comparison_pixels(wildcards)) ** 2
-    return (asked["seeds"] + coarse) * len(config["comparisons"]["pressures"])
+    comparison = COMPARISONS[wildcards.comparison]
+    coarse = comparison["coarse_seeds"] * (2 / comparison_pixels(wildcards)) ** 2
+    return (comparison["seeds"] + coarse) * len(config["comparisons"]["pressures"])
 
 
 rule solve_repulsive:
@@ -111,7 +112,7 @@ rule contact_maps:
     resources:
         mem_mb=memory(22 + plan.SEEDS_A_FILE, case_size),
     params:
-        pressures=lambda wildcards: CASES[wildcards.case].get("maps", []),
+        pressures=lambda wildcards: CASES[wildcards.case]["maps"] or [],
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         code=source_hash("contact/contact_maps.py"),
     script:
@@ -136,7 +137,7 @@ rule solve_ensemble:
         surface=lambda wildcards: model_surface_of(wildcards.comparison),
         pressures=config["comparisons"]["pressures"],
         seeds=lambda wildcards: COMPARISONS[wildcards.comparison]["seeds"],
-        coarse_seeds=lambda wildcards: COMPARISONS[wildcards.comparison].get("coarse_seeds", 0),
+        coarse_seeds=lambda wildcards: COMPARISONS[wildcards.comparison]["coarse_seeds"],
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
         tolerance=FIDELITY["tolerance"],
         pixels_per_wavelength=comparison_pixels,

@@ -39,7 +39,7 @@ rule map_criterion:
 
 def material_surfaces():
     """Surfaces of the materials that are rough themselves."""
-    return sorted({entry["surface"] for entry in MATERIALS.values() if "surface" in entry})
+    return sorted({entry["surface"] for entry in MATERIALS.values() if entry["surface"]})
 
 
 MATERIAL_SURFACES = several("real_surfaces/{surface}.nc", surface=material_surfaces())
@@ -51,9 +51,32 @@ JUDGED = {
 }
 
 
+rule judge_surface:
+    input:
+        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        material_surfaces=MATERIAL_SURFACES,
+    output:
+        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+        contact_laws=f"{RESULTS}/criteria/verdicts/{{real_surface}}.json",
+    log:
+        f"{RESULTS}/logs/judge_surface/criteria/verdicts/{{real_surface}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/judge_surface/criteria/verdicts/{{real_surface}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        **JUDGED,
+        labels=lambda wildcards: {
+            name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
+        },
+        code=source_hash("criteria/judge_surface.py"),
+    script:
+        "../scripts/criteria/judge_surface.py"
+
+
 rule judge:
     input:
-        surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        verdicts=several("criteria/verdicts/{surface}.nc", surface=REAL_SURFACES),
         template=project_file("report/verdicts.md.j2"),
         page=project_file("report/verdicts.html.j2"),
         parts=PAGE_PARTS,
@@ -78,7 +101,7 @@ rule judge:
     conda:
         "../envs/environment.yaml"
     params:
-        **JUDGED,
+        materials=MATERIALS,
         labels=LABELS,
         code=source_hash("criteria/judge.py"),
     script:

@@ -10,15 +10,14 @@ def topographies(wildcards):
     """Files of a real surface's measurements; those that come with the project are left out."""
     if wildcards.real_surface not in MEASURED_SURFACES:
         return []
-    measured = measurements(REAL_SURFACES[wildcards.real_surface])
-    files = [measurement["file"] for _, measurement in measured]
+    measurements = list_measurements(REAL_SURFACES[wildcards.real_surface])
+    files = [measurement["file"] for measurement in measurements]
     return [local(file) for file in files if not file.startswith("builtin:")]
 
 
 def largest_contact(wildcards):
     """Megapixels of the largest grid on which measured heights are pressed."""
-    bem = REAL_SURFACES[wildcards.real_surface]["bem"]
-    return bem.get("most_points", MOST_POINTS) ** 2 / 1e6
+    return REAL_SURFACES[wildcards.real_surface]["bem"]["most_points"] ** 2 / 1e6
 
 
 rule analyse_surface:

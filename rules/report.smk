@@ -19,7 +19,7 @@ def contact_of_surface(wildcards):
     """Simulated contact of measured heights that the page of a surface shows, if there is any."""
     name = wildcards.real_surface
     found = {}
-    if "bem" in REAL_SURFACES[name]:
+    if name in MEASURED_SURFACES and REAL_SURFACES[name]["bem"]:
         found["measured_contact"] = f"{RESULTS}/real_surfaces/contact/{name}.nc"
     if name in MEASURED_SURFACES:
         found["contact"] = f"{RESULTS}/real_surfaces/pictures/{name}.nc"
@@ -62,6 +62,7 @@ rule write_report:
         "../envs/environment.yaml"
     params:
         presets=PRESETS,
+        materials=MATERIALS,
         surfaces=REAL_SURFACES,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
@@ -74,12 +75,14 @@ rule write_surface:
     input:
         unpack(contact_of_surface),
         template=project_file("report/surface.html.j2"),
-        parts=[*PAGE_PARTS, project_file("report/thresholds.html.j2")],
+        parts=[
+            *PAGE_PARTS,
+            project_file("report/thresholds.html.j2"),
+            project_file("report/reasons.html.j2"),
+        ],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        material_surfaces=MATERIAL_SURFACES,
-    output:
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
-        contact_laws=f"{RESULTS}/criteria/verdicts/{{real_surface}}.json",
+    output:
         figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
         curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(
@@ -94,7 +97,7 @@ rule write_surface:
     conda:
         "../envs/environment.yaml"
     params:
-        **JUDGED,
+        materials=MATERIALS,
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
         labels=lambda wildcards: {
             name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]

@@ -6,7 +6,7 @@ import math
 
 def megapixels(surface, pixels_per_wavelength):
     """Points of a model surface's grid, in millions."""
-    waves = math.ceil(surface["magnification"] * surface.get("window", 1.0))
+    waves = math.ceil(surface["magnification"] * surface["window"])
     return (pixels_per_wavelength * waves) ** 2 / 1e6
 
 
@@ -39,7 +39,8 @@ def comparison_size(wildcards):
 
 
 def adhesion_size(wildcards):
-    case, refine = case_of(wildcards), ADHESION[wildcards.adhesion].get("refine", 1)
+    case = case_of(wildcards)
+    refine = ADHESION[wildcards.adhesion]["refine"]
     return megapixels(model_surface_of(case), pixels_of_case(case) * refine)
 
 
@@ -50,6 +51,6 @@ def loop_size(wildcards):
 
 def adhesive_states(wildcards):
     """Solutions in full of a file's seeds, and those without adhesion that they start from."""
-    asked = ADHESION[wildcards.adhesion]
-    laws = len(asked["range_over_h_rms"]) * len(asked["adhesion_length_over_range"])
-    return len(plan.seeds_in(wildcards.part)) * len(asked["pressures"]) * (1 + laws)
+    entry = ADHESION[wildcards.adhesion]
+    laws = len(entry["range_over_h_rms"]) * len(entry["adhesion_length_over_range"])
+    return len(plan.seeds_in(wildcards.part)) * len(entry["pressures"]) * (1 + laws)

@@ -38,7 +38,7 @@ rule measure_contact:
         mem_mb=3000,
     params:
         case=lambda wildcards: TRADE_SURFACES[wildcards.trade_case],
-        pressures=lambda wildcards: trade_set(wildcards).get("pressures", TRADE["pressures"]),
+        pressures=lambda wildcards: trade_set(wildcards)["pressures"] or TRADE["pressures"],
         pixels=lambda wildcards: trade_set(wildcards)["pixels"],
         counts=lambda wildcards: trade_set(wildcards)["counts"],
         first_seed=lambda wildcards: trade_set(wildcards)["first_seed"],

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.adhesion_sets import STATE, roughness, scaled_law
+from common.adhesion_sets import STATE, scaled_law
 from common.job import start
 from common.model_surfaces import gather_fields, read_first
 from stickiness import adhesive, datasets
@@ -31,10 +31,10 @@ def main(job):
     texts = {"contact_pressure": text, **{n: STATE[n] for n in ("residual", "iterations")}}
     dataset = gather_fields(states, pressures, surface, TOLERANCE, **texts)
     title = "gap and pressure fields of one realisation in adhesive contact"
-    settings = {"law": adhesion["law"], "q0_h_rms": roughness(adhesion), **point}
+    settings = {"law": adhesion["law"], "q0_h_rms": adhesion["q0_h_rms"], **point}
     parameters = {**datasets.parameters(surface), **settings}
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
 if __name__ == "__main__":
-    main(start(globals(), "adhesive_maps", adhesion="fig2"))
+    main(start(globals()))

@@ -1,10 +1,10 @@
 """Adhesion of a set of parameters: by the DMT sum, and at every point by the chosen model.
 
 Full simulations are averaged over the realisations. With kappa = 2 without adhesion, 1/kappa = 1/2
-- 1/kappa_ad. 1/kappa_ad is half the relative reduction by adhesion of the pressure that belongs to
-an area. The sum of the tractions gives it directly, but misses the area that they pull into
-contact. Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more
-slowly.
+- 1/kappa_ad. 1/kappa_ad is half the relative fall by adhesion of the pressure that makes a given
+area. The DMT sum gives the attraction directly, but not the area that it draws in.
+
+Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more slowly.
 """
 
 from dataclasses import dataclass, replace
@@ -45,13 +45,13 @@ RATIOS = {
 CONTROLS = {n: n.removesuffix("_net").removesuffix("_direct") for n in SLOPES | FITS}
 ALL = STATES | SLOPES | FITS | RATIOS
 NET = [name for name in ALL if "net" in name.split("_")]
-# Along the edge a strip at zero gap is under tension. Next to a smooth edge and for weak attraction
-# it is second order in the strength, (sigma0/B)^2 where the pressure rises as B x^(1/2), but the
-# pixels make it first order: what is left of the difference falls as the root of the pixel only.
+# Under tension at zero gap, next to the edge, lies a strip. By theory it is second order in the
+# strength for weak attraction, (sigma0/B)^2 where the pressure rises as B x^(1/2). Pixels make it
+# first order, so that the difference falls as the root of the pixel only.
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 # Pixels across the zone of attraction below which an attraction is a statement about the grid.
 NARROWEST = 1.5
-AREAS = ("repulsive_area", "net_repulsive_area")  # in the DMT sum that without adhesion
+AREAS = ("repulsive_area", "net_repulsive_area")  # without adhesion, in the DMT sum
 ERROR_TEXTS = {
     "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
     "solver": "by the tolerance, as measured on the load; of strong attraction by the branch",
@@ -171,7 +171,7 @@ def average(states, full, ensemble, limit, parameters):
     states = add_slopes(states, ensemble, linear)
     states = add_ratios_at_gap(states, ensemble, adhesion)
 
-    # The same with as much more area as the number of turned pixels cannot rule out.
+    # The same with the largest area that turned pixels may hide.
     enlarged = add_slopes(add_pixels(states, parameters), ensemble, linear)
 
     controls = find_controls(ensemble, states.seed, adhesion, linear_alone)
@@ -180,7 +180,7 @@ def average(states, full, ensemble, limit, parameters):
     dataset = xr.Dataset()
     for name in ALL:
         values = states[name].where(masks.choose(name))
-        # What adhesion takes off the pressure is in proportion to the control.
+        # Only the fall by adhesion is in proportion to the control.
         fixed = values.pressure if name == "external_pressure" else 0.0
         dataset = add_errors(dataset, name, values - fixed, controls.get(name), plain=True)
         dataset[name] = dataset[name] + fixed
@@ -237,7 +237,7 @@ def worst_solver_error(solver, value):
 
 def sampling_error(dataset, name, seeds, unseen):
     """Error that covers 90 %: Student's t, and at least what the turned pixels leave open."""
-    # For the seeds solved in full, which is more than enough for multilevel means.
+    # t for the few seeds solved in full, which is conservative for multilevel means.
     sampling = students_t(seeds.size) * dataset[f"{name}_standard_error"]
     return np.maximum(sampling, unseen)
 
@@ -288,14 +288,16 @@ def add_pixels(states, parameters):
 
 def add_dmt(states, full):
     """Replace states by the DMT sum where no full simulation is wanted."""
-    limit = {
+    dmt_states = {
         "external_pressure": states.pressure - states.attraction_dmt,
         "repulsive_area": states.area_alone,
         "net_repulsive_area": states.area_alone,
         "attraction": states.attraction_dmt,
         "repulsive_pressure": states.pressure,
     }
-    return states.assign({name: states[name].where(full, value) for name, value in limit.items()})
+    return states.assign(
+        {name: states[name].where(full, value) for name, value in dmt_states.items()}
+    )
 
 
 def add_slopes(states, ensemble, linear):
@@ -322,16 +324,20 @@ def add_slopes(states, ensemble, linear):
     slopes["inverse_kappa_fit"] = fit / states.rms_slope
     slopes["inverse_kappa_ad_fit"] = (1 - fit / fit_alone) / 2
 
-    limit = states.attraction_dmt / states.pressure / 2
+    dmt_slope = states.attraction_dmt / states.pressure / 2
     for ending in ("", "_equal_area"):
-        slopes[f"dmt_ratio{ending}"] = ratio_of_means(slopes[f"inverse_kappa_ad{ending}"], limit)
+        slopes[f"dmt_ratio{ending}"] = ratio_of_means(
+            slopes[f"inverse_kappa_ad{ending}"], dmt_slope
+        )
     return states.assign(slopes)
 
 
 def add_ratios_at_gap(states, ensemble, adhesion):
     """Add the fall of the pressure at equal mean gap, over its weak limit and the DMT sum."""
     alone = ensemble.sel(seed=states.seed).isel(resolution=[-2, -1])
-    alone = alone.assign_coords(resolution=states.resolution)  # the grids may be finer
+    alone = alone.assign_coords(
+        resolution=states.resolution
+    )  # labels only: these may be finer grids
     weak = weak_attraction(adhesion, alone).sel(pressure=states.pressure)
     fall = states.pressure - states.external_pressure
     return states.assign(
@@ -360,4 +366,4 @@ def zone_width(ensemble, points):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "average_adhesive", adhesion="fig4b_rough"))
+    main(start(globals()))

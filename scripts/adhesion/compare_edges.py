@@ -10,7 +10,7 @@ import xarray as xr
 
 from adhesion.dmt_sum import integrate_law
 from common import conventions
-from common.adhesion_sets import count_points, pressure_at, roughness, seeds_on_both, solver_error
+from common.adhesion_sets import count_points, pressure_at, seeds_on_both, solver_error
 from common.ensemble_means import ensemble_mean, fine
 from common.error_budgets import SIMULATED
 from stickiness.criteria import equivalent_sphere
@@ -67,7 +67,7 @@ def compare_seeds(adhesive, alone, averages, adhesion):
 def compare(adhesive, alone, adhesion, grid):
     """Measure and model the effect of attraction for one realisation on one of its grids."""
     adhesive = adhesive.isel(resolution=grid, drop=True)
-    strength = adhesive.adhesion_length_over_range / roughness(adhesion)
+    strength = adhesive.adhesion_length_over_range / adhesion["q0_h_rms"]
     alone = alone.isel(resolution=-1, drop=True)
     load = pressure_at(adhesive, alone.pixel_area_fraction)
     pressure = adhesive.pressure

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from common import conventions, grid_limits
-from common.adhesion_sets import AXES, OUTSIDE, axes, roughness, scaled_law
+from common.adhesion_sets import AXES, OUTSIDE, axes, scaled_law
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors
 from common.error_budgets import SIMULATED, Simulation
@@ -68,7 +68,7 @@ def weak_attraction(adhesion, solved):
     _, lengths, ranges = axes(adhesion)
     potential = integrate_law(adhesion, solved.attractive_area, "potential")
     # Where surfaces touch it is the work of adhesion.
-    potential = potential - lengths * ranges / roughness(adhesion) * solved.area_fraction
+    potential = potential - lengths * ranges / adhesion["q0_h_rms"] * solved.area_fraction
     if solved.sizes["pressure"] < 3:
         return potential * np.nan
     return xr.apply_ufunc(
@@ -131,7 +131,7 @@ def write_limit(adhesion, ensemble, laws, errors, output):
             "area_fraction": ensemble.area_fraction_mean.sel(pressure=pressures),
             "dmt_valid": (AXES, np.asarray(errors["dmt_valid"], dtype="i1")),
             "dmt_error": (AXES, np.asarray(errors["dmt_error"], dtype=float)),
-            "q0_h_rms": roughness(adhesion),
+            "q0_h_rms": adhesion["q0_h_rms"],
         },
         coords={axis.name: axis for axis in (pressures, lengths, ranges)},
     )
@@ -158,7 +158,8 @@ def write_limit(adhesion, ensemble, laws, errors, output):
         error = ensemble[f"area_fraction_mean{ending}"]
         dataset[f"area_fraction{ending}"] = error.sel(pressure=pressures)
     title = f"DMT sum and weak limit of adhesion, {adhesion['law']} traction"
-    parameters = {**datasets.parameters(ensemble), **adhesion}
+    # Of both, `window` and `seeds` of the ensemble are meant.
+    parameters = {**adhesion, **datasets.parameters(ensemble)}
     datasets.write(dataset, output, title=title, parameters=parameters)
 
 

@@ -69,7 +69,8 @@ def main(job):
     longest = max((curve.state for curve in curves), key=len)
     dataset = xr.combine_by_coords([curve.reindex(state=longest) for curve in curves])
     title = "approach and separation of one realisation with adhesion"
-    parameters = {**datasets.parameters(surface), **loop}
+    # Of both, `window` of the surface is meant.
+    parameters = {**loop, **datasets.parameters(surface)}
     datasets.write(add_quoted(dataset), job.output[0], title=title, parameters=parameters)
 
 
@@ -127,4 +128,4 @@ def add_quoted(dataset):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "follow_loop", loop="fig4a"))
+    main(start(globals()))

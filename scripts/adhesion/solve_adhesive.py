@@ -14,7 +14,7 @@ import numpy as np
 import xarray as xr
 
 from common import adhesion_sets, conventions
-from common.adhesion_sets import AXES, LOOSEST, STATE, axes, roughness, scaled_law
+from common.adhesion_sets import AXES, LOOSEST, STATE, axes, scaled_law
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets, dmt
@@ -43,11 +43,12 @@ def main(job):
     surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
     adhesion = job.params.adhesion
     length = float(surfaces.window_length)
-    refine = adhesion.get("refine", 1)
+    refine = adhesion["refine"]
     points = refine * surfaces.sizes["x"]
     finest = refine * pixels(surfaces)
     ranges = axes(adhesion)[2].values
-    wide = (ranges >= adhesion.get("half_from", np.inf)) & (finest >= FINE)
+    half_from = np.inf if adhesion["half_from"] is None else adhesion["half_from"]
+    wide = (ranges >= half_from) & (finest >= FINE)
     coarser = np.where(wide, 2, 1)
     pixel = xr.DataArray(length / points * coarser, dims=AXES[2])
     chosen = combinations(adhesion, pixel, np.array(job.params.full))
@@ -75,7 +76,7 @@ def main(job):
     parameters = {
         **datasets.parameters(surfaces),
         "seeds": dataset.seed.values.tolist(),
-        "q0_h_rms": roughness(adhesion),
+        "q0_h_rms": adhesion["q0_h_rms"],
         "law": adhesion["law"],
         "refine": refine,
         "coarser": coarser.tolist(),
@@ -91,7 +92,7 @@ def main(job):
 def combinations(adhesion, pixel, full):
     """Choose the points (pressure, l_a/range, range) to solve in full that the grid resolves."""
     _, lengths, ranges = axes(adhesion)
-    adhesion_length = lengths / roughness(adhesion) * ranges
+    adhesion_length = lengths / adhesion["q0_h_rms"] * ranges
     resolved = edge_zone.resolution(pixel, ranges, adhesion_length) <= edge_zone.COARSEST
     missing = full.any(axis=0) & ~resolved.transpose(*AXES[1:]).values
     logging.info("%d points of l_a/range and range are not resolved", missing.sum())
@@ -135,4 +136,4 @@ def states(heights, length, adhesion, chosen, loosest=LOOSEST):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_adhesive", adhesion="fig4b_rough", part="1-8"))
+    main(start(globals()))

@@ -36,4 +36,4 @@ def list_rows(data, case):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "tabulate_dmt_error"))
+    main(start(globals()))

@@ -157,4 +157,4 @@ def describe_miss(dataset, problem, settings, plan, case):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "answer_case", case="H0.8_zeta64"))
+    main(start(globals()))

@@ -79,4 +79,4 @@ def to_dataset(rows):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "check_claims"))
+    main(start(globals()))

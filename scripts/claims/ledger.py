@@ -96,4 +96,4 @@ def value_and_error(data, name):
 def describe_cell(data):
     """Magnification of a simulated case, and the side of its cell in longest wavelengths."""
     surface = datasets.parameters(data)
-    return {"zeta": surface["magnification"], "waves": surface.get("window", 1)}
+    return {"zeta": surface["magnification"], "waves": surface["window"]}

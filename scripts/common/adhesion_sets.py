@@ -11,7 +11,6 @@ import xarray as xr
 
 from common.ensemble_means import fine
 from stickiness import adhesive
-from stickiness.accuracy.model_choice import roughness
 from stickiness.traction_laws import LAWS
 
 MISSING = "the grid does not resolve the edge, or a window closes"
@@ -88,7 +87,7 @@ def seeds_on_both(states):
 
 def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
     """A traction law of this kind in the units of the simulations."""
-    strength = adhesion_length_over_range / roughness(adhesion)
+    strength = adhesion_length_over_range / adhesion["q0_h_rms"]
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 

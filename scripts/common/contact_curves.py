@@ -104,7 +104,6 @@ def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance,
     """
     spectrum = model_spectrum(surface)
     length = cell_size(surface)
-    amplitudes = surface.get("amplitudes", "gaussian")
     seeds = SOLVED_FROM + np.array(which)
     others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
     coarsely_solved = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
@@ -115,6 +114,6 @@ def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance,
     ).isel(resolution=0, drop=True)
     dataset = dataset[kept].assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
     for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
-        rows = multilevel.descriptors(spectrum, length, dataset[dim].values, amplitudes)
+        rows = multilevel.descriptors(spectrum, length, dataset[dim].values, surface["amplitudes"])
         dataset[name] = (dim, "descriptor"), rows
     return dataset

@@ -37,8 +37,8 @@ class Coarse:
     values: xr.DataArray  # along `seed`, without `resolution`
     controls: xr.DataArray  # long waves of these seeds
     elsewhere: xr.DataArray  # and of many more
-    # For the seeds of the mean, by default their values on the coarsest grid. From another model
-    # it is not proportional to the values: from `FEWEST` seeds on its coefficient is a slope.
+    # Values of the control for the seeds of the mean; None: those seeds on the coarsest grid. Of
+    # another model it is not in proportion: from `FEWEST` seeds on its coefficient is a slope.
     twin: xr.DataArray | None = None
 
 
@@ -63,7 +63,7 @@ def standard_error(values):
 
 def discretisation_error(values):
     """Change of the mean from half the resolution, for errors of first order in the pixel size."""
-    # In quadrature with the standard error, changes of either sign do not cancel.
+    # Changes of either sign would cancel in the mean; the standard error in quadrature prevents it.
     change = fine(values.diff("resolution"))
     return np.hypot(change.mean("seed"), scatter(change).fillna(0))
 
@@ -71,13 +71,13 @@ def discretisation_error(values):
 def ensemble_mean(values, more=None):
     """Mean over the ensemble and its standard error, with `more` solutions on the coarsest grid.
 
-    Plain without them, for a single seed, and in entries that are not finite in every seed. If some
-    seeds are missing on the finest grid alone, all seeds give the mean on the next one. The others
-    correct it, wherever that has a smaller standard error than the mean of the others.
+    Plain without them, for a single seed, and, entry by entry, where some seed is not finite. If
+    some seeds are missing on the finest grid alone, all seeds give the mean on the next one, and
+    those solved on both correct it. The mean of those alone is taken where it is surer.
     """
-    on_both = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
-    if on_both.any() and not on_both.all() and values.sizes["resolution"] > 1:
-        return _mean_from_half(values, on_both, more)
+    on_finest = fine(values).notnull().any(set(values.dims) - {"seed", "resolution"})
+    if on_finest.any() and not on_finest.all() and values.sizes["resolution"] > 1:
+        return _mean_from_half(values, on_finest, more)
     plain = Mean(mean(values), standard_error(values))
     if more is None or values.sizes["seed"] == 1:
         return plain
@@ -104,7 +104,7 @@ def ensemble_mean(values, more=None):
         elsewhere=more.elsewhere.values,
     )
 
-    # In those entries the mean stays plain.
+    # Elsewhere the mean stays plain.
     value = plain.value.transpose(*dims[1:])
     error = plain.standard_error.transpose(*dims[1:])
     return Mean(
@@ -113,13 +113,13 @@ def ensemble_mean(values, more=None):
     )
 
 
-def _mean_from_half(values, on_both, more):
+def _mean_from_half(values, on_finest, more):
     """As `ensemble_mean`, with the seeds that are solved on both of the finest grids."""
     # The mean of these seeds alone.
-    seeds = values[{"seed": on_both}]
+    seeds = values[{"seed": on_finest}]
     more_of_seeds = more
     if more is not None and more.twin is not None:
-        more_of_seeds = replace(more, twin=more.twin[{"seed": on_both}])
+        more_of_seeds = replace(more, twin=more.twin[{"seed": on_finest}])
     value, error = ensemble_mean(seeds, more_of_seeds)
 
     # The mean of all seeds on half the grid, corrected by these seeds.
@@ -141,7 +141,8 @@ def add_errors(dataset, name, values, more=None, plain=False, limit=None):
     """Add ``NAME_mean`` (`plain`: ``NAME``) of `values` to a dataset, and its `SUFFIXES`.
 
     `more` is the same of coarse solutions, see `coarse`. A `grid_limits.Limit` takes mean and
-    discretisation error to the limit of fine grids; else that is the change from half of it.
+    discretisation error to the limit of fine grids; without it that error is the change from half
+    the resolution.
     """
     value, error = ensemble_mean(values, more)
     if limit is None:

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from common.config.entries import CONDITIONS, OBSERVED, conditions_of
+from common.config.conditions import CONDITIONS, OBSERVED, conditions_of
 from common.formatting import number, percent, quantity
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
@@ -52,16 +52,16 @@ def describe_case(case, experiments):
     if label == "sticks":
         observed = "sticks" if low else "does not stick"
     predicted = percent(value) if unit is None else show_interval(value, value, unit, highest)
-    short = entry.get("short", entry["label"])
+    short = entry["short"] or entry["label"]
     case_entry = entry["cases"][name]
     # An experiment says why it is missed, a case also why its value differs.
-    reason = "" if case.value_inside else case_entry.get("missed", "")
+    reason = "" if case.value_inside else case_entry["missed"] or ""
     if outcome == MISSED:
-        reason = reason or entry.get("missed", "no reason was found")
+        reason = reason or entry["missed"] or "no reason was found"
     return {
         "experiment": short,
         "case": case_entry["label"],
-        "label": f"{short}: {case_entry['label']}" if "missed" in case_entry else short,
+        "label": f"{short}: {case_entry['label']}" if case_entry["missed"] else short,
         "reason": reason,
         "of": experiment,
         "inputs": conditions_of(entry, case_entry),

@@ -5,19 +5,17 @@ import os
 import platform
 import sys
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 
-def start(names: dict[str, Any], rule: str, **wildcards: Any) -> Any:
+def start(names: dict[str, Any]) -> Any:
     """Return the job's `snakemake` object, open its log and report errors to it.
 
-    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it. Run by
-    hand, from the project's top folder, a script looks its job up in the workflow.
+    `names` are the ``globals()`` of the script, which hold `snakemake` if Snakemake runs it.
     """
-    job = names.get("snakemake")
-    if job is None:
-        job = find_job(rule, wildcards | dict(argument.split("=", 1) for argument in sys.argv[1:]))
+    if "snakemake" not in names:
+        sys.exit("Snakemake runs this script; force one of its files: snakemake --force <file>")
+    job = names["snakemake"]
     Path(job.log[0]).parent.mkdir(parents=True, exist_ok=True)
     style = {"level": logging.INFO, "format": "%(asctime)s %(levelname)s %(message)s"}
     logging.basicConfig(filename=job.log[0], filemode="w", force=True, **style)
@@ -35,30 +33,3 @@ def report_error(kind: type[BaseException], error: BaseException, trace: Any) ->
     line = f"{kind.__name__}: {error}"
     logging.error("%s", line, exc_info=(kind, error, trace))
     print(line, file=sys.stderr)
-
-
-def find_job(rule: str, wildcards: dict[str, Any]) -> SimpleNamespace:
-    """Return the job of a rule with `input`, `output`, `params` and `log` as in a run."""
-    from snakemake.api import SnakemakeApi
-    from snakemake.rules import Wildcards
-    from snakemake.settings.types import ConfigSettings, OutputSettings, ResourceSettings
-
-    config = ConfigSettings(config={k: wildcards.pop(k) for k in ("fidelity",) if k in wildcards})
-    with SnakemakeApi(OutputSettings(quiet=None)) as api:
-        run = api.workflow(
-            ResourceSettings(cores=1), config_settings=config, snakefile=Path("Snakefile")
-        )
-        # The documented API runs workflows but does not show single jobs.
-        definition = run._workflow.get_rule(rule)
-        values = Wildcards(fromdict=wildcards)
-        inputs, *_ = definition.expand_input(values, groupid=None)
-        outputs, _ = definition.expand_output(values)
-        params, _ = definition.expand_params(values, inputs, outputs, definition)
-        return SimpleNamespace(
-            rule=rule,
-            wildcards=values,
-            params=params,
-            input=inputs,
-            output=outputs,
-            log=definition.expand_log(values),
-        )

@@ -14,32 +14,37 @@ SOLVED = ("mean_gap", "residual", "iterations")  # of the states whose fields ar
 
 def model_spectrum(surface):
     """Spectrum of a model surface of the configuration, in units of q0 and h_rms."""
-    rolloff = surface.get("rolloff")
+    rolloff = surface["rolloff"]
     return SelfAffine(
         hurst=surface["hurst"],
         q0=Q0,
         q1=Q0 * surface["magnification"],
         h_rms=1.0,
         q_rolloff=None if rolloff is None else Q0 * rolloff,
-        anisotropy=surface.get("anisotropy", 1.0),
-        angle=np.radians(surface.get("angle", 0.0)),
+        anisotropy=surface["anisotropy"],
+        angle=np.radians(surface["angle"]),
     )
+
+
+def make_spectrum(hurst, magnification):
+    """Isotropic self-affine spectrum without a roll-off, in units of q0 and h_rms."""
+    return SelfAffine(hurst=hurst, q0=Q0, q1=Q0 * magnification, h_rms=1.0)
 
 
 def cell_size(surface):
     """Side of a model surface's periodic cell, in units of 1/q0."""
-    return surface.get("window", 1.0) * 2 * np.pi / Q0
+    return surface["window"] * 2 * np.pi / Q0
 
 
 def waves_across(surface):
     """Shortest wavelengths along the side of a model surface's cell."""
-    return surface["magnification"] * surface.get("window", 1.0)
+    return surface["magnification"] * surface["window"]
 
 
 def make_heights(surface, points, seed):
     """Heights over h_rms of one realisation of a model surface on a grid of `points` a side."""
-    amplitudes = surface.get("amplitudes", "gaussian")
-    return synthesise(model_spectrum(surface), points, cell_size(surface), int(seed), amplitudes)
+    spectrum = model_spectrum(surface)
+    return synthesise(spectrum, points, cell_size(surface), int(seed), surface["amplitudes"])
 
 
 def grid_points(surface, pixels_per_wavelength):

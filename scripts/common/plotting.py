@@ -3,7 +3,6 @@
 import logging
 import string
 from contextlib import contextmanager
-from pathlib import Path
 
 import matplotlib as mpl
 
@@ -15,7 +14,6 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
 from common.formatting import number
-from common.job import start
 from stickiness import datasets
 from stickiness.statistics import COVERS
 
@@ -67,11 +65,6 @@ mpl.rc("legend", fontsize=8, title_fontsize=8, frameon=False, handlelength=1.7)
 mpl.rc("legend", labelspacing=0.3, columnspacing=1.0, borderaxespad=0.4)
 mpl.rc("savefig", dpi=200)
 mpl.rc("pdf", fonttype=42)  # text stays text
-
-
-def start_figure(names):
-    """Job of the figure whose script has these ``globals()``, found by the script's name."""
-    return start(names, Path(names["__file__"]).stem)
 
 
 @contextmanager

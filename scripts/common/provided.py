@@ -1,6 +1,6 @@
 """Materials and surfaces that come with the project; a user's entries are shown before them."""
 
-from common.materials import read_material
+from stickiness import Material
 
 MATERIALS = ("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block")
 SURFACES = ("upper_line", "lower_line", "asphalt", "sandblasted_pmma", "ground_steel")
@@ -23,5 +23,11 @@ def choose_mine(pairs):
 def choose_pictured(materials):
     """The material whose pull-off is pictured: a user's one, deep if there is, or the softest."""
     mine = [name for name in materials if name not in MATERIALS]
-    softest = min(materials, key=lambda name: read_material(materials[name]).modulus)
-    return min(mine, key=lambda name: "thickness" in materials[name], default=softest)
+    if mine:
+        return min(mine, key=lambda name: materials[name]["thickness"] is not None)
+
+    def find_modulus(name):
+        entry = materials[name] | {"surface": None}
+        return Material.from_entry(entry).plane_strain_modulus
+
+    return min(materials, key=find_modulus)

@@ -11,6 +11,7 @@ from markupsafe import Markup, escape
 
 from common import formatting
 from stickiness import datasets
+from stickiness.criteria.pair import DEPENDS, TOUCHES
 
 FORMATS = ("number", "percent", "change", "interval", "with_error", "amount", "quantity")
 DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
@@ -65,6 +66,8 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     }
     environment.tests["finite"] = np.isfinite
     environment.globals["np"] = np
+    # Codes of verdicts that sentences differ by.
+    environment.globals |= {"TOUCHES": TOUCHES, "DEPENDS": DEPENDS}
     environment.globals["table"] = lambda columns, rows: formatting.table(columns, rows).rstrip()
     return environment
 

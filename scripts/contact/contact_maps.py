@@ -23,4 +23,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "contact_maps", case="H0.8_zeta64"))
+    main(start(globals()))

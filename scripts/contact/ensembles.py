@@ -111,8 +111,8 @@ def write_means(realisations, others, parameters, laws, output, averaged=AVERAGE
         add_statistics(realisations, others, averaged), **ENSEMBLE_VARIABLES
     )
     surface_texts = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
-    surfaces = surface_texts[parameters.get("amplitudes", "gaussian")]
-    window = parameters.get("window", 1)
+    surfaces = surface_texts[parameters["amplitudes"]]
+    window = parameters["window"]
     parameters = parameters | {
         "estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths",
         "largest_residual": float(realisations.residual.max()),

@@ -36,4 +36,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_coarse", case="H0.8_zeta64", part="1-64"))
+    main(start(globals()))

@@ -43,4 +43,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_ensemble", comparison="H0.5_zeta16_4x4"))
+    main(start(globals()))

@@ -45,4 +45,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "solve_repulsive", case="H0.8_zeta64", part="1-4"))
+    main(start(globals()))

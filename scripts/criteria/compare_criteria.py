@@ -11,16 +11,17 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import logarithmic_grid
-from criteria.budgets import CLOSED, between
 from stickiness import datasets
-from stickiness.criteria.pair import Pair
+from stickiness.criteria.pair import make_pair
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.error_budget import with_budget
+from stickiness.remaining.prediction import Roughness
 from stickiness.spectrum.kinds import SelfAffine
+from stickiness.verdicts.budgets import CLOSED_FORM, find_error_between
 
 LIMITS = {REMAINING: 0, f"{REMAINING}_low": 1, f"{REMAINING}_high": -1}  # names and signs
 TEXT = "adhesion length over range above which the criterion calls the surface sticky"
-VARIABLES = {
+COMPARED_VARIABLES = {
     "h_rms_over_range": ("1", "rms height over range"),
     "magnification": ("1", "highest over lowest wave number"),
     "criterion": ("1", "stickiness criterion; of what remains also its low and high limit"),
@@ -29,22 +30,25 @@ VARIABLES = {
 }
 
 
-def write_comparison(asked, load, table, constant, output):
+def write_comparison(settings, load, table, constant, output):
     """Write the thresholds; `constant` is the constant a_V of a broad spectrum."""
-    dataset = datasets.annotate(compare(asked, load, table, constant), **VARIABLES)
-    title = "adhesion at the threshold of stickiness by every criterion"
-    parameters = {**asked, "pressure": load, "constant_a_v": constant}
-    datasets.write(add_budgets(dataset), output, title=title, parameters=parameters)
-
-
-def compare(asked, load, table, constant):
-    """Thresholds over roughness and over magnification, each with the other held."""
-    heights, zetas = (logarithmic_grid(asked[key]) for key in ("h_rms_over_range", "magnification"))
-    height, zeta = asked["quoted_h_rms_over_range"], asked["quoted_magnification"]
-    over_h, over_zeta = (
-        find_thresholds(asked, *np.broadcast_arrays(*at), load, table, constant)
-        for at in ((heights, float(zeta)), (float(height), zetas))
+    dataset = datasets.annotate(compare(settings, load, table, constant), **COMPARED_VARIABLES)
+    datasets.write(
+        add_budgets(dataset),
+        output,
+        title="adhesion at the threshold of stickiness by every criterion",
+        parameters={**settings, "pressure": load, "constant_a_v": constant},
     )
+
+
+def compare(settings, load, table, constant):
+    """Thresholds over roughness and over magnification, the other being fixed."""
+    heights = logarithmic_grid(settings["h_rms_over_range"])
+    zetas = logarithmic_grid(settings["magnification"])
+    fixed_height = np.full(zetas.shape, float(settings["quoted_h_rms_over_range"]))
+    fixed_zeta = np.full(heights.shape, float(settings["quoted_magnification"]))
+    over_h = find_thresholds(settings, heights, fixed_zeta, load, table, constant)
+    over_zeta = find_thresholds(settings, fixed_height, zetas, load, table, constant)
     return xr.Dataset(
         {
             "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
@@ -54,20 +58,27 @@ def compare(asked, load, table, constant):
     )
 
 
-def find_thresholds(asked, h_rms, magnification, load, table, constant):
+def find_thresholds(settings, h_rms, magnification, load, table, constant):
     """Adhesion length over range at which each criterion begins to call surfaces sticky."""
-    hurst, q0 = asked["hurst"], asked["range_times_q0"]
+    hurst = settings["hurst"]
+    q0 = settings["range_times_q0"]
     spectra = [
         SelfAffine(hurst=hurst, q0=q0, q1=q0 * zeta, h_rms=h)
         for h, zeta in zip(h_rms, magnification, strict=True)
     ]
-    pair = Pair(  # with the range and the adhesion length as unit of length
+    rough = Roughness(
         h_rms=h_rms,
         q0=q0,
-        rms_slope=np.array([s.rms_slope for s in spectra]),
-        rms_curvature=np.array([s.rms_curvature for s in spectra]),
-        elastic_energy=np.array([s.elastic_energy() for s in spectra]),
-        **dict.fromkeys(("modulus", "work_of_adhesion", "range"), 1.0),
+        rms_slope=np.array([spectrum.rms_slope for spectrum in spectra]),
+        elastic_energy=np.array([spectrum.elastic_energy() for spectrum in spectra]),
+    )
+    # The range and the adhesion length are the units of length.
+    pair = make_pair(
+        rough,
+        modulus=1.0,
+        work_of_adhesion=1.0,
+        range=1.0,
+        rms_curvature=np.array([spectrum.rms_curvature for spectrum in spectra]),
         a_v=table.a_v_at(hurst, load, 1 / h_rms, magnification).value,
         constant_a_v=constant,
     )
@@ -84,7 +95,7 @@ def add_budgets(dataset):
     for name in ("against_roughness", "against_magnification"):
         value = dataset[name]
         low, high = (value.sel(criterion=end, drop=True) for end in list(LIMITS)[1:])
-        model = between(value, low, high)
+        model = find_error_between(value, low=low, high=high)
         model = replace(model, error=model.error.where(value.criterion == REMAINING))
-        dataset = with_budget(dataset, name, model=model, **CLOSED)
+        dataset = with_budget(dataset, name, model=model, **CLOSED_FORM)
     return dataset

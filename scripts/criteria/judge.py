@@ -1,22 +1,23 @@
-"""Verdict for every material on every surface, the same as a page, and all pairs side by side."""
+"""All pairs side by side: the verdicts on every surface as one dataset, and the pages of it."""
 
 from itertools import product
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 from common.formatting import percent
 from common.job import start
 from common.materials import find_doubts
+from common.table_rows import arrange_pairs
 from common.templates import write_page
-from common.verdicts import KPA, MPA, SHARES, find_limits, find_value
-from criteria.verdicts import judge_materials, read_surfaces
-from report.table_rows import arrange_pairs
+from common.verdict_texts import KPA, MPA, SHARES
 from stickiness import datasets
 from stickiness.criteria.a_v_table import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+from stickiness.verdicts.limits import find_limits, find_value
 
 # Head, unit and its size of the quantities that are tabulated with their limits.
 TABULATED = {
@@ -24,17 +25,20 @@ TABULATED = {
     "pull_off": ("pull-off", "kPa", KPA),
     "modulus_threshold": ("E* threshold", "MPa", MPA),
 }
-WIDTH = 26  # of a column, in characters
+COLUMN_WIDTH = 26  # in characters
 
 
 def main(job):
-    materials, labels, output = job.params.materials, job.params.labels, job.output
-    surfaces = read_surfaces(labels, job.input.surfaces)
-    material_surfaces = {name: surfaces[name] for name in job.params.material_surfaces}
-    dataset = judge_materials(surfaces, material_surfaces, job.params)
-    title = "verdicts of the stickiness criteria"
-    parameters = {"materials": materials, "labels": labels}
-    datasets.write(dataset, output.dataset, title=title, parameters=parameters)
+    materials = job.params.materials
+    labels = job.params.labels
+    output = job.output
+    dataset = join_surfaces([datasets.read(path) for path in job.input.verdicts])
+    datasets.write(
+        dataset,
+        output.dataset,
+        title="verdicts of the stickiness criteria",
+        parameters={"materials": materials, "labels": labels},
+    )
     shown = describe_page(dataset, materials, labels)
     write_page(job.input.template, output.table, **shown)
     write_page(job.input.page, output.page, files=dict(output.items()), **shown)
@@ -45,7 +49,25 @@ def main(job):
         frame.to_excel(
             writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
         )
-        writer.sheets["pairs"].sheet_format.defaultColWidth = WIDTH
+        writer.sheets["pairs"].sheet_format.defaultColWidth = COLUMN_WIDTH
+
+
+def join_surfaces(verdicts):
+    """One dataset of the verdicts on several surfaces, for the same materials."""
+    joined = xr.concat(
+        verdicts,
+        "surface",
+        data_vars="minimal",
+        coords="minimal",
+        compat="override",
+        combine_attrs="override",
+    )
+    # Numbers may be missing for more reasons on one surface than on another.
+    for name in joined.variables:
+        reasons = [each[name].attrs.get("nan_means", "") for each in verdicts]
+        if any(reasons):
+            joined[name].attrs["nan_means"] = max(reasons, key=len)
+    return joined
 
 
 def describe_page(dataset, materials, labels):
@@ -68,46 +90,57 @@ def describe_page(dataset, materials, labels):
 
 def list_kept(pair):
     """Whether a pair keeps shares, by its value and by its limits; empty if it is not judged."""
-    by = {"value": 2 * [find_value(pair)], "limits": find_limits(pair)}
-    words = ("no", "depends", "yes") if find_value(pair).notnull() else ("",) * 3
+    value = find_value(pair)
+    limits = {"value": (value, value), "limits": find_limits(pair)}
+    answers = ("no", "depends", "yes") if value.notnull() else ("", "", "")
     return {
-        f"keeps {percent(share)} by {kind}": words[sum(int(x >= share) for x in found)]
-        for share, (kind, found) in product(SHARES, by.items())
+        f"keeps {percent(share)} by {kind}": answers[int(low >= share) + int(high >= share)]
+        for share, (kind, (low, high)) in product(SHARES, limits.items())
     }
 
 
 def tabulate_pairs(rows):
     """A row of numbers for every row of texts, with units in the heads; NaN where not known."""
-    found = []
+    table = []
     for row in rows:
         pair = row["pair"]
-        cells = {"material": row["material"], "material key": row["key"]}
-        cells |= {"surface": row["surface"], "surface key": row["name"]}
-        cells |= {"entry": "yours" if row["mine"] else "other", "verdict": row["word"]}
-        cells |= {"judged": row["moment"], "E* [MPa]": float(pair.modulus_quoted) / MPA}
-        cells["w/U_full"] = float(find_value(pair, "energy_ratio"))
+        cells = {
+            "material": row["material"],
+            "material key": row["key"],
+            "surface": row["surface"],
+            "surface key": row["name"],
+            "entry": "yours" if row["mine"] else "other",
+            "verdict": row["word"],
+            "judged": row["moment"],
+            "E* [MPa]": float(pair.modulus_quoted) / MPA,
+            "w/U_full": float(find_value(pair, "energy_ratio")),
+        }
         for name, (head, unit, size) in TABULATED.items():
-            numbers = np.array([find_value(pair, name), *find_limits(pair, name)]) / size
+            low, high = (float(limit) / size for limit in find_limits(pair, name))
+            value = float(find_value(pair, name)) / size
             if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
-                numbers[[0, 2]] = np.nan
-            parts = zip(("", ", low limit", ", high limit"), numbers, strict=True)
-            cells |= {f"{head}{part} [{unit}]": number for part, number in parts}
-        found.append(cells | row["keeps"])
-    return pd.DataFrame(found)
+                value = np.nan
+                high = np.nan
+            cells[f"{head} [{unit}]"] = value
+            cells[f"{head}, low limit [{unit}]"] = low
+            cells[f"{head}, high limit [{unit}]"] = high
+        table.append(cells | row["keeps"])
+    return pd.DataFrame(table)
 
 
 def compare_thresholds(dataset, others, labels):
     """Label of every surface, and by criterion its thresholds over all materials and both ends."""
-    by = dataset.threshold_by_criterion
-    ours = by.sel(criterion=REMAINING)
+    thresholds = dataset.threshold_by_criterion
+    ours = thresholds.sel(criterion=REMAINING)
     length = dataset.work_of_adhesion / ours * 1e9
-    columns = [length, *(by.sel(criterion=criterion.name) / ours for criterion in others)]
+    ratios = [thresholds.sel(criterion=criterion.name) / ours for criterion in others]
+    columns = [length, *ratios]
     return [
         (labels[surface], [column.sel(surface=surface) for column in columns])
-        for surface in by.surface.values
+        for surface in thresholds.surface.values
         if ours.sel(surface=surface).notnull().any()  # else it is not judged
     ]
 
 
 if __name__ == "__main__":
-    main(start(globals(), "judge"))
+    main(start(globals()))

@@ -12,8 +12,7 @@ from scipy.optimize import elementwise
 
 from common.conventions import logarithmic_grid
 from common.job import start
-from common.verdicts import SHARES
-from criteria.budgets import CLOSED, between_limits
+from common.verdict_texts import SHARES
 from criteria.compare_criteria import write_comparison
 from criteria.simulated_a_v import measure_a_v
 from stickiness import criteria, datasets, remaining
@@ -21,15 +20,17 @@ from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
+from stickiness.verdicts.budgets import CLOSED_FORM, find_model_error
 
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
 DMT = f"{LIMIT} by the DMT sum"
 RULE = "c in h_rms^2 < c lambda_L w/E*, for many waves and a short range"
 HURSTS = (0.5, 0.6, 0.7, 0.8, 0.9)
-BROAD, SHORT = 1e4, 1e-6  # magnification, and range over h_rms, of this rule
+BROAD = 1e4  # magnification of this rule
+SHORT = 1e-6  # its range over h_rms
 MISSING = "none for which a_V is tabulated, or none above 1"
-VARIABLES = {  # units, description, and what NaN means
+MAP_VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
     "adhesion_length_over_range": ("1", "adhesion length over range"),
     "h_rms_limit": ("1", f"{DMT}, a_V as tabulated", MISSING),
@@ -60,35 +61,40 @@ ENDS = {"": ("value", 0), "_low": ("low", -1), "_high": ("high", 1)}  # of a_V, 
 
 
 def main(job):
-    asked, pressure = job.params.map, job.params.pressure
+    settings = job.params.map
+    pressure = job.params.pressure
     a_v, parts = measure_a_v(job.input, pressure)
     error = float(np.linalg.norm([each.error for each in parts.values()]))
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    dataset = find_limits(asked, a_v, Roughness(table, asked, pressure))
-    dataset = dataset.assign(find_slopes(asked["slope_parameter"], asked["slope_a_v"]))
+    dataset = find_limits(settings, a_v, MapSurfaces(table, settings, pressure))
+    dataset = dataset.assign(find_slopes(settings["slope_parameter"], settings["slope_a_v"]))
     dataset = dataset.assign(find_rule())
     dataset = dataset.assign(a_v=a_v, a_v_low=max(a_v - error, 0.01 * a_v), a_v_high=a_v + error)
-    dataset = datasets.annotate(dataset, **VARIABLES)
+    dataset = datasets.annotate(dataset, **MAP_VARIABLES)
     for name in ("h_rms_limit", "h_rms_limit_edges", "rule"):
-        dataset = with_budget(dataset, name, model=between_limits(dataset, name), **CLOSED)
+        dataset = with_budget(dataset, name, model=find_model_error(dataset, name), **CLOSED_FORM)
     dataset = with_budget(dataset, "a_v", **parts)
     # In proportion to a_V^(3/5).
     scale = 3 / 5 * dataset.h_rms_limit_constant / a_v
     parts = {name: replace(each, error=each.error * scale) for name, each in parts.items()}
-    title = "map of the stickiness criterion"
-    parameters = {**asked, "pressure": pressure}
     dataset = with_budget(dataset, "h_rms_limit_constant", **parts)
-    datasets.write(dataset, job.output.map, title=title, parameters=parameters)
+    datasets.write(
+        dataset,
+        job.output.map,
+        title="map of the stickiness criterion",
+        parameters={**settings, "pressure": pressure},
+    )
     write_comparison(job.params.compared, pressure, table, a_v, job.output.compared)
 
 
-class Roughness:
+class MapSurfaces:
     """Self-affine surfaces of the map, with the range as unit of length."""
 
-    def __init__(self, table, asked, pressure):
-        self._table, self._pressure = table, pressure
-        self._hurst = asked["hurst"]
-        self._q1 = 2 * np.pi / asked["shortest_over_range"]
+    def __init__(self, table, settings, pressure):
+        self._table = table
+        self._pressure = pressure
+        self._hurst = settings["hurst"]
+        self._q1 = 2 * np.pi / settings["shortest_over_range"]
         self._narrowest, self._broadest = table.bounds["magnification"]
         self.largest = 1 / table.bounds["range"][0]  # h_rms/range at which a_V is still known
 
@@ -105,18 +111,23 @@ class Roughness:
         Beyond the table a_V is that of its largest magnification, at a range as large compared with
         the finest waves, times its change at infinite magnification between the two ranges.
         """
-        range_, zeta = 1 / h, np.maximum(self._q1 / q0, self._narrowest)
-        held = np.minimum(zeta, self._broadest)
-        moved = np.minimum(range_ * (zeta / held) ** self._hurst, 1)
-        between = self._at(range_, np.inf).value / self._at(moved, np.inf).value
-        return getattr(self._at(moved, held), which) * between
+        range_over_h = 1 / h
+        zeta = np.maximum(self._q1 / q0, self._narrowest)
+        # A surface within the table, whose finest waves are as large beside its range.
+        tabulated_zeta = np.minimum(zeta, self._broadest)
+        scaled_range = range_over_h * (zeta / tabulated_zeta) ** self._hurst
+        scaled_range = np.minimum(scaled_range, 1)
+        of_broad = self._look_up(range_over_h, np.inf).value
+        change = of_broad / self._look_up(scaled_range, np.inf).value
+        return getattr(self._look_up(scaled_range, tabulated_zeta), which) * change
 
-    def _at(self, range_, zeta):
-        return self._table.a_v_at(self._hurst, self._pressure, range_, zeta)
+    def _look_up(self, range_over_h, zeta):
+        return self._table.a_v_at(self._hurst, self._pressure, range_over_h, zeta)
 
     def attraction(self, h, q0, length, which):
         """Attraction over repulsion by the edges of contact."""
-        slope, a_v = self.slope(h, q0), self.a_v(h, q0, which)
+        slope = self.slope(h, q0)
+        a_v = self.a_v(h, q0, which)
         return equivalent_sphere.attraction(h, q0, slope, length, 1.0, a_v)
 
     def over_weak(self, h, q0, length):
@@ -129,36 +140,38 @@ class Roughness:
 
     def by_edges(self, h, q0, length, which, sign):
         """Attraction over repulsion by the edges, or its limit by the model."""
-        found = self.attraction(h, q0, length, which)
-        return found.ratio * found.error_factor**sign
+        attraction = self.attraction(h, q0, length, which)
+        return attraction.ratio * attraction.error_factor**sign
 
 
-def find_limits(asked, constant_a_v, roughness):
+def find_limits(settings, constant_a_v, surfaces):
     """Largest h_rms/range that sticks by every form of the criterion, and where forms are valid."""
-    ratios = {"weak_limit": roughness.over_weak}
+    ratios = {"weak_limit": surfaces.over_weak}
     for ending, (which, sign) in ENDS.items():
-        ratios[f"h_rms_limit{ending}"] = partial(roughness.by_dmt, which=which)
-        edges = partial(roughness.by_edges, which=which, sign=sign)
+        ratios[f"h_rms_limit{ending}"] = partial(surfaces.by_dmt, which=which)
+        edges = partial(surfaces.by_edges, which=which, sign=sign)
         ratios[f"h_rms_limit_edges{ending}"] = edges
     dims = ("range_times_q0", "adhesion_length_over_range")
-    axes = {dim: logarithmic_grid(asked[dim]) for dim in dims}
-    at = np.meshgrid(*axes.values(), indexing="ij")
-    found = {name: find_largest(ratio, *at, roughness.largest) for name, ratio in ratios.items()}
-    found["h_rms_limit_constant"] = criteria.h_rms_limit(*at, 1.0, constant_a_v)
-    found["h_rms_limit_printed"] = criteria.h_rms_limit(*at, 1.0, criteria.PRINTED_A_V)
-    found["jtb_limit"] = criteria.jtb_limit(*at, 1.0)
-    return xr.Dataset({name: (dims, values) for name, values in found.items()}, coords=axes)
+    axes = {dim: logarithmic_grid(settings[dim]) for dim in dims}
+    q0, length = np.meshgrid(*axes.values(), indexing="ij")
+    limits = {
+        name: find_largest(ratio, q0, length, surfaces.largest) for name, ratio in ratios.items()
+    }
+    limits["h_rms_limit_constant"] = criteria.h_rms_limit(q0, length, 1.0, constant_a_v)
+    limits["h_rms_limit_printed"] = criteria.h_rms_limit(q0, length, 1.0, criteria.PRINTED_A_V)
+    limits["jtb_limit"] = criteria.jtb_limit(q0, length, 1.0)
+    return xr.Dataset({name: (dims, values) for name, values in limits.items()}, coords=axes)
 
 
 def find_largest(ratio, q0, length, end):
     """Find the h_rms at which a ratio that falls with it passes 1, from 1 to `end`; NaN if none."""
-    found = elementwise.find_root(
+    root = elementwise.find_root(
         lambda log_h, q0, length: np.log(ratio(np.exp(log_h), q0, length)),
         (np.zeros_like(q0), np.full_like(q0, np.log(end))),
         args=(q0, length),
         tolerances={"xatol": 1e-6},
     )
-    return np.where(found.success, np.exp(found.x), np.nan)
+    return np.where(root.success, np.exp(root.x), np.nan)
 
 
 def find_slopes(parameters, a_v):
@@ -185,9 +198,9 @@ def find_rule():
     }
     lengths["rule_full_contact"] = "hurst", energy
     lengths["rule_bearing_area"] = BAM_REPULSION / criteria.bearing_area(1, 1, 1, SHORT).margin
-    found = xr.Dataset(lengths, coords={"share": list(SHARES), "hurst": list(HURSTS)})
-    return 1 / (2 * np.pi * found)  # lambda_L = 2 pi/q0, with h_rms = q0 = 1
+    dataset = xr.Dataset(lengths, coords={"share": list(SHARES), "hurst": list(HURSTS)})
+    return 1 / (2 * np.pi * dataset)  # lambda_L = 2 pi/q0, with h_rms = q0 = 1
 
 
 if __name__ == "__main__":
-    main(start(globals(), "map_criterion"))
+    main(start(globals()))

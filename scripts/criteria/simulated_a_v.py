@@ -31,16 +31,17 @@ def measure_a_v(inputs, pressure):
         raise ValueError(
             f"{inputs.a_v}: the error of a_V is not known; give its case two seeds or more"
         )
-    known = datasets.read(inputs.lattice, ["a_v"])
-    lattice = known.a_v.sel(variant=VARIANT).sel(pressure=pressure, method="nearest").values
+    lattice_file = datasets.read(inputs.lattice, ["a_v"])
+    lattice = lattice_file.a_v.sel(variant=VARIANT).sel(pressure=pressure, method="nearest").values
     theory = datasets.read(inputs.theory, ["a_v"]).a_v.sel(variant=VARIANT).isel(load=0)
-    theory = theory.sel(hurst=datasets.parameters(known)["hurst"], method="nearest")
+    theory = theory.sel(hurst=datasets.parameters(lattice_file)["hurst"], method="nearest")
     broadest = float(theory.magnification.max())
     ratio = theory.sel(magnification=broadest).values / lattice
     a_v = simulated * ratio
     sampling, discretisation = (error * float(ratio[0]) for error in errors)
     # The 2/3 law holds only roughly, and a_V still grows with the magnification.
-    theory, spread = theory.isel(window=0), float(np.ptp(a_v)) / 2
+    spread = float(np.ptp(a_v)) / 2
+    theory = theory.isel(window=0)
     before = theory.sel(magnification=broadest / 100, method="nearest")
     growth = float(a_v[0]) * abs(float(theory.sel(magnification=broadest) / before) - 1)
     return float(a_v[0]), {

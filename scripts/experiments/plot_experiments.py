@@ -82,7 +82,7 @@ def draw_works(ax, dataset, experiments):
         ax.plot([middle] * 2, [low, high], **bars)
         filled = {} if point["quantity"].item() == "work_of_approach" else {"mfc": "white"}
         ax.plot(middle, value, **look, **filled)
-    labels = {e: experiments[e].get("short", experiments[e]["label"]) for e in shown}
+    labels = {e: experiments[e]["short"] or experiments[e]["label"] for e in shown}
     keys = [make_dot(labels[e], **look) for e, look in shown.items()]
     keys.append(make_dot("open: separation", mfc="white"))
     ax.legend(handles=keys, loc="lower right", fontsize=7)
@@ -114,4 +114,4 @@ def name_case(case, experiments):
     experiment, name = case.split("/")
     entry = experiments[experiment]
     label = entry["cases"][name]["label"]
-    return f"{entry['short']}: {label}" if "short" in entry else label
+    return f"{entry['short']}: {label}" if entry["short"] else label

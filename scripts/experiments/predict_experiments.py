@@ -13,22 +13,20 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from common import experiment_outcomes as outcomes
-from common.config.entries import CONDITIONS, OBSERVED, conditions_of
+from common.config.conditions import conditions_of
 from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOMES, SILENT, SOME
 from common.job import start
 from common.templates import write_page
 from experiments import plot_experiments
 from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
-from stickiness.criteria.pair import Pair
+from stickiness.criteria.pair import Pair, make_pair
 from stickiness.criteria.registry import CRITERIA
-from stickiness.criteria.verdict import describe_surface
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
-from stickiness.remaining.prediction import DEFAULT_SHARE, LATE
+from stickiness.remaining.prediction import DEFAULT_SHARE, LATE, Roughness
 from stickiness.spectrum.kinds import SelfAffine
-from stickiness.traction_laws import EXPONENTIAL, find_strength
-from stickiness.units import si
+from stickiness.traction_laws import find_strength
 
 MIDDLE = 0  # index of the combination with every input in the middle
 SIGNS = (-1, 0, 1)  # low limit, value, high limit
@@ -134,17 +132,20 @@ class Observation:
         def column(name):
             return np.array([getattr(shape, name) for shape in shapes])[:, None]
 
-        return Pair(
+        rough = Roughness(
             h_rms=h_rms,
             q0=column("q0"),
             rms_slope=column("rms_slope") * h_rms,
-            rms_curvature=column("rms_curvature") * h_rms,
             elastic_energy=column("elastic_energy") * h_rms**2,
+            law=self.law,
+        )
+        return make_pair(
+            rough,
             modulus=inputs["modulus"],
             work_of_adhesion=inputs["work_of_adhesion"],
             range=inputs["range"],
+            rms_curvature=column("rms_curvature") * h_rms,
             a_v=np.array(prefactors),
-            law=self.law,
         )
 
     def press(self, pair: Pair) -> list[sphere.SpherePullOff] | None:
@@ -177,13 +178,18 @@ def describe_shape(hurst, longest, shortest, rolloff=None):
         q1=2 * np.pi / shortest,
         q_rolloff=None if rolloff is None else 2 * np.pi / rolloff,
     )
-    described = describe_surface(spectrum)
+    moments = {
+        "q0": spectrum.q_longest,
+        "h_rms": spectrum.h_rms,
+        "rms_slope": spectrum.rms_slope,
+        "rms_curvature": spectrum.rms_curvature,
+    }
     return Shape(
-        q0=described["q0"],
-        rms_slope=described["rms_slope"],
-        rms_curvature=described["rms_curvature"],
-        elastic_energy=described["elastic_energy"],
-        a_v=surface_a_v(spectrum, described),
+        q0=moments["q0"],
+        rms_slope=moments["rms_slope"],
+        rms_curvature=moments["rms_curvature"],
+        elastic_energy=spectrum.elastic_energy(),
+        a_v=surface_a_v(spectrum, moments),
     )
 
 
@@ -192,7 +198,7 @@ def read_observation(experiment, name, entry):
     case = entry["cases"][name]
     observed = case["observed"]
     conditions = conditions_of(entry, case)
-    ends = {key: read_ends(entries, CONDITIONS[key][0]) for key, entries in conditions.items()}
+    ends = {key: read_ends(entries) for key, entries in conditions.items()}
     swept = tuple(key for key, limits_of_input in ends.items() if len(limits_of_input) > 1)
     inputs = combine_inputs(ends, swept)
     if "plane_strain_modulus" in inputs:
@@ -200,8 +206,8 @@ def read_observation(experiment, name, entry):
     else:
         inputs["modulus"] = inputs["youngs_modulus"] / (1 - inputs["poisson_ratio"] ** 2)
     quantity = observed["quantity"]
-    by_relation = "relation" in observed
-    limits = observed["factor"] if by_relation else read_ends(observed, OBSERVED[quantity][0])
+    by_relation = observed["relation"] is not None
+    limits = observed["factor"] if by_relation else read_ends(observed)
     return Observation(
         place=f"{experiment}/{name}",
         quantity=quantity,
@@ -209,16 +215,15 @@ def read_observation(experiment, name, entry):
         limits=np.array([limits[0], limits[-1]], dtype=float),
         inputs=inputs,
         swept=swept,
-        law=case.get("law", entry.get("law", EXPONENTIAL)),
+        law=case["law"] or entry["law"],
         known=max(GRADES.index(entries["known"]) for entries in (observed, *conditions.values())),
-        tests=entry.get("published", True) and not by_relation,
+        tests=entry["published"] and not by_relation,
     )
 
 
-def read_ends(entry, unit):
+def read_ends(entry):
     """Read the value of an entry, or both of its limits."""
-    values = entry["between"] if "between" in entry else [entry["value"]]
-    return np.array([float(value) if unit is None else si(value, unit) for value in values])
+    return np.array(entry["between"] or [entry["value"]], dtype=float)
 
 
 def combine_inputs(ends, swept):
@@ -274,7 +279,7 @@ def predict(observation):
 
 def find_limits(observation, curve):
     """Rms heights [m], (sign, combination), at which adhesion falls to the level observed."""
-    level = observation.observed.get("level", DEFAULT_SHARE)
+    level = observation.observed["level"]
     limits = np.array([[find_fall(ROUGHNESS, row, level) for row in rows] for rows in curve])
     if np.isnan(limits).any():
         raise ValueError(
@@ -322,7 +327,7 @@ def find_fall(heights, values, level):
 def find_observed(observation, pair):
     """Low and high limit ``(end, combination)`` of what was observed, by its relation if any."""
     factors = observation.limits[:, None] * np.ones(len(pair.h_rms))  # observed, if no relation
-    relation = observation.observed.get("relation")
+    relation = observation.observed["relation"]
     if relation is None:
         return factors
     work = pair.work_of_adhesion[:, 0]
@@ -330,7 +335,7 @@ def find_observed(observation, pair):
     if relation == "energy_ratio":
         return (pair.h_rms[:, 0] * np.sqrt(work / (factors * energy)))[::-1]
     works = (2 if relation == "cycle_loss" else 1) * factors * work - energy
-    error = si(observation.observed.get("error", "0 J/m^2"), "J/m^2")
+    error = observation.observed["error"] or 0.0
     return np.maximum(works + np.array([[-1], [1]]) * error, 0.0)
 
 
@@ -371,7 +376,7 @@ def judge_criteria(observation, observed, pair):
         elif criterion.has_length:
             ratio = criterion.adhesion_length_threshold(pair) / pair.adhesion_length
             right = (ratio[:, 0] <= FACTOR) & (ratio[:, 1] >= 1 / FACTOR)
-        silent = not right.size or name in observation.observed.get("silent", ())
+        silent = not right.size or name in (observation.observed["silent"] or ())
         codes.append(SILENT if silent else summarise(right))
     return np.array(codes, dtype="i1")
 
@@ -420,7 +425,7 @@ def predict_case(observation):
         "pull_off_curve_highest": ("roughness", highest_curve.max(axis=0)),
         "outcome": np.int8(summarise(agrees(observation, observed, low, high))),
         "value_inside": np.int8(agrees(observation, observed, value, value)[MIDDLE]),
-        "by_relation": np.int8("relation" in observation.observed),
+        "by_relation": np.int8(observation.observed["relation"] is not None),
         "tests": np.int8(observation.tests),
         "known": np.int8(observation.known),
         "observed_known": np.int8(GRADES.index(observation.observed["known"])),
@@ -462,4 +467,4 @@ def predict_all(experiments):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "predict_experiments"))
+    main(start(globals()))

@@ -4,6 +4,7 @@ import numpy as np
 
 from common import plotting
 from common.conventions import VARIANT
+from common.job import start
 from common.plotting import COLOURS, GREY, interpolate, make_dot, make_key, state
 from common.theory_variants import between_corrections
 from stickiness import datasets
@@ -132,4 +133,4 @@ def draw_measured(ax, measured, colour):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

@@ -7,6 +7,7 @@ import pandas as pd
 
 from common import plotting
 from common.edge_points import COLUMNS, select_certain
+from common.job import start
 from common.plotting import BLACK, GREY, pick_look, state
 from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
@@ -85,4 +86,4 @@ def draw_ratios(ax, points):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

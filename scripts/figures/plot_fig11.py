@@ -3,6 +3,7 @@
 import numpy as np
 
 from common import plotting, remaining_table
+from common.job import start
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.prediction import HYSTERESIS, LATE, SHORT_RANGE, Roughness
@@ -114,4 +115,4 @@ def draw_weak(ax, table):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

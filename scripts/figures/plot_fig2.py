@@ -7,6 +7,7 @@ from scipy.ndimage import gaussian_filter
 
 from common import plotting
 from common.conventions import LINEAR_UP_TO, VARIANT
+from common.job import start
 from common.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, state
 from stickiness import datasets
 
@@ -128,4 +129,4 @@ def draw_contact(ax, solution, range_):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

@@ -5,6 +5,7 @@ import numpy as np
 from common import plotting
 from common.conventions import LOAD, VARIANT
 from common.formatting import number
+from common.job import start
 from common.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
 from common.theory_variants import between_corrections
 from stickiness import criteria, datasets
@@ -45,7 +46,7 @@ def join(areas, fit, lattice):
     fit = fit.assign(theory_a_v=theory).isel(window=0)
     case = areas.merge(fit, join="exact", combine_attrs="override")
     parameters = datasets.parameters(case)
-    window = parameters.get("window", 1)
+    window = parameters["window"]
     magnification = parameters["magnification"]
     side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
     label = state(magnification=magnification) + side
@@ -188,4 +189,4 @@ def draw_exponents(ax, fit, cases):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

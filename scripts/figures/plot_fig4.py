@@ -3,6 +3,7 @@
 import xarray as xr
 
 from common import plotting
+from common.job import start
 from common.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state
 from stickiness import criteria, datasets
 
@@ -144,4 +145,4 @@ def largest_weak_length(data):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

@@ -1,6 +1,7 @@
 """Figure 5: largest roughness that sticks, and the slope of the area-load line."""
 
 from common import plotting
+from common.job import start
 from common.plotting import BLACK, COLOURS, GREY, RED, interpolate, state
 from stickiness import datasets
 
@@ -62,4 +63,4 @@ def draw_angles(ax, data):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

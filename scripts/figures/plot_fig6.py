@@ -3,6 +3,7 @@
 import numpy as np
 
 from common import plotting
+from common.job import start
 from common.plotting import BLACK, COLOURS, GREY
 from stickiness import datasets
 
@@ -47,4 +48,4 @@ def draw_spectra(ax, surfaces, power):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

@@ -5,6 +5,7 @@ import numpy as np
 
 from common import plotting
 from common.conventions import middles
+from common.job import start
 from common.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
@@ -89,4 +90,4 @@ def draw_weak(ax, data):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

@@ -7,6 +7,7 @@ import numpy as np
 from common import plotting
 from common.conventions import LOAD, VARIANT
 from common.formatting import interval
+from common.job import start
 from common.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
 from stickiness import datasets
 
@@ -60,7 +61,7 @@ def main(job):
 def read_surface(case):
     """Hurst exponent, magnification, and longest waves a side of the cell."""
     parameters = datasets.parameters(case)
-    return parameters["hurst"], parameters["magnification"], parameters.get("window", 1)
+    return parameters["hurst"], parameters["magnification"], parameters["window"]
 
 
 def find_nearest(case, load):
@@ -179,4 +180,4 @@ def draw_windows(ax, cases):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

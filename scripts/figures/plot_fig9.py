@@ -1,12 +1,43 @@
 """Figure 9: criteria compared: adhesion that each asks for, and moduli on real surfaces."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from common import plotting
 from common.formatting import number
+from common.job import start
 from common.plotting import GREY, RED, make_key
 from stickiness import datasets
-from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT, REMAINING
+
+
+@dataclass(frozen=True)
+class Line:
+    """Line of a criterion, and its symbols."""
+
+    colour: str = "GREY"  #: name in the palette
+    style: str = "-"  #: as matplotlib has it
+    width: float = 1.4  #: [pt]
+    filled: bool = True  #: whether its symbols are
+
+
+LINES = {
+    REMAINING: Line("RED", "-", 2.2),
+    EDGES: Line("RED", "--", 1.2, filled=False),
+    "violano": Line("BLACK", "-", 1.2),
+    "violano_constant": Line("BLACK", "-.", 1.2, filled=False),
+    "violano_printed": Line("BLACK", ":", 1.2, filled=False),
+    "pastewka_robbins": Line("BLUE", "--"),
+    "fuller_tabor": Line("GREEN", "--"),
+    "bearing_area": Line("ORANGE", "-"),
+    FULL_CONTACT: Line("PURPLE", "-."),
+}
+
+
+def find_line(criterion):
+    """Line of a criterion; grey of one that has no own."""
+    return LINES.get(criterion.name, Line())
 
 
 def main(job):
@@ -49,9 +80,9 @@ def select_criteria(thresholds):
 
 def look_of(criterion):
     """Colour, style, width and label of the line of a criterion."""
-    line = criterion.line
+    line = find_line(criterion)
     label = criterion.label.replace("a_V", "$a_V$")
-    look = {"color": getattr(plotting, line.colour.upper()), "label": label}
+    look = {"color": getattr(plotting, line.colour), "label": label}
     return look | {"linestyle": line.style, "linewidth": line.width}
 
 
@@ -71,7 +102,7 @@ def draw_surfaces(ax, verdicts):
         x = places + 0.09 * (index - (len(others) - 1) / 2)
         look = look_of(criterion)
         marker = plotting.pick_look(index)["marker"]
-        mark = {"marker": marker, "mfc": look["color"] if criterion.line.filled else "white"}
+        mark = {"marker": marker, "mfc": look["color"] if find_line(criterion).filled else "white"}
         ax.vlines(x, low, high, color=look["color"], linewidth=1.2)
         ax.plot(x, middle, color=look["color"], linestyle="none", markersize=4.5, **mark)
         keys.append(make_key(**look, **mark))
@@ -82,4 +113,4 @@ def draw_surfaces(ax, verdicts):
 
 
 if __name__ == "__main__":
-    main(plotting.start_figure(globals()))
+    main(start(globals()))

@@ -52,4 +52,4 @@ def compare(simulated, theory):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "compare_theory"))
+    main(start(globals()))

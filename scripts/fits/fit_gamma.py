@@ -141,7 +141,7 @@ def compare_gammas(ensemble, comparison):
             products=np.mean(off * error, axis=-1),
             errors=np.mean(error**2),
         )
-    return Case(parameters.get("window", 1), deviations)
+    return Case(parameters["window"], deviations)
 
 
 def sample(rng, count, windows):

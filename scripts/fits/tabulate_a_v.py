@@ -176,4 +176,4 @@ def jackknife(points, error):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "tabulate_a_v"))
+    main(start(globals()))

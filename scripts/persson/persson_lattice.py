@@ -71,4 +71,4 @@ def highest_summit(surface):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "persson_cases"))
+    main(start(globals()))

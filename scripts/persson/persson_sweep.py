@@ -9,7 +9,7 @@ from common.conventions import annotate, logarithmic_grid
 from common.derived_quantities import write_a_v
 from common.error_budgets import QUADRATURE, theory_parts
 from common.job import start
-from common.model_surfaces import model_spectrum
+from common.model_surfaces import make_spectrum
 from common.theory_variants import evaluate, theories
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -30,7 +30,7 @@ def write_sweep(sweep, params, laws, output):
     magnifications = np.array(sweep["magnification"], dtype=float)
     parts = []
     for hurst, magnification in product(hursts, magnifications):
-        spectrum = model_spectrum({"hurst": float(hurst), "magnification": float(magnification)})
+        spectrum = make_spectrum(float(hurst), float(magnification))
         variants = theories(spectrum, params.variants, params.gamma)
         parts += [evaluate_sweep(theory, sweep, ranges) for theory in variants.values()]
     axes = {"hurst": hursts, "magnification": magnifications, "variant": list(variants)}
@@ -57,7 +57,7 @@ def stack(parts, axes):
 
 def evaluate_sweep(theory, sweep, ranges):
     """Evaluate theory at the loads of a sweep, which are pressures or mean gaps."""
-    if "pressure" in sweep:
+    if sweep["pressure"]:
         pressures = np.array(sweep["pressure"], dtype=float)
     else:
         pressures = np.array([theory.pressure_at(gap) for gap in sweep["mean_gap"]])
@@ -67,4 +67,4 @@ def evaluate_sweep(theory, sweep, ranges):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "persson_sweep"))
+    main(start(globals()))

@@ -9,7 +9,7 @@ import xarray as xr
 from common.conventions import VARIANT, annotate, logarithmic_grid
 from common.error_budgets import BY_THEORY, theory_parts
 from common.job import start
-from common.model_surfaces import model_spectrum
+from common.model_surfaces import make_spectrum
 from common.theory_variants import theories
 from stickiness import criteria, datasets
 from stickiness.accuracy.error_models import read_models
@@ -56,7 +56,7 @@ def tabulate(axes, ranges, gamma):
     edge_a_v = []
     names_of_variants = (VARIANT, "almqvist2011")
     for hurst, magnification in product(axes["hurst"], (*axes["magnification"], INFINITE)):
-        spectrum = model_spectrum({"hurst": hurst, "magnification": magnification})
+        spectrum = make_spectrum(hurst, magnification)
         variants = theories(spectrum, names_of_variants, gamma, NODES)
         if magnification == INFINITE:
             a_v_limit.append(a_v_of(variants.values(), axes["pressure"], ranges, contact=True))
@@ -100,7 +100,7 @@ def quadrature_error(axes, ranges, gamma):
     changes = []
     reference_nodes = 1.0
     for hurst, magnification in product(hursts, magnifications):
-        spectrum = model_spectrum({"hurst": hurst, "magnification": magnification})
+        spectrum = make_spectrum(hurst, magnification)
         both = [Persson(spectrum, VARIANT, gamma, nodes) for nodes in (NODES, reference_nodes)]
         few, many = a_v_of(both, pressures, ranges)
         changes.append(np.abs(few / many - 1).max())
@@ -122,4 +122,4 @@ def add_budgets(dataset, models):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "persson_table"))
+    main(start(globals()))

@@ -7,21 +7,19 @@ import numpy as np
 import xarray as xr
 
 from common import conventions
-from common.config.entries import MOST_POINTS, measurements
 from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
-from common.materials import read_material
-from real_surfaces.measured_surface import find_cutoff, read_levelled
-from stickiness import datasets
+from real_surfaces.measured_maps import read_map
+from stickiness import Material, datasets
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive import solver as adhesive
-from stickiness.measured import periodic, topography
+from stickiness.measured import periodic
 from stickiness.persson.theory import Persson
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver as repulsive
 from stickiness.traction_laws import Exponential
-from stickiness.units import si
+from stickiness.units import Quantity
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
 SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "attractive_area"]
@@ -52,45 +50,43 @@ VARIABLE_TEXTS = {
 
 def main(job):
     surface = datasets.read(job.input.surface, ["q0", "q_cutoff"])
-    entry, params = job.params.surface, job.params
-    bem, heights = entry["bem"], read_map(entry)
-    cutoff = find_cutoff(entry, bem.get("measurement", 0), heights, float(surface.q_cutoff))
-    found = solve(
-        heights,
-        float(surface.q0),
-        highest_wave_number(bem, cutoff),
-        bem,
-        ranges=logarithmic_grid(params.gaps),
-        pixels=params.pixels_per_wavelength,
-        tolerance=params.tolerance,
-        gamma=params.gamma,
-    )
-    title = f"contact of the measured heights of {job.wildcards.real_surface}"
-    parameters = {"surface": job.wildcards.real_surface, "source": heights.source, **entry}
-    found = conventions.annotate(found, **VARIABLE_TEXTS)
-    datasets.write(found, job.output[0], title=title, parameters=parameters)
-
-
-def read_map(entry):
-    """Levelled heights of the measurement whose contact is configured."""
+    entry = job.params.surface
     bem = entry["bem"]
-    measurement = measurements(entry)[bem.get("measurement", 0)][1]
-    if bem.get("periodic", False):
-        measurement = measurement | {"detrend": "mean"}  # a plane would break the period
-    heights = read_levelled(measurement)
-    if isinstance(heights, topography.Profile):
-        raise ValueError(f"{heights.source} is a line profile; bem needs a map of heights")
-    return heights
+    measured = read_map(
+        entry,
+        bem["measurement"],
+        finest=float(surface.q_cutoff),
+        detrend="mean" if bem["periodic"] else None,  # a plane would break the period
+    )
+    if measured is None:
+        raise ValueError(f"{entry['label']}: bem needs a map of heights, not a line profile")
+    dataset = solve(
+        measured.heights,
+        q0=float(surface.q0),
+        q_max=choose_highest_wave_number(bem, measured.cutoff),
+        bem=bem,
+        ranges=logarithmic_grid(job.params.gaps),
+        pixels=job.params.pixels_per_wavelength,
+        tolerance=job.params.tolerance,
+        gamma=job.params.gamma,
+    )
+    name = job.wildcards.real_surface
+    datasets.write(
+        conventions.annotate(dataset, **VARIABLE_TEXTS),
+        job.output[0],
+        title=f"contact of the measured heights of {name}",
+        parameters={"surface": name, "source": measured.heights.source, **entry},
+    )
 
 
-def highest_wave_number(bem, cutoff):
-    """Highest wave number of the contact: the instrument's, or a lower one as configured."""
-    if "shortest_wavelength" not in bem:
+def choose_highest_wave_number(bem, cutoff):
+    """Highest wave number of the contact [1/m]: the instrument's, or a lower one as configured."""
+    if bem["shortest_wavelength"] is None:
         return cutoff
-    wanted = 2 * np.pi / si(bem["shortest_wavelength"], "m")
+    wanted = 2 * np.pi / bem["shortest_wavelength"]
     if wanted > cutoff * (1 + 1e-9):
         raise ValueError(
-            f"bem.shortest_wavelength = {bem['shortest_wavelength']!r} is below the instrument's "
+            f"bem.shortest_wavelength = {bem['shortest_wavelength']} is below the instrument's "
             f"{2 * np.pi / cutoff:.3g} m; leave it out or give a longer one"
         )
     return wanted
@@ -98,7 +94,7 @@ def highest_wave_number(bem, cutoff):
 
 def solve(heights, q0, q_max, bem, **settings):
     """Contact and theory, as configured by `bem`, for every way of making the heights periodic."""
-    ways = ("given",) if bem.get("periodic", False) else WAYS
+    ways = ("given",) if bem["periodic"] else WAYS
     blocks = [solve_periodic(heights, way, q0, q_max, bem, **settings) for way in ways]
     ways = xr.DataArray(list(ways), dims="periodisation", name="periodisation")
     # Loads with units are the same in every way, though not over the h_rms of each.
@@ -109,13 +105,15 @@ def solve(heights, q0, q_max, bem, **settings):
 def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamma):
     """Contact on two grids, in units of 1/q0 and the h_rms of the periodic heights, and theory."""
     limited, sides, q_max, pixels = make_periodic(heights, way, q_max, pixels, bem)
+    # In units of 1/q0 along the surface, and of the rms height across it.
     h_rms = float(np.std(limited))
-    scaled, lengths = (limited - limited.mean()) / h_rms, tuple(q0 * s for s in sides)
-    material = read_material(bem["adhesion"]) if "adhesion" in bem else None
+    scaled = (limited - limited.mean()) / h_rms
+    lengths = tuple(q0 * side for side in sides)
+    material = None if bem["adhesion"] is None else Material.from_entry(bem["adhesion"])
     pressures = np.sort(bem["pressures"])
-    if any(isinstance(pressure, str) for pressure in bem["pressures"]):
-        over_modulus = [si(pressure, "Pa") / material.modulus for pressure in bem["pressures"]]
-        pressures = np.sort(over_modulus) / (q0 * h_rms)
+    if any(isinstance(pressure, Quantity) for pressure in bem["pressures"]):
+        modulus = material.plane_strain_modulus
+        pressures = np.sort([p / modulus for p in bem["pressures"]]) / (q0 * h_rms)
     block = load_curves(scaled, lengths, (2, 1), pressures, ranges, tolerance)
     block = conventions.add_convergence(block[SOLVED_VARIABLES], tolerance)
     theory = Persson(periodic.shells(scaled, lengths), variant=VARIANT, gamma=gamma)
@@ -126,22 +124,23 @@ def solve_periodic(heights, way, q0, q_max, bem, ranges, pixels, tolerance, gamm
     block["theory_a_v"] = block.theory_attractive_area / scale
     block["theory_area_fraction"] = "pressure", [theory.area_fraction(p) for p in pressures]
     if material is not None:
-        length = material.work_of_adhesion / material.modulus
+        modulus = material.plane_strain_modulus
+        length = material.work_of_adhesion / modulus
         # In the units of the scaled heights, pressures over E* q0 h_rms.
         law = Exponential(length / (q0 * h_rms**2), material.range / h_rms)
         grids = scaled[::2, ::2], scaled
         curves = [press_with_adhesion(grid, lengths, pressures, law) for grid in grids]
         block = block.merge(xr.concat(curves, "resolution"))
-        block["modulus"] = material.modulus
-        block["applied_pressure"] = "pressure", pressures * material.modulus * q0 * h_rms
+        block["modulus"] = modulus
+        block["applied_pressure"] = "pressure", pressures * modulus * q0 * h_rms
     block = block.assign_coords(resolution=[pixels / 2, float(pixels)])
     return block.assign(h_rms=h_rms, q1=q_max)
 
 
 def make_periodic(heights, way, q_max, pixels, bem):
     """Heights on the grid to be solved, sides, highest wave number, points per wavelength."""
-    most = bem.get("most_points", MOST_POINTS)
-    if way == "given" and "shortest_wavelength" not in bem:
+    most = bem["most_points"]
+    if way == "given" and bem["shortest_wavelength"] is None:
         shape = heights.heights.shape
         if max(shape) > most or any(n % 2 for n in shape):
             raise ValueError(
@@ -177,7 +176,8 @@ def press_with_adhesion(heights, lengths, pressures, law):
         row = xr.Dataset({"adhesive_contact_area": state.repulsive_area_fraction})
         row["adhesive_attractive_area"] = np.mean(attracted)
         row["adhesive_mean_gap"] = state.mean_gap
-        row["adhesive_residual"], row["adhesive_iterations"] = state.residual, state.iterations
+        row["adhesive_residual"] = state.residual
+        row["adhesive_iterations"] = state.iterations
         rows.append(row)
         logging.info(
             f"n = {len(heights)}: with adhesion, load {len(rows)} of {len(pressures)}, area "
@@ -191,4 +191,4 @@ def press_with_adhesion(heights, lengths, pressures, law):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "contact_measured", real_surface="jacksboro"))
+    main(start(globals()))

@@ -18,16 +18,15 @@ from scipy.special import erfinv
 
 from common import conventions
 from common.adhesion_sets import STATE
-from common.config.entries import measurements
 from common.contact_curves import load_curve, measure
 from common.contact_picture import draw_still
 from common.formatting import amount, percent
 from common.job import start
-from common.materials import read_material
-from common.verdicts import LEAST_SHOWN
-from real_surfaces.measured_surface import find_cutoff, read_levelled
-from stickiness import datasets, remaining
-from stickiness.measured import periodic, topography
+from common.verdict_texts import LEAST_SHOWN
+from real_surfaces.measured_maps import read_map
+from stickiness import Material, datasets, remaining
+from stickiness.entries import list_measurements
+from stickiness.measured import periodic
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 from stickiness.repulsive.half_space import measure_slope
@@ -35,7 +34,8 @@ from stickiness.repulsive.solver import ConvergenceError
 from stickiness.traction_laws import LAWS, find_strength
 
 PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
-MOST_PIXELS, LEAST_PIXELS = 8, 4  # per shortest wavelength
+MOST_PIXELS = 8  # per shortest wavelength
+LEAST_PIXELS = 4
 ROUNDING = 1e-9
 CONTACT_POINTS = 512  # along the longer side, at most; the fields kept have half of them
 # Shares of the area in contact by theory: at small loads those solved are up to 1.8 times as large.
@@ -44,7 +44,8 @@ CONTACT_TOLERANCE = 1e-4
 PULL_OFF_POINTS = 192  # along the longer side, at most
 # In the width of the cohesive zone: half the grid, which tells the error, resolves it with two.
 PIXELS_IN_ZONE = 4.0
-PULL_OFF_TOLERANCE, PULL_OFF_STEPS = 1e-3, 20
+PULL_OFF_TOLERANCE = 1e-3
+PULL_OFF_STEPS = 20
 OPEN, ATTRACTED, TOUCHING = range(3)
 
 RELATIVE_CHANGE = "largest relative change from half the grid at this load and its neighbours"
@@ -93,38 +94,53 @@ class LeftOutError(Exception):
 
 
 def main(job):
+    params = job.params
+    name = job.wildcards.real_surface
     surface = datasets.read(job.input.surface, ["q0", "q1", "q_cutoff"])
-    asked, entry, params, contact = job.params.surface, job.params.entry, job.params, None
-    band = float(surface.q0), float(surface.q1)
+    contact = None
     try:
-        heights, q_cutoff = find_heights(surface, asked)
-        contact = press(prepare(heights, q_cutoff, CONTACT_POINTS), band[0], q_cutoff)
-        if len(measurements(asked)) > 1:
-            contact.attrs["measurement"] = heights.source
-        rough, material = prepare(heights, q_cutoff, PULL_OFF_POINTS), read_material(entry)
-        pull_off = separate(rough, band, material, params.squeeze)
+        measured = find_map(surface, params.surface)
+        contact = press(prepare(measured, CONTACT_POINTS), float(surface.q0), measured.cutoff)
+        if len(list_measurements(params.surface)) > 1:
+            contact.attrs["measurement"] = measured.heights.source
+        pull_off = pull(measured, surface, params.entry, params.squeeze)
     except LeftOutError as reason:
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
-    made = {"surface": job.wildcards.real_surface}
-    title = f"where the heights of {job.wildcards.real_surface} touch"
-    datasets.write(contact, job.output.contact, title=title, parameters=made | asked)
-    made |= {"material": params.material, **entry}
-    title = f"pull-off of {params.material} from {job.wildcards.real_surface}"
-    datasets.write(pull_off, job.output.pull_off, title=title, parameters=made)
+    datasets.write(
+        contact,
+        job.output.contact,
+        title=f"where the heights of {name} touch",
+        parameters={"surface": name, **params.surface},
+    )
+    datasets.write(
+        pull_off,
+        job.output.pull_off,
+        title=f"pull-off of {params.material} from {name}",
+        parameters={"surface": name, "material": params.material, **params.entry},
+    )
     draw_still(contact, pull_off, job.output.figure)
 
 
-def find_heights(surface, asked):
-    """Levelled heights of the first measurement that is a map, and its cutoff [1/m]."""
+def find_map(surface, entry):
+    """`MeasuredMap` of the first measurement that is a map."""
     if surface.attrs["not_judged"]:
         raise LeftOutError("the surface is not judged")
-    for index, (_, measurement) in enumerate(measurements(asked)):
-        heights = read_levelled(measurement)
-        if isinstance(heights, topography.Topography):
-            return heights, find_cutoff(asked, index, heights, float(surface.q_cutoff))
+    for index in range(len(list_measurements(entry))):
+        measured = read_map(entry, index, finest=float(surface.q_cutoff))
+        if measured is not None:
+            return measured
     raise LeftOutError("it was measured along lines only, and contact needs a map of heights")
+
+
+def pull(measured, surface, entry, squeeze):
+    """Pull the material of an entry off the measured heights; see `separate`."""
+    if entry["surface"] is not None:
+        raise LeftOutError("the material has a roughness of its own, which the picture would lack")
+    rough = prepare(measured, PULL_OFF_POINTS)
+    material = Material.from_entry(entry)
+    return separate(rough, material, q0=float(surface.q0), q1=float(surface.q1), squeeze=squeeze)
 
 
 @dataclass(frozen=True)
@@ -143,12 +159,13 @@ class PeriodicHeights:
         return {axis: (np.arange(n) + 0.5) * side / n for axis, side, n in places}
 
 
-def prepare(heights, q_cutoff, points):
+def prepare(measured, points):
     """`PeriodicHeights` on at most `points` along the longer side, fewer if all waves are there."""
+    heights = measured.heights
     whole = periodic.periodise(heights.heights, PERIODISATION)
     waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
     nyquist = np.pi / max(heights.dx, heights.dy)
-    q_max = min(q_cutoff, nyquist, points / (LEAST_PIXELS * waves)) * (1 - ROUNDING)
+    q_max = min(measured.cutoff, nyquist, points / (LEAST_PIXELS * waves)) * (1 - ROUNDING)
     pixels = min(MOST_PIXELS, points / (waves * q_max)) * (1 - ROUNDING)
     limited = periodic.band_limited(whole, heights.size, q_max, pixels)
     change = float(np.std(whole - heights.heights) / np.std(heights.heights))
@@ -157,7 +174,8 @@ def prepare(heights, q_cutoff, points):
 
 def press(rough, q0, q_cutoff):
     """Contact and gap of `PeriodicHeights` without adhesion, at every load, as a dataset."""
-    h_rms, slope = float(np.std(rough.heights)), measure_slope(rough.heights, rough.sides)
+    h_rms = float(np.std(rough.heights))
+    slope = measure_slope(rough.heights, rough.sides)
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
     loads = slope * erfinv(AREAS) / np.sqrt(2)
     rows = []
@@ -200,62 +218,42 @@ def find_error(fine, coarse):
     return fine * maximum_filter1d(abs(coarse / fine - 1), 3, mode="nearest")
 
 
-def separate(rough, band, material, squeeze):
-    """States of approach, squeeze and separation of `PeriodicHeights`; `band` is q0 and q1."""
-    if material.surface is not None:
-        raise LeftOutError("the material has a roughness of its own, which the picture would lack")
-    q0, q1 = band
-    heights, sides = rough.heights, rough.sides
-    h_rms, length = float(np.std(heights)), material.work_of_adhesion / material.modulus
-    pixel = sides[0] / heights.shape[0]
-    strength = float(find_strength(material.law))
-    range_ = max(material.range, strength * np.sqrt(PIXELS_IN_ZONE * pixel * length))
-    shortest = amount(range_, "m", 2)
-    if range_ > h_rms:
-        raise LeftOutError(
-            f"the shortest range that the grid resolves, {shortest}, is longer than the rms "
-            f"height, {amount(h_rms, 'm', 2)}"
-        )
-    spectrum = periodic.shells(heights, sides)
-    predicted = remaining.predict(spectrum, length, range_, q0, material.solid, material.law)
-    if predicted.separation_limits[1] < LEAST_SHOWN:
-        raise LeftOutError(
-            f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
-            f"remains, even at a range of {shortest}, the shortest that the grid resolves"
-        )
-    squeeze, law = squeeze * q0 * h_rms, LAWS[material.law](length, range_)
-    settings = {"squeeze": squeeze, "tol": PULL_OFF_TOLERANCE, "solid": material.solid}
-    settings["steps"] = PULL_OFF_STEPS
-    try:
-        with warnings.catch_warnings():
-            # What a coarse grid does to the result is in the limits.
-            warnings.simplefilter("ignore", PlausibilityWarning)
-            found = remaining.measure(heights, sides, law, **settings)
-    except ConvergenceError as error:
-        raise LeftOutError(f"the simulation did not converge ({error})") from None
-    gaps = np.array([point.state.gap for point in found.points])
+def separate(rough, material, q0, q1, squeeze):
+    """States of approach, squeeze and separation of `PeriodicHeights`.
+
+    `q0` and `q1` [1/m] are the ends of the spectrum judged; `squeeze` is over E* q0 h_rms.
+    """
+    h_rms = float(np.std(rough.heights))
+    modulus = material.plane_strain_modulus
+    adhesion_length = material.work_of_adhesion / modulus
+    simulated_range = find_resolved_range(rough, material, adhesion_length)
+    predicted = predict_resolved(rough, material, adhesion_length, simulated_range, q0)
+    law = LAWS[material.law](adhesion_length, simulated_range)
+    squeeze_pressure = squeeze * q0 * h_rms
+    measured = simulate(rough, law, material.solid, squeeze_pressure)
+    gaps = np.array([point.state.gap for point in measured.points])
     zones = np.select([gaps <= 0, gaps <= law.range], [TOUCHING, ATTRACTED], OPEN).astype("u1")
     dataset = xr.Dataset(
         {
-            "mean_gap": ("state", found.gap),
-            "mean_traction": ("state", -material.modulus * found.pressure),
-            "residual": ("state", [point.state.residual for point in found.points]),
-            "iterations": ("state", [point.state.iterations for point in found.points]),
-            "separating": ("state", found.separating.astype("i1")),
+            "mean_gap": ("state", measured.gap),
+            "mean_traction": ("state", -modulus * measured.pressure),
+            "residual": ("state", [point.state.residual for point in measured.points]),
+            "iterations": ("state", [point.state.iterations for point in measured.points]),
+            "separating": ("state", measured.separating.astype("i1")),
             "zone": (("state", "x", "y"), zones),
             "contact_area": ("state", (zones == TOUCHING).mean(axis=(1, 2))),
             "attracted_area": ("state", (zones == ATTRACTED).mean(axis=(1, 2))),
-            "jumps": found.jumps,
-            "modulus": material.modulus,
+            "jumps": measured.jumps,
+            "modulus": modulus,
             "work_of_adhesion": material.work_of_adhesion,
-            "range": range_,
+            "range": simulated_range,
             "material_range": material.range,
-            "zone_width": q0 * law.maugis_range**2 / length,
+            "zone_width": q0 * law.maugis_range**2 / adhesion_length,
             "energy_ratio": predicted.energy_ratio,
             "h_rms": h_rms,
             "shortest_wavelength": rough.shortest_wavelength,
             "judged_wavelength": 2 * np.pi / q1,
-            "squeeze_pressure": squeeze * material.modulus,
+            "squeeze_pressure": squeeze_pressure * modulus,
         },
         coords=rough.centres(),
         attrs={"left_out": ""},
@@ -263,16 +261,74 @@ def separate(rough, band, material, squeeze):
     dataset.zone.encoding = {"zlib": True}
     dataset = conventions.annotate(dataset, **TEXTS, residual=STATE["residual"])
     dataset = conventions.add_convergence(dataset, PULL_OFF_TOLERANCE)
+    return add_quoted(dataset, measured, predicted, modulus)
+
+
+def find_resolved_range(rough, material, adhesion_length):
+    """Range of the attraction [m]: the material's, or the shortest that the grid resolves."""
+    pixel = rough.sides[0] / rough.heights.shape[0]
+    strength = float(find_strength(material.law))
+    # The cohesive zone, range^2/(adhesion length), spans enough pixels.
+    shortest = strength * np.sqrt(PIXELS_IN_ZONE * pixel * adhesion_length)
+    simulated_range = max(material.range, shortest)
+    h_rms = float(np.std(rough.heights))
+    if simulated_range > h_rms:
+        raise LeftOutError(
+            f"the shortest range that the grid resolves, {amount(simulated_range, 'm', 2)}, is "
+            f"longer than the rms height, {amount(h_rms, 'm', 2)}"
+        )
+    return simulated_range
+
+
+def predict_resolved(rough, material, adhesion_length, simulated_range, q0):
+    """What the model predicts for the heights and the range that are simulated."""
+    spectrum = periodic.shells(rough.heights, rough.sides)
+    predicted = remaining.predict(
+        spectrum, adhesion_length, simulated_range, q0, material.solid, material.law
+    )
+    if predicted.separation_limits[1] < LEAST_SHOWN:
+        raise LeftOutError(
+            f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
+            f"remains, even at a range of {amount(simulated_range, 'm', 2)}, the shortest that the "
+            "grid resolves"
+        )
+    return predicted
+
+
+def simulate(rough, law, solid, squeeze_pressure):
+    """Approach, squeeze [E*] and separation by full simulation."""
+    try:
+        with warnings.catch_warnings():
+            # What a coarse grid does to the result is in the limits.
+            warnings.simplefilter("ignore", PlausibilityWarning)
+            return remaining.measure(
+                rough.heights,
+                rough.sides,
+                law,
+                squeeze=squeeze_pressure,
+                tol=PULL_OFF_TOLERANCE,
+                solid=solid,
+                steps=PULL_OFF_STEPS,
+            )
+    except ConvergenceError as error:
+        raise LeftOutError(f"the simulation did not converge ({error})") from None
+
+
+def add_quoted(dataset, measured, predicted, modulus):
+    """Add works and pull-off with their limits, simulated and by the model."""
+    sources = (("", "", measured), ("predicted_", ", by the model", predicted))
     for name, text in QUOTED.items():
-        scale, unit = (material.modulus, "Pa") if name == "pull_off" else (1.0, "1")
-        for prefix, by, of in (("", "", found), ("predicted_", ", by the model", predicted)):
-            values = (getattr(of, name), *getattr(of, f"{name}_limits"))
-            for end, value in zip(("", "_low", "_high"), values, strict=True):
-                dataset[f"{prefix}{name}{end}"] = scale * value
-                texts = {f"{prefix}{name}{end}": (unit, text + by + end.replace("_", ", "))}
-                datasets.annotate(dataset, **texts)
+        scale, unit = (modulus, "Pa") if name == "pull_off" else (1.0, "1")
+        for prefix, by_whom, source in sources:
+            low, high = getattr(source, f"{name}_limits")
+            values = {"": getattr(source, name), "_low": low, "_high": high}
+            for ending, value in values.items():
+                variable = f"{prefix}{name}{ending}"
+                dataset[variable] = scale * value
+                long_name = text + by_whom + ending.replace("_", ", ")
+                datasets.annotate(dataset, **{variable: (unit, long_name)})
     return dataset
 
 
 if __name__ == "__main__":
-    main(start(globals(), "picture_contact", real_surface="jacksboro"))
+    main(start(globals()))

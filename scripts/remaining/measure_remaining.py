@@ -60,11 +60,11 @@ def main(job):
     energy = spectrum.elastic_energy()
     # Ranges of attraction are given over h_rms, or by the width of the cohesive zone.
     along = "zone"
-    values = setting.get("zones")
+    values = setting["zones"]
     if values is None:
         along = "range_over_h_rms"
         values = setting["ranges"]
-    squeezes = setting.get("squeezes", [job.params.squeeze])
+    squeezes = setting["squeezes"] or [job.params.squeeze]
     axes = {"energy": setting["energies"], along: values, "squeeze": squeezes}
     rows = []
     for ratio, value, squeeze in product(*axes.values()):
@@ -115,4 +115,4 @@ def measure(heights, length, law, squeeze):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "measure_remaining", remaining_set="H0.8_zeta8_2x2", seed=1))
+    main(start(globals()))

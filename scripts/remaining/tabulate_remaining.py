@@ -40,7 +40,7 @@ def list_rows(path):
     setting = datasets.parameters(data)
     energy = float(data.full_contact_energy)
     slope = float(data.rms_slope)
-    rough = Roughness(1.0, setting.get("rolloff", 1.0), energy, rms_slope=slope)
+    rough = Roughness(1.0, setting["rolloff"] or 1.0, energy, rms_slope=slope)
     along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
     points = data.stack(point=("energy", along, "squeeze")).dropna("point", subset=["bound"])
     identity = ("hurst", "magnification", "window", "points", "seed")
@@ -82,4 +82,4 @@ def summarise(frame):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "tabulate_remaining"))
+    main(start(globals()))

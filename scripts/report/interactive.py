@@ -12,9 +12,9 @@ from markupsafe import Markup
 from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sides_of
 from common.formatting import unit_for
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
-from common.verdicts import find_limits
 from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, find_scale
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
+from stickiness.verdicts.limits import find_limits
 
 LOOKS = (  # of the verdicts, in the order of their codes
     ("x", RED),
@@ -23,7 +23,8 @@ LOOKS = (  # of the verdicts, in the order of their codes
     ("circle", GREEN),
     ("square", BLUE),
 )
-LEAST_RATIO, MOST_RATIO = 1e-6, 1e3  # w/U_full; pairs beyond stand at the edges
+LEAST_RATIO = 1e-6  # w/U_full; pairs beyond these two stand at the edges
+MOST_RATIO = 1e3
 TOLD_OF_PAIR = [
     ("", "@material on @surface"),
     ("verdict", "@word"),
@@ -95,8 +96,10 @@ def draw_pairs(pairs):
         points = pd.DataFrame(ends)
         source = models.ColumnDataSource(points.to_dict("list"))
         look = {"line_color": colour, "line_alpha": 0.6}
-        pairwise = (points[name].values.reshape(-1, 2).tolist() for name in ("ratio", "share"))
-        joined = plot.multi_line(*pairwise, **look)
+        ratios, shares = (
+            points[name].values.reshape(-1, 2).tolist() for name in ("ratio", "share")
+        )
+        joined = plot.multi_line(ratios, shares, **look)
         bars = plot.segment("ratio", "low", "ratio", "high", source=source, **look)
         look = {"marker": marker, "size": 9, "color": colour, "fill_alpha": 0.8}
         marks = plot.scatter("ratio", "share", source=source, **look)

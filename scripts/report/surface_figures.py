@@ -8,7 +8,7 @@ import pandas as pd
 from common import plotting
 from common.formatting import unit_for
 from common.plotting import BLACK, COLOURS, GREY, MARKERS
-from common.verdicts import MPA
+from common.verdict_texts import MPA
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
@@ -75,8 +75,9 @@ def draw_measured(ax, surface, q):
     """Rings within the band of the instrument, the fit with its band beyond, and the cutoff."""
     beyond = ~plotting.find_rings(surface)
     low, high = surface.psd.values[:, beyond]  # one standard error off
-    fit, factor = np.sqrt(low * high), np.sqrt(high / low) ** COVERS
-    plotting.draw_band(ax, q[beyond], fit / factor, fit * factor, GREY)
+    middle = np.sqrt(low * high)
+    factor = np.sqrt(high / low) ** COVERS
+    plotting.draw_band(ax, q[beyond], middle / factor, middle * factor, GREY)
     if "psd_measurement" in surface:  # those behind a stitched spectrum
         for index, levels in enumerate(surface.psd_measurement.values):
             look = {"color": COLOURS[1 + index % (len(COLOURS) - 1)], "linewidth": 0.8}
@@ -91,8 +92,10 @@ def draw_measured(ax, surface, q):
     look = {"color": COLOURS[1], "linewidth": 0.9, "linestyle": ":"}
     ax.axvline(float(surface.q_cutoff), **look, label=text)
     if "q_rolloff" in surface:
-        q, error = float(surface.q_rolloff), float(surface.q_rolloff_total_error)
-        ax.axvspan(max(q - error, q / 3), q + error, color=COLOURS[2], alpha=0.25, linewidth=0)
+        corner = float(surface.q_rolloff)
+        error = float(surface.q_rolloff_total_error)
+        lowest = max(corner - error, corner / 3)
+        ax.axvspan(lowest, corner + error, color=COLOURS[2], alpha=0.25, linewidth=0)
 
 
 class Curve(NamedTuple):
@@ -111,15 +114,22 @@ def find_curves(pairs, labels, at_first):
     Those of the materials `at_first` are shown at first.
     """
     judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
-    found = {}
+    curves = {}
     for axis in LABELS:
         for place, name in enumerate(judged):
             pair = pairs.sel(material=name)
-            known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())
-            if known and (axis != "rate" or int(pair.depends_on_rate)):
-                curve = Curve(labels[name], place, *follow(axis, pair), name in at_first)
-                found.setdefault(axis, []).append(curve)
-    return found
+            is_known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())
+            if is_known and (axis != "rate" or int(pair.depends_on_rate)):
+                points, own = follow(axis, pair)
+                curve = Curve(
+                    label=labels[name],
+                    place=place,
+                    points=points,
+                    own=own,
+                    shown=name in at_first,
+                )
+                curves.setdefault(axis, []).append(curve)
+    return curves
 
 
 def follow(axis, pair):
@@ -147,26 +157,34 @@ def find_scale(curves):
     return ("linear", (-2, 102)) if most <= 100 else ("log", (LEAST_PERCENT, 1.5 * most))
 
 
-def draw_still(found, output):
+def draw_still(curves_by_axis, output):
     """Write the curves of the first materials for print; say so if nothing is judged."""
-    rows, height = ("A", "AB", "ABC", "AB;CD")[max(len(found), 1) - 1], 2.9
-    with plotting.open_figure([output], rows, height * len(rows.split(";"))) as panels:
-        if not found:
+    rows = ("A", "AB", "ABC", "AB;CD")[max(len(curves_by_axis), 1) - 1]
+    height = 2.9 * len(rows.split(";"))
+    with plotting.open_figure([output], rows, height) as panels:
+        if not curves_by_axis:
             panels["A"].set_axis_off()
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
             return
-        for ax, (axis, curves) in zip(panels.values(), found.items(), strict=True):
-            for label, place, points, own, _ in [one for one in curves if one.shown][:SHOWN]:
-                colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
-                plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
-                look = {"color": colour, "linestyle": DASHES[place % SHOWN]}
-                for end in ("rough", "smooth"):
-                    ax.plot(points.x, points[end], **look)
-                    ax.plot(own.x, own[end], marker, color=colour)
-                ax.plot([], [], **look, marker=marker, label=label)
+        for ax, (axis, curves) in zip(panels.values(), curves_by_axis.items(), strict=True):
+            for curve in [curve for curve in curves if curve.shown][:SHOWN]:
+                draw_curve(ax, curve)
             ax.axhline(100 * DEFAULT_SHARE, color=GREY, linewidth=0.9, linestyle="--")
             scale, limits = find_scale(curves)
             ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=LABELS[axis], ylabel=REMAINS)
         handles, texts = panels["A"].get_legend_handles_labels()
         look = {"loc": "outside lower center", "ncols": SHOWN, "handlelength": 3}
         panels["A"].figure.legend(handles, texts, **look)
+
+
+def draw_curve(ax, curve):
+    """Draw a `Curve` at both ends of the surface, with its limits and the pair itself."""
+    colour = COLOURS[curve.place % len(COLOURS)]
+    marker = MARKERS[curve.place % len(MARKERS)]
+    points = curve.points
+    plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
+    look = {"color": colour, "linestyle": DASHES[curve.place % SHOWN]}
+    for end in ("rough", "smooth"):
+        ax.plot(points.x, points[end], **look)
+        ax.plot(curve.own.x, curve.own[end], marker, color=colour)
+    ax.plot([], [], **look, marker=marker, label=curve.label)

@@ -9,7 +9,7 @@ from common.edge_points import select_certain
 from common.experiment_outcomes import OUTCOMES, describe
 from common.job import start
 from common.templates import write_page
-from common.verdicts import count_pairs
+from common.verdict_texts import count_pairs
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
@@ -22,14 +22,16 @@ SHOWN_SETTINGS = ("points per wavelength", "seeds", "model")  # without adhesion
 
 
 def main(job):
-    read, inputs = datasets.read, job.input
+    read = datasets.read
+    inputs = job.input
     weakest = at_load(read(inputs.dmt_error)).isel(adhesion_length_over_range=0)
     judged = read(inputs.verdicts)
-    made = datasets.parameters(judged)
-    materials = {name: entry["label"] for name, entry in made["materials"].items()}
+    parameters = datasets.parameters(judged)
+    materials = {name: entry["label"] for name, entry in parameters["materials"].items()}
     verdicts = judged.verdict.transpose("material", "surface").to_pandas()
-    verdicts = verdicts.rename(index=materials, columns=made["labels"])
-    experiments, trade = read(inputs.experiments), summary.read(inputs.tradeoff)
+    verdicts = verdicts.rename(index=materials, columns=parameters["labels"])
+    experiments = read(inputs.experiments)
+    trade = summary.read(inputs.tradeoff)
     of_contact = trade.problem == "contact"
     edges = select_certain(map(read, inputs.edges))
     weak = edges.edge_strength < equivalent_sphere.WEAK
@@ -59,11 +61,13 @@ def main(job):
 def compare_cells(simulated, lattices):
     """a_V of every complete case, its error, and theory on the spectrum of its cell."""
     rows = []
-    for found, lattice in zip(simulated, lattices, strict=True):
-        made, at = datasets.parameters(found), at_load(found).isel(window=0)
-        cell = made.get("window", 1), made["hurst"], made["magnification"]
+    for ensemble, lattice in zip(simulated, lattices, strict=True):
+        surface = datasets.parameters(ensemble)
+        cell = (surface["window"], surface["hurst"], surface["magnification"])
+        fit = at_load(ensemble).isel(window=0)
         theory = at_load(lattice).isel(window=0).sel(variant=VARIANT).a_v
-        rows.append((*cell, at.a_v_mean, error_budget.total_error(at, "a_v_mean"), theory))
+        error = error_budget.total_error(fit, "a_v_mean")
+        rows.append((*cell, fit.a_v_mean, error, theory))
     return sorted(rows, key=lambda row: row[:3])
 
 
@@ -83,4 +87,4 @@ def compare_remaining(table):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "write_findings"))
+    main(start(globals()))

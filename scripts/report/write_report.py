@@ -9,10 +9,10 @@ import pandas as pd
 from common import experiment_outcomes as experiments
 from common.conventions import at_load
 from common.job import start
+from common.table_rows import TONES, arrange_pairs, describe_surface
 from common.templates import write_page
-from common.verdicts import count_pairs
+from common.verdict_texts import count_pairs
 from report import interactive, pages
-from report.table_rows import TONES, arrange_pairs, describe_surface
 from stickiness import datasets, error_budget
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
@@ -32,19 +32,20 @@ WORD_TONES = dict(zip(WORDS[NOT_JUDGED - 1 :: -1], TONES[NOT_JUDGED - 1 :: -1], 
 
 
 def main(job):
-    inputs, params = job.input, job.params
+    inputs = job.input
+    params = job.params
     claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "sources"])
     verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin", "disagrees"])
     tested = datasets.read(inputs.experiments, ["outcome", "criterion_outcome"])
     files = {
-        kind: path if isinstance(path, str) else {Path(one).stem: one for one in path}
+        kind: path if isinstance(path, str) else {Path(each).stem: each for each in path}
         for kind, path in inputs.items()
     }
     surfaces, ensembles, comparisons, answers = (
         {name: datasets.read(path) for name, path in files[kind].items()}
         for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
-    materials = datasets.parameters(verdicts)["materials"]
+    materials = params.materials
     labels = {name: entry["label"] for name, entry in params.surfaces.items()}
     pairs = arrange_pairs(verdicts, materials, labels)
     embed = pages.embed_figure
@@ -106,8 +107,8 @@ def group_seeds(paths):
     for path in paths:
         seed = Path(path).stem.startswith("seed")
         groups.setdefault(Path(path).parent if seed else path, []).append(path)
-    found = [(group[0], len(group) - 1) for group in groups.values()]
-    return sorted(found, key=lambda group: group[1] > 0)
+    counted = [(group[0], len(group) - 1) for group in groups.values()]
+    return sorted(counted, key=lambda group: group[1] > 0)
 
 
 def count(words, tones):
@@ -119,9 +120,18 @@ def count(words, tones):
 
 def describe_presets(models, fidelities, presets, surface, descriptor_seeds):
     """Settings of every preset, with their predicted cost and errors."""
-    given = models, Surface.of(surface), presets["pressures"]
-    whole = Problem(*given, columns_of(MODELLED), descriptor_seeds)
-    single = {name: Problem(*given, columns_of([name]), descriptor_seeds) for name in MODELLED}
+
+    def pose(names):
+        return Problem(
+            models,
+            Surface.of(surface),
+            presets["pressures"],
+            columns_of(names),
+            descriptor_seeds,
+        )
+
+    whole = pose(MODELLED)
+    single = {name: pose([name]) for name in MODELLED}
     rows = []
     for name, error in presets["accuracy"].items():
         chosen = plan.preset(fidelities[name])
@@ -155,4 +165,4 @@ def list_versions(files):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "write_report"))
+    main(start(globals()))

@@ -1,49 +1,42 @@
-"""Verdict for every material on one surface, and the page of the surface.
-
-It has verdicts and their reasons, curves, contact, parameters and spectrum.
-"""
-
-import json
+"""The page of one surface: verdicts and their reasons, curves, contact, parameters, spectrum."""
 
 import numpy as np
 
 from common import provided
 from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
-from common.materials import find_doubts, read_material
+from common.materials import find_doubts
+from common.table_rows import describe_pair, describe_surface, explain
 from common.templates import write_page
-from common.verdicts import describe_moment, find_limits, find_value
-from criteria.thresholds import ASKED, find_thresholds
-from criteria.verdicts import judge_materials, read_surfaces
+from common.verdict_texts import describe_moment
 from report import interactive, pages, surface_figures
-from report.table_rows import describe_pair, describe_surface, explain
-from stickiness import __version__, datasets
+from stickiness import Material, datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.pair import NOT_JUDGED, SIGNS, WORDS
-from stickiness.criteria.thresholds import CONTACT_AREA
-from stickiness.criteria.verdict import describe_contact_law
+from stickiness.criteria.pair import NOT_JUDGED, SIGNS
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.solids import HALF_SPACE
 from stickiness.statistics import COVERS
+from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
 
 QUOTED_RANGE = 0.03  # over h_rms, at which a_V of the measured heights is quoted
 
 
 def main(job):
     inputs = job.input
+    entries = job.params.materials
     surface = datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"])
-    entries, pairs = job.params.materials, judge(job).sel(surface=job.wildcards.real_surface)
+    verdicts = datasets.read(inputs.verdicts, ["verdict", "remaining"])
+    pairs = verdicts.sel(surface=job.wildcards.real_surface)
     names = provided.user_defined_first(map(str, pairs.material.values), provided.MATERIALS)
     mine = [name for name in names if name not in provided.MATERIALS]
     at_first = mine or names[: surface_figures.SHOWN]
 
     surface_figures.draw_surface(surface, job.output.figure)
     labels = {name: entries[name]["label"] for name in names}
-    found = surface_figures.find_curves(pairs, labels, at_first)
-    surface_figures.draw_still(found, job.output.curves)
-    curves = found and {
-        "interactive": interactive.embed(interactive.draw_curves(found)),
+    followed = surface_figures.find_curves(pairs, labels, at_first)
+    surface_figures.draw_still(followed, job.output.curves)
+    curves = followed and {
+        "interactive": interactive.embed(interactive.draw_curves(followed)),
         "still": pages.embed_png(job.output.curves),
     }
     contact = inputs.get("contact") and describe_contact(inputs, entries, mine)
@@ -51,7 +44,7 @@ def main(job):
     write_page(
         inputs.template,
         job.output.page,
-        files=dict(inputs.items()) | {"verdicts": job.output.verdicts},
+        files=dict(inputs.items()),
         surface=surface,
         made=job.params.surface,
         sizes=describe_surface(surface),
@@ -74,37 +67,6 @@ def main(job):
     )
 
 
-def judge(job):
-    """Write the verdicts on the surface, and return them."""
-    surfaces = read_surfaces([job.wildcards.real_surface], [job.input.surface])
-    material_surfaces = read_surfaces(job.params.material_surfaces, job.input.material_surfaces)
-    verdicts = judge_materials(surfaces, material_surfaces, job.params)
-    name, labels = job.wildcards.real_surface, job.params.labels
-    verdicts = find_thresholds(verdicts, surfaces[name], material_surfaces, job.params.materials)
-    title = f"verdicts of the stickiness criteria: {labels[name]}"
-    parameters = {"materials": job.params.materials, "labels": labels}
-    datasets.write(verdicts, job.output.verdicts, title=title, parameters=parameters)
-    laws = [
-        describe_law(verdicts.sel(material=material, surface=name), entry)
-        for material, entry in job.params.materials.items()
-    ]
-    with datasets.whole_file(job.output.contact_laws) as path:
-        made = {"version": __version__, "surface": labels[name], "pairs": laws}
-        path.write_text(json.dumps(made, indent=1, ensure_ascii=False, allow_nan=False))
-    return datasets.read(job.output.verdicts)
-
-
-def describe_law(pair, entry):
-    """Verdict and effective attraction of a pair for DEM and FE models."""
-    solid = read_material(entry)
-    limited = (
-        [float(x) for x in (find_value(pair, name), *find_limits(pair, name))]
-        for name in ("remaining", "pull_off")
-    )
-    word, ratio = WORDS[int(pair.verdict)], float(pair.energy_ratio.max())
-    return {"material": entry["label"], **describe_contact_law(word, solid, *limited, ratio)}
-
-
 def describe_verdict(pair, entry):
     """Verdict on one material, with its properties as given and every criterion's reason."""
     judged = int(pair.verdict) != NOT_JUDGED
@@ -113,7 +75,7 @@ def describe_verdict(pair, entry):
         "entry": entry,
         "thresholds": {
             name: [float(pair[f"{name}{end}"]) for end in SIGNS]
-            for name in ASKED
+            for name in THRESHOLDS
             if not np.isnan(pair[f"{name}_low"])
         },
         "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
@@ -122,18 +84,19 @@ def describe_verdict(pair, entry):
 
 def describe_contact(files, entries, mine):
     """Simulated contact and pull-off of the measured heights; None where there is no map."""
-    contact, pull_off = datasets.read(files.contact), datasets.read(files.pull_off)
+    contact = datasets.read(files.contact)
+    pull_off = datasets.read(files.pull_off)
     if contact.attrs["left_out"]:
         return None
-    solids = {entries[name]["label"]: read_material(entries[name]) for name in mine}
-    loads = list_loads(contact, solids)
+    loads = list_loads(contact, [entries[name] for name in mine])
     texts = []
     for load in loads:
         pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
         pressure = ", ".join(pressures) or f"{load['pressure']} E* q₀ hᵣₘₛ"
-        area, gap = load["area"], load["gap"]
-        texts.append(f"Mean pressure: {pressure}. Contact area: {area}. Mean gap: {gap}.")
-    made = datasets.parameters(pull_off)
+        texts.append(
+            f"Mean pressure: {pressure}. Contact area: {load['area']}. Mean gap: {load['gap']}."
+        )
+    pulled = entries[datasets.parameters(pull_off)["material"]]
     compared = () if pull_off.attrs["left_out"] else ("separation", "pull_off")
     outside = [name for name in compared if not overlap(pull_off, name)]
     return {
@@ -141,33 +104,45 @@ def describe_contact(files, entries, mine):
         "still": pages.embed_png(files.contact_figure),
         "data": contact,
         "loads": loads,
-        "pulled": entries[made["material"]]["label"],
-        "moment": describe_moment(read_material(made)).partition(",")[0],
+        "pulled": pulled["label"],
+        "moment": tell_moment(Material.from_entry(pulled | {"surface": None})),
         "pull_off": pull_off,
         "outside": outside,
         "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
     }
 
 
-def list_loads(contact, materials):
+def tell_moment(material):
+    """When the modulus of a material is taken, without how contact is broken."""
+    return describe_moment(material).partition(",")[0]
+
+
+def list_loads(contact, entries):
     """Texts of every load: pressure over E* and for each suited material, area and mean gap."""
     # Suited are materials that are deep and smooth, as the simulated solid is.
-    suited = {
-        f"{label} {describe_moment(solid).partition(',')[0]}".strip(): solid.modulus
-        for label, solid in materials.items()
-        if solid.solid == HALF_SPACE and solid.surface is None
-    }
+    suited = [
+        Material.from_entry(entry)
+        for entry in entries
+        if entry["thickness"] is None and entry["surface"] is None
+    ]
     rows = []
-    for at in (contact.isel(pressure=index) for index in range(contact.sizes["pressure"])):
-        area = with_error(100 * at.area_fraction, 100 * at.area_fraction_discretisation_error)
-        gap, gap_error = float(at.mean_gap), float(at.mean_gap_discretisation_error)
-        pressures = {name: float(at.mean_pressure) * modulus for name, modulus in suited.items()}
+    for index in range(contact.sizes["pressure"]):
+        load = contact.isel(pressure=index)
+        area = with_error(100 * load.area_fraction, 100 * load.area_fraction_discretisation_error)
+        gap = quantity_with_error(
+            float(load.mean_gap), float(load.mean_gap_discretisation_error), "m"
+        )
+        pressures = {}
+        for material in suited:
+            name = f"{material.label} {tell_moment(material)}".strip()
+            pressure = float(load.mean_pressure) * material.plane_strain_modulus
+            pressures[name] = amount(pressure, "Pa", 2)
         rows.append(
             {
-                "pressure": number(at.pressure, 2),
-                "pressures": {name: amount(p, "Pa", 2) for name, p in pressures.items()},
+                "pressure": number(load.pressure, 2),
+                "pressures": pressures,
                 "area": f"({area}) %",
-                "gap": quantity_with_error(gap, gap_error, "m"),
+                "gap": gap,
             }
         )
     return rows
@@ -175,9 +150,11 @@ def list_loads(contact, materials):
 
 def overlap(pull_off, name):
     """Whether the limits of simulation and model have values in common."""
-    low, model_low = pull_off[f"{name}_low"], pull_off[f"predicted_{name}_low"]
-    high, model_high = pull_off[f"{name}_high"], pull_off[f"predicted_{name}_high"]
-    return bool(low <= model_high and model_low <= high)
+    low = pull_off[f"{name}_low"]
+    high = pull_off[f"{name}_high"]
+    return bool(
+        low <= pull_off[f"predicted_{name}_high"] and pull_off[f"predicted_{name}_low"] <= high
+    )
 
 
 def describe_measured_contact(bem):
@@ -195,4 +172,4 @@ def describe_measured_contact(bem):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "write_surface", real_surface="jacksboro"))
+    main(start(globals()))

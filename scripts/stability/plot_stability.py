@@ -51,4 +51,4 @@ def draw_map(ax, outcome):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "plot_stability"))
+    main(start(globals()))

@@ -106,4 +106,4 @@ def probe_point(probe, **point):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "probe_stability", component="surface"))
+    main(start(globals()))

@@ -15,12 +15,16 @@ What a user needs:
 - `criteria`: stickiness criteria, closed forms
 - `remaining`: how much adhesion remains on a rough surface, simulated or predicted
 - `full_contact_energy`: what full contact with a spectrum or with heights stores
-- `thresholds`: the modulus, rms height, thickness and rate at which a surface begins to stick
-- `verdict`: whether a rough surface sticks, with thresholds and error limits, from SI values
+- `Surface`: what is known of a rough surface, from heights, a file, a spectrum or a drawing, in SI
+- `Material`: the solid that touches it, and its adhesion, in SI
+- `verdict`: whether a material sticks to a surface, with error limits
+- `thresholds`: the modulus, rms height, thickness and rate at which it begins to stick
+- `judge`: verdicts and thresholds of many materials on many surfaces
 
 And what these rest on:
 
 - `measured`: measured topographies, from the file to a spectrum with its errors
+- `verdicts`: how surface and material become a verdict
 - `accuracy`: errors and costs of simulations, and the settings that an accuracy needs
 - `traction_laws`: attraction as a function of the gap
 - `arguments`, `units`, `datasets`, `error_budget`, `plausibility`: what all parts share
@@ -48,8 +52,11 @@ _MODULES = (
 )
 _PACKAGES = ("measured", "accuracy", "datasets")
 _FUNCTIONS = {
-    "verdict": "stickiness.criteria.verdict",
-    "thresholds": "stickiness.criteria.thresholds",
+    "Surface": "stickiness.verdicts.rough_surface",
+    "Material": "stickiness.verdicts.material",
+    "verdict": "stickiness.verdicts.verdict",
+    "thresholds": "stickiness.verdicts.verdict",
+    "judge": "stickiness.verdicts.judgement",
     "full_contact_energy": "stickiness.remaining.full_contact",
 }
 

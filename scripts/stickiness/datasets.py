@@ -17,6 +17,7 @@ import numpy as np
 import xarray as xr
 
 from stickiness import __version__
+from stickiness.units import write_quantities
 
 # Sign conventions by names of variables; every file states them.
 _SIGNS = {
@@ -82,7 +83,7 @@ def write(
     dataset = dataset.assign_attrs(
         title=title,
         Conventions="CF-1.11",
-        parameters=json.dumps(parameters, sort_keys=True),
+        parameters=json.dumps(write_quantities(parameters), sort_keys=True),
         written_as="/".join(path.parts[1:] if relative else path.parts[-2:]),
         **provenance(),
     )

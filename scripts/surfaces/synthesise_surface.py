@@ -82,4 +82,4 @@ def variance_on_shells(heights, length, lattice):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "synthesise_surface", model_surface="H0.8_zeta64", grid="", part="1-4"))
+    main(start(globals()))

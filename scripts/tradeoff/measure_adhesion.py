@@ -162,4 +162,4 @@ def list_laws(adhesion):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "measure_adhesion", trade_case="H0.8_zeta16"))
+    main(start(globals()))

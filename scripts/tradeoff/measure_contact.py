@@ -76,4 +76,4 @@ def main(job):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "measure_contact", trade_case="H0.8_zeta32"))
+    main(start(globals()))

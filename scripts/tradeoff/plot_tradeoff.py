@@ -149,4 +149,4 @@ def finish(ax, label):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "plot_tradeoff"))
+    main(start(globals()))

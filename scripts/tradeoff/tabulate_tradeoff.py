@@ -121,4 +121,4 @@ def find_worst_errors(pool, problem, settings):
 
 
 if __name__ == "__main__":
-    main(start(globals(), "tabulate_tradeoff"))
+    main(start(globals()))

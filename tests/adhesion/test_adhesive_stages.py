@@ -3,6 +3,7 @@ import itertools
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.entries import model_surface
 from helpers.jobs import make_job
 from scipy import optimize, stats
 
@@ -16,7 +17,7 @@ from surfaces import synthesise_surface
 LENGTH = 2 * np.pi
 AXES = "pressures", "adhesion_length_over_range", "range_over_h_rms"
 ASKED = {"q0_h_rms": 0.1, "range_over_h_rms": [0.3], "adhesion_length_over_range": [1e-3]}
-ASKED |= {"pressures": [0.1], "law": "maugis"}
+ASKED |= {"pressures": [0.1], "law": "maugis", "refine": 1, "half_from": None}
 
 
 @pytest.fixture(scope="module")
@@ -97,7 +98,7 @@ def test_a_ratio_of_means_is_not_the_mean_of_ratios():
 
 def test_grids_of_seeds_and_ranges(tmp_path):
     """Half of the seeds are on half the grid alone, and long ranges on grids half as fine."""
-    surface = {"hurst": 0.8, "magnification": 8}
+    surface = model_surface(magnification=8)
     made = {"surface": surface, "pixels_per_wavelength": 8, "seeds": [1, 2]}
     synthesise_surface.main(make_job(tmp_path / "surfaces.nc", made))
     asked = ASKED | {"law": "exponential", "range_over_h_rms": [0.1, 0.5], "half_from": 0.3}

@@ -5,6 +5,7 @@ from operator import attrgetter, itemgetter
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.entries import model_surface
 
 from common import contact_curves, ensemble_means
 from common.conventions import annotate
@@ -106,7 +107,7 @@ def test_entries_that_are_not_finite_everywhere_are_plain(ensemble):
 @pytest.mark.slow
 def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
     """Parts are read back from files: those after the first describe no other seeds."""
-    asked = {"hurst": 0.8, "magnification": 4}
+    asked = model_surface(magnification=4)
     curves = [np.array([0.05, 0.1]), np.array([0.01, 0.1]), 1e-6]
     parts = {"one": range(48), "first": range(32), "second": range(32, 48)}
     files = {}

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from helpers.entries import model_surface
 from helpers.jobs import make_job
 
 from cases import answer_case
@@ -13,7 +14,7 @@ from stickiness import error_budget as budget
 from stickiness.accuracy.quantities import slope_within_contact
 from surfaces import synthesise_surface
 
-ASKED = {"hurst": 0.8, "magnification": 8}
+ASKED = model_surface(magnification=8)
 LOADS, WANTED = [0.02, 0.2], ["area", "contact_slope"]
 TABLE = "config/accuracy.csv"
 

@@ -26,7 +26,7 @@ def surface(tmp_path_factory):
     )
     texts = {name: ("1", name) for name in dataset.variables}
     path = tmp_path_factory.mktemp("surface") / "seeds1-2.nc"
-    parameters = {"grid_points": N, "magnification": 1, "seeds": [1, 2]}
+    parameters = {"grid_points": N, "magnification": 1, "window": 1.0, "seeds": [1, 2]}
     datasets.write(datasets.annotate(dataset, **texts), path, title="wave", parameters=parameters)
     return str(path)
 

@@ -32,8 +32,8 @@ class ConstantAv:
 
 
 def made_map():
-    roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
-    return map_criterion.find_limits(ASKED_MAP, 3.0, roughness)
+    surfaces = map_criterion.MapSurfaces(ConstantAv(), ASKED_MAP, 0.065)
+    return map_criterion.find_limits(ASKED_MAP, 3.0, surfaces)
 
 
 def test_map_with_constant_a_v_has_the_closed_form():
@@ -79,7 +79,7 @@ def test_the_rule_of_others_has_closed_forms():
 @pytest.mark.slow
 def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold():
     made = made_map()
-    roughness = map_criterion.Roughness(ConstantAv(), ASKED_MAP, 0.065)
+    roughness = map_criterion.MapSurfaces(ConstantAv(), ASKED_MAP, 0.065)
     q0, length = 1e-4, 0.1
     at = {"range_times_q0": q0, "adhesion_length_over_range": length}
     one = made.sel(at, method="nearest")

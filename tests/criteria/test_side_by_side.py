@@ -1,17 +1,19 @@
 """Pairs side by side: the same as text and as numbers, one row a pair."""
 
-import json
 from pathlib import Path
 
 import pandas as pd
 import pytest
-from helpers.analysed import fix_a_v, wall
+from helpers.analysed import wall
 from helpers.pages import Page, make_job
 
-from common.verdicts import SHARES, find_limits, find_value
+from common.verdict_texts import SHARES
 from criteria import judge
-from stickiness import datasets
+from stickiness import Material, datasets
+from stickiness import judge as judge_pairs
 from stickiness.criteria.registry import REMAINING
+from stickiness.entries import check_material
+from stickiness.verdicts.limits import find_limits, find_value
 
 COMMON = {"work_of_adhesion": "50 mJ/m^2", "range": "0.3 nm"}
 FILM = {"youngs_modulus": "4 GPa", "poisson_ratio": 0.4, "thickness": "50 um"}
@@ -24,23 +26,22 @@ SURFACES = {"asphalt": 1e-5, "pane < 1 m": 1e-7, "spiky": 1e-7}  # rms heights i
 
 
 @pytest.fixture
-def written(monkeypatch, tmp_path):
+def written(tmp_path):
     """Files that the rule writes, by name."""
-    surfaces = {
-        name: wall(h_rms).assign_attrs(
-            parameters=json.dumps({"label": name}), not_judged="spikes" if name == "spiky" else ""
-        )
-        for name, h_rms in SURFACES.items()
-    }
-    fix_a_v(monkeypatch)
-    monkeypatch.setattr(judge, "read_surfaces", lambda *_: surfaces)
-    names = {"dataset": "nc", "table": "md", "page": "html", "csv": "csv", "workbook": "xlsx"}
-    outputs = {name: str(tmp_path / f"v.{ending}") for name, ending in names.items()}
-    pages = {"template": "report/verdicts.md.j2", "page": "report/verdicts.html.j2"}
-    grid = {"minimum": 1.0, "maximum": 10.0, "per_decade": 1}
-    asked = {"frequencies": grid, "material_surfaces": []}
-    asked |= {"materials": MATERIALS, "labels": {name: name for name in SURFACES}}
-    judge.main(make_job({"surfaces": []} | pages, outputs, **asked))
+    entries = {name: check_material(entry) for name, entry in MATERIALS.items()}
+    materials = {name: Material.from_entry(entry) for name, entry in entries.items()}
+    paths = []
+    for name, h_rms in SURFACES.items():
+        surface = wall(h_rms, not_judged="spikes" if name == "spiky" else "")
+        verdicts = judge_pairs(materials, {name: surface})
+        paths.append(tmp_path / f"{len(paths)}.nc")
+        datasets.write(verdicts, paths[-1], title="verdicts", parameters={})
+    endings = {"dataset": "nc", "table": "md", "page": "html", "csv": "csv", "workbook": "xlsx"}
+    outputs = {name: str(tmp_path / f"v.{ending}") for name, ending in endings.items()}
+    templates = {"template": "report/verdicts.md.j2", "page": "report/verdicts.html.j2"}
+    inputs = templates | {"verdicts": paths}
+    labels = {name: name for name in SURFACES}
+    judge.main(make_job(inputs, outputs, materials=entries, labels=labels))
     return outputs
 
 

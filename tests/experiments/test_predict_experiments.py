@@ -5,7 +5,14 @@ from types import SimpleNamespace
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from helpers.experiments import EXPERIMENTS, known, make_dataset, observe, seen
+from helpers.experiments import (
+    EXPERIMENTS,
+    complete_experiments,
+    known,
+    make_dataset,
+    observe,
+    seen,
+)
 
 from common import experiment_outcomes as outcomes
 from common.config import load
@@ -132,9 +139,15 @@ def test_adhesion_falls_for_good():
 
 
 # Which holds on any of these heights, and on none.
-@pytest.mark.parametrize(("modulus", "reach"), [("0.001 Pa", "0.3 nm"), ("1e30 Pa", "1e-15 m")])
-def test_a_limiting_roughness_beyond_the_heights_is_an_error_that_names_the_case(modulus, reach):
-    given = {"plane_strain_modulus": known(modulus), "range": known(reach)}
+@pytest.mark.parametrize(
+    ("modulus", "work", "reach"),
+    [("10 Pa", "10 J/m^2", "0.3 nm"), ("1e13 Pa", "1e-6 J/m^2", "1e-11 m")],
+)
+def test_a_limiting_roughness_beyond_the_heights_is_an_error_that_names_the_case(
+    modulus, work, reach
+):
+    given = {"plane_strain_modulus": known(modulus), "work_of_adhesion": known(work)}
+    given["range"] = known(reach)
     with pytest.raises(ValueError, match="^mine.cases.one: adhesion falls to 0.1 at no rms"):
         experiments.predict(observe(LIMIT, **given))
 
@@ -292,7 +305,8 @@ def test_a_share_is_compared_with_the_share_that_remains():
 @pytest.mark.slow
 def test_every_pair_that_people_know_agrees_or_has_an_explanation():
     """The committed ones: tapes, skin, geckos, wafers, tyres, rulers and machines."""
-    everyday = load.load("config/experiments.yaml")["experiments"]["everyday"]
+    entries = load.load("config/experiments.yaml")["experiments"]
+    everyday = complete_experiments(everyday=entries["everyday"])["everyday"]
     dataset = experiments.predict_all({"everyday": everyday})
     cases = outcomes.describe(dataset, {"everyday": everyday})["cases"]
     differ = [case for case in cases if "value too" not in case["outcome"]]

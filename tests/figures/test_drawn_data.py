@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from helpers.entries import model_surface
 from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.colors import same_color
 
@@ -147,7 +148,7 @@ def test_figure_1c_shades_errors_and_opens_points_below_the_edge_gap(ax):
     first, *_, last = values = np.outer([1.0, 2.0, 3.0], gap**-0.3)
     variables = {"gap_density_mean*": values, "edge_gap_mean": ("pressure", [0.02] * 3)}
     variables |= {"runs": ("seed", [1, 2])}
-    ensemble = dataset(coords, variables, hurst=0.8, magnification=64)
+    ensemble = dataset(coords, variables, **model_surface(magnification=64))
     theory = {"gap_density": np.multiply.outer(FACTORS, values)}
     plot_fig1.draw_simulation(ax, ensemble, dataset({"variant": VARIANTS} | coords, theory))
     drawn(ax, gap, np.where(gap > 0.02, first, np.nan), marker=".", color=plotting.BLUE)
@@ -205,7 +206,7 @@ def case():
     windows = {"variant": VARIANTS, "window": [0, 1], "pressure": coords["pressure"]}
     area = np.outer([1, 10], 0.02 * ranges ** (2 / 3))
     a_v = np.multiply.outer(FACTORS, [[2.5, 1.5], [9.0, 9.0]])
-    surface = {"hurst": 0.8, "magnification": 64, "window": 4}
+    surface = model_surface(magnification=64, window=4)
     return plot_fig3.join(
         dataset(coords, {"attractive_area_mean*": area}, **surface),
         dataset(windows, {"a_v_mean*": [[3.0, 2.0], [9.0, 9.0]]}, **surface),
@@ -343,8 +344,10 @@ def compared():
     """Theory of two surfaces: the first has a window too small for its smallest load."""
     coords = {"variant": ["afferrante2018"], "pressure": [0.01, 0.065, 0.5]}
     variables = {"area_fraction_difference*": [[0.2, -0.1, 3.0]], "window_holds": [0, 1, 1]}
-    made = {"hurst": 0.8, "magnification": 64}
-    return [dataset(coords, variables, **made, window=window) for window in (1, 4)]
+    return [
+        dataset(coords, variables, **model_surface(magnification=64, window=window))
+        for window in (1, 4)
+    ]
 
 
 def test_figure_8_has_a_row_for_every_case_and_a_point_for_every_load(ax, compared):

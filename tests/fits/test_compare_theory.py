@@ -1,8 +1,11 @@
 """Theory against simulation: gamma, and ensembles of one job."""
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.entries import model_surface
 
 from fits import fit_gamma
 from persson import persson_lattice
@@ -32,7 +35,7 @@ def made_by_theory():
             for kind, factor in (("mean", 1), ("mean_total_error", 0.02 * COVERS))
         },
         coords={"pressure": loads, "range": ranges},
-        attrs={"parameters": '{"hurst": 0.8, "magnification": 16}'},
+        attrs={"parameters": json.dumps(model_surface(magnification=16))},
     )
     return fit_gamma.compare_gammas(made, xr.Dataset({"window_holds": ("pressure", [1, 1])}))
 
@@ -65,7 +68,7 @@ def test_cases_of_one_window_do_not_average_their_errors_out(made_by_theory):
 def test_highest_summit_is_that_of_the_window():
     # Gaussian heights of n independent summits reach about sqrt(2 ln n) h_rms.
     small, large = (
-        persson_lattice.highest_summit({"hurst": 0.8, "magnification": 8, "window": window})
+        persson_lattice.highest_summit(model_surface(magnification=8, window=window))
         for window in (1, 4)
     )
     assert 2.3 < small < 2.8

@@ -1,26 +1,34 @@
-"""Analysed surfaces, as the rule writes them."""
-
-import json
+"""Made-up surfaces, described as if they had been analysed."""
 
 import numpy as np
 import xarray as xr
 
-from criteria import verdicts
-from criteria.pair_roughness import ENDS
+from stickiness import Surface
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.spectrum import SelfAffine, Tabulated
+from stickiness.verdicts.parametric import ENDS
 
 LONGEST = 2e-4  # of the made-up wall [m]
 A_V = SurfaceAv(np.array([1e-9, 1.0]), np.full((2, 2), 3.0), 0.1)
 
 
-def fix_a_v(monkeypatch):
-    """Take `A_V` for all surfaces: little depends on it, and theory takes its time."""
-    monkeypatch.setattr(verdicts, "find_a_v", lambda surface: (A_V, A_V))
+def fix_a_v(surface, a_v=A_V):
+    """Give a surface an a_V: little depends on it, and theory takes its time."""
+    surface.__dict__["a_v"] = (a_v, a_v)
+    return surface
 
 
-def wall(h_rms=1e-6, draws=0, apart=2.0, scatter=0.0, longest=LONGEST, shortest=6e-8, **more):
-    """Analysed surface whose rough end is so many times as high as the smooth one.
+def wall(
+    h_rms=1e-6,
+    draws=0,
+    apart=2.0,
+    scatter=0.0,
+    longest=LONGEST,
+    shortest=6e-8,
+    not_judged="",
+    **variables,
+):
+    """Surface whose rough end is `apart` times as high as the smooth one.
 
     Heights of the draws scatter about the smooth end, with this standard deviation in logarithms.
     """
@@ -38,7 +46,6 @@ def wall(h_rms=1e-6, draws=0, apart=2.0, scatter=0.0, longest=LONGEST, shortest=
         for name, power in (("h_rms", 1), ("elastic_energy", 2)):
             data[f"{name}_draws"] = "draw", data[name][1][0] * factors**power
         data["q0_draws"] = "draw", np.full(draws, q[0])
-    data |= {"q0": q[0], "q1": q[-1], "hurst": 0.8, **more}
-    made = {"label": "wall", "kind": "self_affine"}
+    data |= {"q0": q[0], "q1": q[-1], "hurst": 0.8, **variables}
     dataset = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
-    return dataset.assign_attrs(parameters=json.dumps(made))
+    return fix_a_v(Surface(dataset.assign_attrs(not_judged=not_judged)))

@@ -7,10 +7,12 @@ import json
 import numpy as np
 import pandas as pd
 import xarray as xr
+from helpers.entries import model_surface
 from helpers.experiments import EXPERIMENTS, make_dataset
 
 from adhesion.follow_loop import add_quoted
 from common import conventions
+from common.config.conditions import CONDITIONS
 from common.conventions import LOAD
 from stickiness import criteria, surface
 from stickiness import error_budget as budget
@@ -28,7 +30,7 @@ def made_by(dataset, **parameters):
 
 
 def case(zeta, **more):
-    return {"case": f"made up {zeta}", "hurst": 0.8, "magnification": zeta, **more}
+    return {"case": f"made up {zeta}", **model_surface(magnification=zeta), **more}
 
 
 def with_errors(dataset, *names, model=0.0):
@@ -237,9 +239,10 @@ def remaining(growth=0.0, late=0.0):
     return pd.DataFrame(rows)
 
 
-RUBBER_CASES = {"one_MPa": {"label": "rubber of 1 MPa"}}
+ABSENT = dict.fromkeys([*CONDITIONS, "missed"])
+RUBBER_CASES = {"one_MPa": ABSENT | {"label": "rubber of 1 MPa"}}
 RUBBER = {"label": "rubber spheres", "short": "Rubber 1975", "citation": "no source"}
-RUBBER = {"fuller_tabor": RUBBER | {"cases": RUBBER_CASES}}
+RUBBER = {"fuller_tabor": ABSENT | RUBBER | {"cases": RUBBER_CASES}}
 
 
 def experiments(outcomes=(2, 2, 2), limit=40e-6, grades=(1, 1, 1), tests=(1, 1, 1)):

@@ -4,9 +4,12 @@ import json
 
 import numpy as np
 import xarray as xr
+from helpers.entries import complete
 
+from common.config.experiments import Experiments
 from experiments.predict_experiments import read_observation
 from stickiness.criteria.registry import CRITERIA
+from stickiness.units import write_quantities
 
 
 def known(value, by="read"):
@@ -18,6 +21,11 @@ def seen(quantity, value=None, by="read", **more):
     """What was observed: a value, its limits, or a relation."""
     given = {} if value is None else known(value, by)
     return {"quantity": quantity, "known": by, **given, **more}
+
+
+def complete_experiments(**entries):
+    """Experiments as rules get them."""
+    return complete(Experiments, experiments=entries)["experiments"]
 
 
 CONDITIONS = {
@@ -37,18 +45,21 @@ HELD = {"h_rms": known("1 um"), "observed": seen("work_of_separation", "30 mJ/m^
 PLATE = {"label": "hard plate", "citation": "no source"} | CONDITIONS
 PLATE |= {"plane_strain_modulus": known(["100 GPa", "200 GPa"], "assumed")}
 STEEL = {"h_rms": known("1 um"), "observed": seen("sticks", False, "recalled")}
-EXPERIMENTS = {
-    "ball": BALL
+EXPERIMENTS = complete_experiments(
+    ball=BALL
     | {"cases": {"limit": {"label": "lost", "observed": LOST}, "work": {"label": "held"} | HELD}},
-    "plate": PLATE | {"cases": {"steel": {"label": "steel on steel"} | STEEL}},
-}
+    plate=PLATE | {"cases": {"steel": {"label": "steel on steel"} | STEEL}},
+)
 
 
 def observe(observed, **conditions):
     """Observation of a case with other conditions than `CONDITIONS`; None: without."""
     entry = {key: given for key, given in (CONDITIONS | conditions).items() if given is not None}
+    entry |= {"label": "mine", "citation": "none"}
+    if observed["quantity"] != "limiting_roughness":
+        entry.setdefault("h_rms", known("1 um"))
     entry["cases"] = {"one": {"label": "one", "observed": observed}}
-    return read_observation("mine", "one", entry)
+    return read_observation("mine", "one", complete_experiments(mine=entry)["mine"])
 
 
 def make_dataset(rows, experiments=EXPERIMENTS):
@@ -60,7 +71,9 @@ def make_dataset(rows, experiments=EXPERIMENTS):
     """
     made = [make_row(**row) for row in rows.values()]
     dataset = xr.concat(made, xr.DataArray([*rows], dims="case", name="case"))
-    return dataset.assign_attrs(parameters=json.dumps({"experiments": experiments}))
+    return dataset.assign_attrs(
+        parameters=json.dumps({"experiments": write_quantities(experiments)})
+    )
 
 
 FLAGS = {"outcome": 2, "value_inside": 0, "by_relation": 0, "tests": 1, "observed_known": 1}

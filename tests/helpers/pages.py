@@ -7,6 +7,7 @@ from types import SimpleNamespace
 SHOWN = ("alt", "aria-label", "content", "data-label")  # attributes that are read out or drawn
 APART = ("code", "script", "style")  # names of files and code
 RAW = re.compile(r"\w_\w|\S?\^\S?")
+UNFILLED = re.compile(r"\bnan\b|\bundefined\b|= None\b|^None$")
 VOID = {"meta", "link", "img", "br", "wbr", "input", "hr"}
 
 
@@ -70,7 +71,8 @@ class Page(HTMLParser):
         identities = [attributes["id"] for _, attributes in self.tags if "id" in attributes]
         assert len(identities) == len(set(identities))
         assert {link[1:] for link in self.links if link.startswith("#")} <= set(identities)
-        assert [text for text in self.shown if RAW.search(text)] == []
+        odd = [text for text in self.shown if RAW.search(text) or UNFILLED.search(text)]
+        assert not odd, odd
         for tag, attributes in self.tags:
             assert tag != "script" or "src" not in attributes
             for name in ("src", "srcset", "href", "data"):

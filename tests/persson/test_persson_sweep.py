@@ -5,9 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from helpers.entries import complete, model_surface
 from helpers.jobs import make_job
 from scipy.special import erf
 
+from common.config import models
 from common.conventions import VARIANT
 from persson import persson_lattice, persson_sweep
 from stickiness import datasets
@@ -30,7 +32,7 @@ def write(rule, path, params):
 
 
 def sweep(path, **loads):
-    asked = {"hurst": [0.8], "magnification": [4]} | loads
+    asked = complete(models.Sweep, hurst=[0.8], magnification=[4], **loads)
     return write(persson_sweep, path, {"sweeps": [asked]})
 
 
@@ -48,7 +50,7 @@ def test_a_sweep_reaches_its_gap_with_the_area_of_the_closed_form(swept):
 
 @pytest.mark.slow
 def test_a_large_window_holds_the_continuous_spectrum(swept, tmp_path):
-    surface = {"hurst": 0.8, "magnification": 4, "window": 8}
+    surface = model_surface(magnification=4, window=8)
     asked = {"surface": surface, "pressures": [float(swept.pressure)], "simulated": False}
     lattice = write(persson_lattice, tmp_path / "mine.nc", {"lattices": {"mine": asked}})
     for name in ("area_fraction", "mean_gap", "rms_slope"):

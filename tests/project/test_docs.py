@@ -59,3 +59,10 @@ def test_the_example_of_the_library_runs(tmp_path):
     found = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
     area, theory = (float(found[name].split()[0]) for name in ("contact area", "predicted area"))
     assert area == pytest.approx(theory, rel=0.3)
+
+
+@pytest.mark.parametrize("page", ["docs/inputs.md", "docs/tutorial.md", "docs/running.md"])
+def test_blocks_of_yaml_can_be_read(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    for block in re.findall(r"```yaml\n(.*?)```", text, re.S):
+        assert yaml.safe_load(block) is not None, block

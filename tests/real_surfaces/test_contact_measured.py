@@ -6,8 +6,9 @@ import xarray as xr
 from helpers.jobs import make_job
 
 from common import conventions
-from real_surfaces import contact_measured
+from real_surfaces import contact_measured, measured_maps
 from stickiness import adhesive, datasets, repulsive, surface
+from stickiness.entries import check_surface
 from stickiness.measured.topography import Topography
 from stickiness.repulsive import subpixel
 from stickiness.spectrum import SelfAffine
@@ -15,18 +16,30 @@ from stickiness.spectrum import SelfAffine
 RANGES = np.geomspace(0.003, 1, 11)
 
 
-def contact_of(h, q_max=16.0, pressures=(0.03, 0.3), pixels=4):
-    setting = {"ranges": RANGES, "pixels": pixels, "tolerance": 1e-6, "gamma": 0.45}
+def check_bem(file="heights.npy", **bem):
+    """The checked entry of a surface of which contact is wanted."""
+    units = {"length": "10 um", "height_unit": "m"}
+    given = {"pressures": [0.1]} | bem
+    return check_surface({"kind": "measured", "file": str(file), "bem": given} | units)
+
+
+def solve(heights, q_max, bem, pixels=4, tolerance=1e-6):
+    return contact_measured.solve(
+        heights, 1.0, q_max, bem, ranges=RANGES, pixels=pixels, tolerance=tolerance, gamma=0.45
+    )
+
+
+def solve_heights(h, q_max=16.0, pressures=(0.03, 0.3), pixels=4):
     step = 2 * np.pi / len(h)
-    heights, bem = Topography(h, step, step, "here"), {"pressures": list(pressures)}
-    return contact_measured.solve(heights, 1.0, q_max, bem, **setting)
+    bem = check_bem(pressures=list(pressures))["bem"]
+    return solve(Topography(h, step, step, "here"), q_max, bem, pixels)
 
 
 @pytest.fixture(scope="module")
 def whole():
     s = SelfAffine(hurst=0.8, q0=1.0, q1=16.0, h_rms=1.0)
     h = surface.synthesise(s, n=128, length=2 * np.pi, seed=5)
-    return h, conventions.annotate(contact_of(h), **contact_measured.VARIABLE_TEXTS)
+    return h, conventions.annotate(solve_heights(h), **contact_measured.VARIABLE_TEXTS)
 
 
 def test_both_ways_bracket_nothing_absurd(whole):
@@ -45,7 +58,7 @@ def test_contact_of_a_smooth_wave_is_westergaard_s():
     # which the amplitude is sqrt(2) h_rms. A mirror image of whole periods is the wave itself.
     n = 256
     x = (np.arange(n) + 0.5) * 2 * np.pi / n  # mirrored between points: an even wave goes on
-    found = contact_of(np.tile(np.cos(x)[:, None], (1, n)), pressures=[0.2], pixels=16)
+    found = solve_heights(np.tile(np.cos(x)[:, None], (1, n)), pressures=[0.2], pixels=16)
     area = float(found.area_fraction.sel(periodisation="mirror").isel(resolution=-1, pressure=0))
     # pi E* amplitude/L with L = 2 pi and amplitude sqrt(2) in units of h_rms is 1/sqrt(2).
     expected = 2 / np.pi * np.arcsin(np.sqrt(0.2 * np.sqrt(2)))
@@ -53,20 +66,20 @@ def test_contact_of_a_smooth_wave_is_westergaard_s():
 
 
 def test_waves_are_not_shorter_than_the_instrument_or_the_grid():
-    assert contact_measured.highest_wave_number({}, 5.0) == 5.0
-    coarse = contact_measured.highest_wave_number({"shortest_wavelength": "2 m"}, 5.0)
-    assert coarse == pytest.approx(np.pi)
+    choose = contact_measured.choose_highest_wave_number
+    assert choose(check_bem()["bem"], 5e6) == 5e6
+    assert choose(check_bem(shortest_wavelength="2 um")["bem"], 5e6) == pytest.approx(np.pi * 1e6)
     with pytest.raises(ValueError, match="below the instrument's"):
-        contact_measured.highest_wave_number({"shortest_wavelength": "1 m"}, 5.0)
-    with pytest.raises(ValueError, match=r"more than 2048; give bem\.shortest_wavelength of"):
-        contact_of(np.random.default_rng(0).normal(size=(256, 256)), q_max=120.0, pixels=64)
+        choose(check_bem(shortest_wavelength="1 um")["bem"], 5e6)
+    with pytest.raises(ValueError, match="more than 2048"):
+        solve_heights(np.random.default_rng(0).normal(size=(256, 256)), q_max=120.0, pixels=64)
 
 
 def test_a_profile_is_refused(tmp_path):
     np.save(tmp_path / "line.npy", np.random.default_rng(0).normal(size=30))
-    entry = {"file": str(tmp_path / "line.npy"), "length": "1 um", "height_unit": "nm", "bem": {}}
-    with pytest.raises(ValueError, match="is a line profile; bem needs a map"):
-        contact_measured.read_map(entry)
+    known = xr.Dataset({"q0": 1.0, "q_cutoff": 1e9})
+    with pytest.raises(ValueError, match="needs a map of heights, not a line profile"):
+        press(tmp_path, known, check_bem(tmp_path / "line.npy"))
 
 
 # Heights that are periodic as they stand, with adhesion
@@ -83,25 +96,32 @@ def periodic_file(tmp_path_factory):
     return path
 
 
-def asked_of(path, **bem):
-    asked = {"kind": "measured", "file": str(path), "length": "10 um", "height_unit": "m"}
-    bem = {"periodic": True, "pressures": ["0.5 MPa", "250 kPa"], "adhesion": SOLID} | bem
-    return asked | {"label": "plate", "source": "own", "bem": bem}
+def check_periodic(path, **bem):
+    given = {"periodic": True, "pressures": ["0.5 MPa", "250 kPa"], "adhesion": SOLID}
+    return check_bem(path, **given | bem)
+
+
+def press(folder, known, entry):
+    """What the rule writes for an entry, from the wave numbers that are known of its surface."""
+    texts = dict.fromkeys(("q0", "q_cutoff"), ("1/m", "wave number"))
+    datasets.write(datasets.annotate(known, **texts), folder / "in.nc", title="a", parameters={})
+    params = {
+        "surface": entry,
+        "gaps": {"minimum": 0.01, "maximum": 1.0, "per_decade": 4},
+        "pixels_per_wavelength": 8,
+        "tolerance": 1e-6,
+        "gamma": 0.45,
+    }
+    job = make_job(folder / "out.nc", params, {"real_surface": "plate"}, surface=folder / "in.nc")
+    contact_measured.main(job)
+    return datasets.read(folder / "out.nc")
 
 
 @pytest.fixture(scope="module")
 def pressed(periodic_file, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("pressed")
-    q0, text = 2 * np.pi / SIDE, ("1/m", "wave number")
+    q0 = 2 * np.pi / SIDE
     known = xr.Dataset({"q0": q0, "q_cutoff": 8 * q0})
-    known = datasets.annotate(known, q0=text, q_cutoff=text)
-    datasets.write(known, folder / "in.nc", title="a", parameters={})
-    gaps = {"minimum": 0.01, "maximum": 1.0, "per_decade": 4}
-    settings = {"pixels_per_wavelength": 8, "tolerance": 1e-6, "gamma": 0.45}
-    params = {"surface": asked_of(periodic_file), "gaps": gaps} | settings
-    job = make_job(folder / "out.nc", params, {"real_surface": "plate"}, surface=folder / "in.nc")
-    contact_measured.main(job)
-    return datasets.read(folder / "out.nc")
+    return press(tmp_path_factory.mktemp("pressed"), known, check_periodic(periodic_file))
 
 
 def test_states_say_how_well_they_are_solved_and_of_which_modulus(pressed):
@@ -118,8 +138,8 @@ def test_states_say_how_well_they_are_solved_and_of_which_modulus(pressed):
 def test_periodic_heights_are_pressed_as_they_stand(pressed, periodic_file):
     heights = np.load(periodic_file).T
     # No plane is taken from them: it would break the period.
-    read = contact_measured.read_map(asked_of(periodic_file)).heights
-    np.testing.assert_allclose(read, heights - heights.mean(), atol=1e-15)
+    read = measured_maps.read_map(check_periodic(periodic_file), 0, 1e9, detrend="mean")
+    np.testing.assert_allclose(read.heights.heights, heights - heights.mean(), atol=1e-15)
     assert list(pressed.periodisation.values) == ["given"]
     assert float(pressed.h_rms.isel(periodisation=0)) == pytest.approx(H_RMS, rel=1e-9)
     for step, resolution in ((2, 1.0), (1, 2.0)):
@@ -149,16 +169,12 @@ def test_adhesion_is_that_of_the_solver_at_the_pressures_given(pressed, periodic
 
 
 @pytest.mark.parametrize(
-    ("changed", "text"),
-    [
-        ({"most_points": 32}, r"64 x 64 points; .*at most bem\.most_points = 32"),
-        ({"most_points": 64, "shortest_wavelength": "0.5 um"}, r"or raise bem\.most_points"),
-    ],
+    "limit", [{"most_points": 32}, {"most_points": 64, "shortest_wavelength": 0.5e-6}]
 )
-def test_a_grid_beyond_most_points_is_refused(periodic_file, changed, text):
-    asked = asked_of(periodic_file, **changed)
-    bem = asked["bem"]
-    setting = {"ranges": RANGES, "pixels": 8, "tolerance": 1e-4, "gamma": 0.45}
-    q_max = contact_measured.highest_wave_number(bem, 1e9)
-    with pytest.raises(ValueError, match=text):
-        contact_measured.solve(contact_measured.read_map(asked), 1.0, q_max, bem, **setting)
+def test_a_grid_beyond_most_points_is_refused(periodic_file, limit):
+    entry = check_periodic(periodic_file)
+    bem = entry["bem"] | limit
+    measured = measured_maps.read_map(entry, 0, 1e9, detrend="mean")
+    q_max = contact_measured.choose_highest_wave_number(bem, measured.cutoff)
+    with pytest.raises(ValueError, match=r"bem\.most_points"):
+        solve(measured.heights, q_max, bem, pixels=8, tolerance=1e-4)

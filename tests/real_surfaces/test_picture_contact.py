@@ -8,23 +8,22 @@ import xarray as xr
 from bokeh.models import Div
 
 from common import contact_picture
-from common.materials import Material, read_material
-from real_surfaces import analyse_surface, contact_measured, measured_surface, picture_contact
+from real_surfaces import measured_maps, picture_contact
+from real_surfaces.measured_maps import MeasuredMap
 from real_surfaces.picture_contact import ATTRACTED, OPEN, TOUCHING, LeftOutError
 from report import interactive, write_surface
-from stickiness import repulsive, surface
+from stickiness import Material, Surface, repulsive, surface
+from stickiness.entries import check_material, check_surface
 from stickiness.measured import periodic
 from stickiness.measured.topography import Topography
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.repulsive import subpixel
-from stickiness.solids.moduli import Constant
 from stickiness.spectrum import SelfAffine
 
 SIDE, Q0 = 1e-4, 2 * np.pi * 4 / 1e-4
 Q1 = 4 * Q0
-GEL = read_material(
-    {"plane_strain_modulus": "0.1 MPa", "work_of_adhesion": "20 mJ/m^2", "range": "0.3 nm"}
-)
+CUTOFF = 2 * np.pi / SIDE * 16
+GEL = Material(modulus=1e5, work_of_adhesion=0.02, range=3e-10)
 
 
 def plate(n=128, seed=1, width=None):
@@ -36,15 +35,16 @@ def plate(n=128, seed=1, width=None):
 
 @pytest.fixture(scope="module")
 def pressed():
-    cutoff = 2 * np.pi / SIDE * 16
-    return picture_contact.press(picture_contact.prepare(plate(), cutoff, 128), Q0, cutoff)
+    rough = picture_contact.prepare(MeasuredMap(plate(), CUTOFF), 128)
+    return picture_contact.press(rough, Q0, CUTOFF)
 
 
 def separate(material=GEL, h_rms=2e-6):
     s = SelfAffine(hurst=0.8, q0=4.0, q1=16.0, h_rms=h_rms)
     h = surface.synthesise(s, n=64, length=2 * np.pi, seed=2)
-    rough = picture_contact.prepare(Topography(h, SIDE / 64, SIDE / 64, "here"), Q1, 64)
-    return picture_contact.separate(rough, (Q0, Q1), material, 0.1)
+    heights = Topography(h, SIDE / 64, SIDE / 64, "here")
+    rough = picture_contact.prepare(MeasuredMap(heights, Q1), 64)
+    return picture_contact.separate(rough, material, q0=Q0, q1=Q1, squeeze=0.1)
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +96,7 @@ def test_error_does_not_vanish_where_the_change_does():
     [(128, 64, (64, 64), 16), (128, 512, (256, 256), 32), (64, 128, (128, 64), 32)],
 )
 def test_the_grid_resolves_the_waves_it_keeps(width, points, shape, waves):
-    rough = picture_contact.prepare(plate(width=width), 2 * np.pi / SIDE * 32, points)
+    rough = picture_contact.prepare(MeasuredMap(plate(width=width), 2 * CUTOFF), points)
     assert rough.heights.shape == shape
     assert rough.shortest_wavelength == pytest.approx(SIDE / waves)
     assert rough.sides == pytest.approx((SIDE, SIDE * width / 128))
@@ -106,12 +106,24 @@ def test_a_cutoff_beyond_the_map_leaves_waves_of_two_pixels():
     """The cutoff of another measurement, or pixels longer along one side."""
     heights = plate(100)
     for longer in (1, 2):
-        given = replace(heights, dy=longer * heights.dy)
-        found = picture_contact.prepare(given, 1e8, 512)
-        assert found.shortest_wavelength == pytest.approx(2 * longer * heights.dx)
+        stretched = replace(heights, dy=longer * heights.dy)
+        rough = picture_contact.prepare(MeasuredMap(stretched, 1e8), 512)
+        assert rough.shortest_wavelength == pytest.approx(2 * longer * heights.dx)
 
 
-def analysed(q_cutoff, not_judged=""):
+def check_maps(folder, **sides):
+    """Checked entries of maps with these sides, by name, and of a surface measured by all."""
+    measurements = {}
+    for seed, (name, side) in enumerate(sides.items()):
+        path = folder / f"{name}.txt"
+        np.savetxt(path, plate(seed=seed).heights.T * 1e6)
+        measurements[name] = {"file": str(path), "length": side}
+    units = {"kind": "measured", "height_unit": "um"}
+    alone = {name: check_surface(units | each) for name, each in measurements.items()}
+    return alone, check_surface(units | {"measurements": list(measurements.values())})
+
+
+def describe_known(q_cutoff, not_judged=""):
     return xr.Dataset({"q_cutoff": q_cutoff}, attrs={"not_judged": not_judged})
 
 
@@ -121,40 +133,33 @@ def test_the_first_measurement_that_is_a_map_is_pressed(tmp_path):
     np.savetxt(line, heights[:, 0] * 1e6)
     np.savetxt(area, heights.T * 1e6)
     units = {"kind": "measured", "height_unit": "um", "length": "100 um"}
-    profile, matrix = {"file": str(line)}, {"file": str(area)}
-    several = units | {"measurements": [profile, matrix]}
-    found, _ = picture_contact.find_heights(analysed(1e9), several)
-    assert found.source == str(area)
-    assert found.heights.shape == (64, 64)
+    profile = {"file": str(line)}
+    both = check_surface(units | {"measurements": [profile, {"file": str(area)}]})
+    found = picture_contact.find_map(describe_known(1e9), both)
+    assert found.heights.source == str(area)
+    assert found.heights.heights.shape == (64, 64)
     with pytest.raises(LeftOutError, match="along lines only"):
-        picture_contact.find_heights(analysed(1e9), units | profile)
+        picture_contact.find_map(describe_known(1e9), check_surface(units | profile))
     with pytest.raises(LeftOutError, match="not judged"):
-        picture_contact.find_heights(analysed(1e9, "a spike"), several)
+        picture_contact.find_map(describe_known(1e9, "a spike"), both)
 
 
 def test_a_map_has_its_own_cutoff_and_not_that_of_a_finer_one(tmp_path):
-    paths = [tmp_path / name for name in ("coarse.txt", "fine.txt")]
-    for seed, path in enumerate(paths):
-        np.savetxt(path, plate(seed=seed).heights.T * 1e6)
-    units = {"kind": "measured", "label": "both", "source": "own", "height_unit": "um"}
-    coarse, fine = (
-        {"file": str(path), "length": length}
-        for path, length in zip(paths, ("100 um", "20 um"), strict=True)
-    )
-    both = units | {"measurements": [coarse, fine]}
-    finest = float(analyse_surface.analyse(units | fine).q_cutoff)
-    alone = float(analyse_surface.analyse(units | coarse).q_cutoff)
-    found, cutoff = picture_contact.find_heights(analysed(finest), both)
-    assert cutoff == pytest.approx(alone)
-    assert picture_contact.find_heights(analysed(finest), units | fine)[1] == finest > 2 * cutoff
-    prepared = picture_contact.prepare(found, cutoff, 512)
-    assert prepared.shortest_wavelength == pytest.approx(2 * np.pi / alone)
+    alone, both = check_maps(tmp_path, coarse="100 um", fine="20 um")
+    cutoffs = {
+        name: float(Surface.from_entry(entry).data.q_cutoff) for name, entry in alone.items()
+    }
+    known = describe_known(cutoffs["fine"])
+    coarse = picture_contact.find_map(known, both)
+    assert coarse.cutoff == pytest.approx(cutoffs["coarse"])
+    fine = picture_contact.find_map(known, alone["fine"])
+    assert fine.cutoff == cutoffs["fine"] > 2 * coarse.cutoff
+    prepared = picture_contact.prepare(coarse, 512)
+    assert prepared.shortest_wavelength == pytest.approx(2 * np.pi / cutoffs["coarse"])
     # Contact that is asked for (bem) is of one measurement, too.
-    for measurement, expected in ((0, cutoff), (1, finest)):
-        asked = both | {"bem": {"measurement": measurement}}
-        heights = contact_measured.read_map(asked)
-        pressed = measured_surface.find_cutoff(asked, measurement, heights, finest)
-        assert pressed == pytest.approx(expected)
+    for index, cutoff in enumerate(cutoffs.values()):
+        pressed = measured_maps.read_map(both, index, finest=cutoffs["fine"])
+        assert pressed.cutoff == pytest.approx(cutoff)
 
 
 def test_surfaces_meet_are_squeezed_and_part(pulled):
@@ -202,17 +207,25 @@ def test_simulation_agrees_with_the_model_of_the_verdicts(pulled):
 
 def test_what_is_not_simulated_says_why():
     with pytest.raises(LeftOutError, match=r"less than 0\.1 % of the work"):
-        separate(replace(GEL, plane_strain=Constant(2e11)))
+        separate(replace(GEL, modulus=2e11))
     with pytest.raises(LeftOutError, match=r"longer than the rms height, 9\.9 nm"):
         separate(h_rms=1e-8)
     with pytest.raises(LeftOutError, match="roughness of its own"):
-        separate(replace(GEL, surface="plate"))
+        picture_contact.pull(None, None, check_gel(surface="plate"), squeeze=0.1)
+
+
+def check_gel(**changes):
+    """Checked entry of `GEL`, with other keys."""
+    gel = {"work_of_adhesion": "20 mJ/m^2", "range": "0.3 nm", "label": "gel"}
+    modulus = {} if "youngs_modulus_prony" in changes else {"plane_strain_modulus": "0.1 MPa"}
+    return check_material(gel | modulus | changes)
 
 
 def test_pressures_are_given_for_deep_and_smooth_solids(pressed):
-    rated = Material(GEL.plane_strain, 0.05, 3e-10, depends_on_rate=True)
-    rough = Material(GEL.plane_strain, 0.05, 3e-10, depends_on_rate=False, surface="plate")
-    rows = write_surface.list_loads(pressed, {"gel": GEL, "rated": rated, "rough": rough})
+    series = {"equilibrium": "75 kPa", "terms": [["1 kPa", "1 us"]]}
+    rated = check_gel(label="rated", youngs_modulus_prony=series, poisson_ratio=0.5)
+    rough = check_gel(label="rough", surface="plate")
+    rows = write_surface.list_loads(pressed, [check_gel(), rated, rough])
     assert [list(row["pressures"]) for row in rows] == [["gel", "rated at 1 Hz"]] * 8
     first = float(pressed.mean_pressure[0]) * 0.1e6
     assert rows[0]["pressures"]["gel"].startswith(f"{first:.2g} ")

@@ -5,13 +5,23 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.entries import complete
 from helpers.jobs import make_job
 
 from common import remaining_table
+from common.config.campaigns import RemainingSet
 from remaining import measure_remaining, tabulate_remaining
 
-ASKED = {"hurst": 0.8, "magnification": 4, "window": 2, "points": 64, "seeds": [5]}
-ASKED |= {"energies": [0.6, 1.5], "zones": [0.05, 0.8]}
+ASKED = complete(
+    RemainingSet,
+    hurst=0.8,
+    magnification=4,
+    window=2,
+    points=64,
+    seeds=[5],
+    energies=[0.6, 1.5],
+    zones=[0.05, 0.8],
+)
 
 
 @pytest.fixture(scope="module")

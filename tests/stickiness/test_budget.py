@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.entries import model_surface
 
 from cases import answer_case
 from common import error_budgets
@@ -53,7 +54,7 @@ def test_errors_that_are_not_known_and_values_that_are_not_there():
 
 
 def ensemble_of(seeds, **more):
-    made = {"hurst": 0.8, "magnification": 32, "pixels_per_wavelength": 8, "tolerance": 1e-6}
+    made = model_surface() | {"pixels_per_wavelength": 8, "tolerance": 1e-6}
     return error_budgets.Simulation(LAWS, {**made, "seeds": list(range(seeds)), **more})
 
 
@@ -103,7 +104,7 @@ def test_errors_between_the_measured_ranges_follow_a_power_law():
 def test_theory_errs_as_measured_and_elsewhere_by_more():
     axes = {"variant": ["afferrante2018", "almqvist2011"], "pressure": [0.01, 0.065]}
     like = xr.DataArray(np.ones((2, 2)), axes, tuple(axes))
-    made = {"hurst": 0.8, "magnification": 32}
+    made = model_surface()
     found = error_budgets.theory_error(LAWS, "mean_gap", like, made)
     surface = Surface(0.8, 32)
     wanted = [single_error(LAWS, "theory", "mean_gap", surface, p) for p in (0.01, 0.065)]

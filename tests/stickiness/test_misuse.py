@@ -3,11 +3,22 @@
 import numpy as np
 import pytest
 
-from stickiness import adhesive, criteria, dmt, repulsive, spectrum, surface, units
+import stickiness
+from stickiness import (
+    Material,
+    Surface,
+    adhesive,
+    criteria,
+    dmt,
+    repulsive,
+    spectrum,
+    surface,
+    units,
+    verdict,
+)
 from stickiness.accuracy import model_choice, multilevel
 from stickiness.adhesive import edge_zone
 from stickiness.criteria import a_v_table, equivalent_sphere, formulas
-from stickiness.criteria.verdict import verdict
 from stickiness.measured import instrument_spectrum, levelling, periodic, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
@@ -41,6 +52,9 @@ def press(heights=HEIGHTS, length=SIDE, pressure=0.1, **options):
 
 def average(fine, coarse, many):
     return multilevel.multilevel_mean(fine, coarse, many, ONES, ONES)
+
+
+GEL = Material(modulus=1e5, work_of_adhesion=0.05, range=3e-10)
 
 
 def judge(surface=None, h_rms=1e-6, **changes):
@@ -180,9 +194,20 @@ MISUSES = [
     (lambda: share.tough_share(0.0), "energy_ratio must"),
     (lambda: judge(modulus=-1.0), "modulus must"),
     (lambda: judge(poisson=0.7), "poisson must be above -1 and at most 0.5, got 0.7"),
-    (lambda: judge(length=1e-4), "length is of measured heights"),
-    (lambda: judge(a_v=(3.0, 4.0, 5.0)), "low <= value <= high"),
-    (lambda: judge(h_rms=1e-8, range=3e-7), "range = 3e-07 is more than 10 times the rms height"),
+    (lambda: judge(length=1e-4), "length is of heights alone"),
+    (lambda: judge(wanted_share=1), "wanted_share must be between 0 and 1, got 1"),
+    (lambda: verdict(BAND), "give either a material or its properties"),
+    (lambda: verdict(BAND, GEL, modulus=1e5), "give either a material or its properties"),
+    (lambda: Surface.from_drawing(), "give exactly one of Ra and Rq"),
+    (lambda: Surface.from_drawing(Ra=1e-6, Rq=1e-6), "give exactly one of Ra and Rq"),
+    (lambda: Surface.from_drawing(Ra=-1e-6), "Ra must be positive"),
+    (lambda: Surface.from_heights(np.ones(8), 1e-3), r"an \(nx, ny\) array, got the shape"),
+    (lambda: Surface.from_profile(np.ones((8, 8)), 1e-3), r"an \(n,\) array, got the shape"),
+    (
+        lambda: stickiness.judge([], [Surface.from_spectrum(BAND)]),
+        "materials must be a list or a mapping",
+    ),
+    (lambda: stickiness.judge([GEL], []), "surfaces must be a list or a mapping"),
     (lambda: judge(HEIGHTS), "length is missing"),
     (lambda: judge(np.ones((8, 16)), length=1e-3), r"both sides of heights of the shape \(8, 16\)"),
     (lambda: share.tough_share(-1.0), "energy_ratio must"),

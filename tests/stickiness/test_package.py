@@ -36,7 +36,7 @@ def test_public_functions_and_methods_are_annotated(name):
 
 def test_verdict_is_the_function_whatever_was_imported_before():
     from stickiness import verdict
-    from stickiness.criteria.verdict import verdict as defined
+    from stickiness.verdicts.verdict import verdict as defined
 
     assert verdict is defined is stickiness.verdict
 

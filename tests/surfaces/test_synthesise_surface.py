@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from helpers.entries import model_surface
 from helpers.jobs import make_job
 
 from stickiness import datasets
@@ -9,7 +10,7 @@ from surfaces import synthesise_surface
 
 
 def made(folder, seed, **surface):
-    asked = {"hurst": 0.8, "magnification": 8} | surface
+    asked = model_surface(magnification=8, **surface)
     params = {"seeds": [seed, seed + 1], "surface": asked, "pixels_per_wavelength": 4}
     job = make_job(folder / f"seeds{seed}.nc", params, {})
     synthesise_surface.main(job)

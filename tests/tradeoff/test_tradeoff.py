@@ -10,6 +10,7 @@ import xarray as xr
 import yaml
 
 from common import tradeoff_table as summary
+from common.config.models import ModelSurface
 from stickiness import adhesive, repulsive, spectrum, surface
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import (
@@ -178,7 +179,8 @@ def test_presets_are_what_the_rule_gives():
         for name in ("config.yaml", "campaigns/tradeoff.yaml")
     )
     asked, seeds = trade["presets"], config["sampling"]["descriptor_seeds"]
-    rough = Surface.of(config["model_surfaces"][asked["surface"]])
+    entry = config["model_surfaces"][asked["surface"]]
+    rough = Surface.of(ModelSurface(**entry).model_dump())
     ours = Problem(read_models(LAWS), rough, asked["pressures"], (), seeds)
     for name in asked["accuracy"]:
         chosen = preset_by_rule(ours, asked, name)

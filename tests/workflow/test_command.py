@@ -1,11 +1,14 @@
-"""``python -m stickiness``: from a file of heights to a page, or to a line on what is wrong."""
+"""``python -m stickiness``: from a file of heights to a verdict and a page, or to an error."""
 
+import json
 import os
 import re
+import resource
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -13,7 +16,7 @@ import xarray as xr
 from helpers.copy_workflow import ROOT
 from helpers.pages import Page
 
-from stickiness import surface
+import stickiness
 from stickiness.spectrum import SelfAffine
 
 pytestmark = pytest.mark.workflow
@@ -21,14 +24,23 @@ pytestmark = pytest.mark.workflow
 TAPE = ["--modulus", "0.2 MPa", "--work", "60 mJ/m^2"]
 SIZE = ["--length", "2 mm", "--height-unit", "um"]
 RESULTS = Path("stickiness-results/results/draft")
+PROCESSOR_SECONDS = 5.0  #: that a verdict may take
+
+
+class Answer(NamedTuple):
+    """What the command answers."""
+
+    status: int
+    lines: list[str]
+    errors: list[str]
 
 
 def run(folder, *arguments, scripts=ROOT / "scripts"):
-    """The command in a folder: exit status, lines of the answer, and lines of errors."""
+    """Run the command in a folder."""
     command = [sys.executable, "-m", "stickiness", *map(str, arguments)]
     environment = os.environ | {"PYTHONPATH": str(scripts)}
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-    return done.returncode, done.stdout.splitlines(), done.stderr.splitlines()
+    return Answer(done.returncode, done.stdout.splitlines(), done.stderr.splitlines())
 
 
 @pytest.fixture(scope="module")
@@ -36,11 +48,54 @@ def folder(tmp_path_factory):
     """A folder whose name has a blank, with a wall and a soft tape of an improbable range."""
     folder = tmp_path_factory.mktemp("any folder")
     rough = SelfAffine(hurst=0.8, q0=2 * np.pi / 1e-3, q1=2 * np.pi / 64e-6, h_rms=20e-6)
-    np.save(folder / "wall#1.npy", 1e6 * surface.synthesise(rough, 128, 2e-3, seed=3))
-    tape = 'label: soft tape, youngs_modulus: "1 kPa", poisson_ratio: 0.5, source: own, '
-    tape += 'work_of_adhesion: "60 mJ/m^2", range: "0.3 um"'
+    heights = stickiness.surface.synthesise(rough, 128, 2e-3, seed=3)
+    np.save(folder / "wall#1.npy", 1e6 * heights)
+    tape = 'label: soft tape, youngs_modulus: "1 kPa", poisson_ratio: 0.5, '
+    tape += 'work_of_adhesion: "60 mJ/m^2", range: "0.3 um", source: own'
     (folder / "tape.yaml").write_text(f"materials:\n  tape: {{{tape}}}\n", encoding="utf-8")
     return folder
+
+
+@pytest.fixture(scope="module")
+def verdict(folder):
+    """The verdict of the library on the same pair."""
+    options = {"length": "2 mm", "height_unit": "um"}
+    wall = stickiness.Surface.read(folder / "wall#1.npy", **options)
+    return stickiness.verdict(wall, modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+
+
+def test_the_answer_is_that_of_the_library(folder, verdict):
+    answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--no-page")
+    assert (answer.status, answer.errors) == (0, [])
+    assert answer.lines == f"The material: {verdict}".splitlines()
+    assert answer.lines[0].startswith(f"The material: {verdict.word}: ")
+    assert f"E = {0.75e-6 * verdict.modulus_threshold:.3g} MPa" in answer.lines[2]
+    assert not (folder / RESULTS.parts[0]).exists()
+
+
+def test_json_has_the_numbers_of_the_library(folder, verdict):
+    answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--no-page", "--json")
+    assert (answer.status, answer.errors) == (0, [])
+    assert json.loads("\n".join(answer.lines)) == verdict.to_dict()
+
+
+def test_several_materials_are_a_list_with_their_names(folder):
+    materials = (folder / "tape.yaml").read_text(encoding="utf-8")
+    second = materials.splitlines()[1].replace("tape", "gel")
+    (folder / "two.yaml").write_text(f"{materials}{second}\n", encoding="utf-8")
+    arguments = ["wall#1.npy", "--tape", "two.yaml", *SIZE, "--no-page", "--json"]
+    contents = json.loads("\n".join(run(folder, *arguments).lines))
+    assert [entry["material"] for entry in contents] == ["soft tape", "soft gel"]
+
+
+def test_a_verdict_takes_a_few_seconds_of_processor_time(folder):
+    arguments = ["wall#1.npy", *TAPE, *SIZE, "--no-page"]
+    run(folder, *arguments)  # the first run compiles
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run(folder, *arguments)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    assert seconds < PROCESSOR_SECONDS
 
 
 @pytest.fixture(scope="module")
@@ -48,27 +103,35 @@ def first(folder):
     return run(folder, "wall#1.npy", *TAPE, *SIZE)
 
 
-def test_page_and_answer_from_relative_paths(folder, first):
-    code, answer, errors = first
+def test_page_and_answer_from_relative_paths(folder, first, verdict):
     page = folder / RESULTS / "report/surfaces/wall_1.html"
-    assert (code, errors) == (0, [])
-    assert answer[0].startswith(("The material ", "For the material "))
-    assert answer[-1] == f"Page: {page.relative_to(folder)}"
-    assert {path.name for path in folder.iterdir()} == {"wall#1.npy", "tape.yaml", RESULTS.parts[0]}
+    assert (first.status, first.errors) == (0, [])
+    assert first.lines[0].startswith(f"The material: {verdict.word}: ")
+    assert first.lines[-1] == f"Page: {page.relative_to(folder)}"
     shown = Page(page.read_text(encoding="utf-8"))
-    shown.check("E = 0.2 MPa", "measured · wall#1.npy", answer[0])
+    shown.check("E = 0.2 MPa", "measured · wall#1.npy")
     local = [link for link in shown.links if not link.startswith(("#", "https://doi.org/"))]
-    assert len(local) > 3
+    assert len(local) > 1
     assert [link for link in local if not (page.parent / link).exists()] == []
+
+
+def test_the_page_has_the_numbers_of_the_answer(folder, first, verdict):
+    """The workflow and the library judge alike."""
+    laws = json.loads((folder / RESULTS / "criteria/verdicts/wall_1.json").read_text())
+    (law,) = laws["pairs"]
+    numbers = verdict.to_dict()
+    assert law["verdict"] == numbers["verdict"]
+    for name in ("modulus_threshold", "effective_work_of_adhesion", "pull_off_stress"):
+        assert law[name] == pytest.approx(numbers[name])
 
 
 def test_another_tape_repeats_the_verdict_alone(folder, first):
     analysed = folder / RESULTS / "real_surfaces/wall_1.nc"
     before = analysed.stat().st_mtime_ns
-    code, answer, errors = run(folder, "wall#1.npy", "--tape", "tape.yaml", *SIZE)
-    assert (code, errors) == (0, [])
-    assert answer[0].startswith("Soft tape: range = 0.3 µm is improbable: molecules attract over")
-    assert answer[1].startswith("Soft tape sticks fully: ")
+    answer = run(folder, "wall#1.npy", "--tape", "tape.yaml", *SIZE)
+    assert (answer.status, answer.errors) == (0, [])
+    assert answer.lines[0].startswith("Soft tape: sticks fully: ")
+    assert any("range" in line for line in answer.lines if line.startswith("warning: "))
     assert analysed.stat().st_mtime_ns == before
 
 
@@ -78,49 +141,52 @@ def test_another_tape_repeats_the_verdict_alone(folder, first):
         (["wall.npy", *TAPE], "wall.npy: no such file"),
         ([".", *TAPE], ".: a folder; give a file"),
         (["wall#1.npy", "--tape", "no.yaml"], "no.yaml: no such file"),
-        (["wall#1.npy", *TAPE, "--tape", "a"], "--tape describes the material: leave out --mod"),
+        (["wall#1.npy", *TAPE, "--tape", "a"], "--tape describes the material"),
         (["wall#1.npy", "--modulus", "1 MPa"], 'give --modulus "0.2 MPa" and --work "60 mJ/m^2"'),
         (["wall#1.npy", *TAPE, "--modulos", 1], "unrecognized arguments: --modulos 1"),
-        (["wall#1.npy", *TAPE, "--output", "."], "--output . holds something else; give a new"),
-        (["wall#1.npy", *TAPE, "--work", "60 J/m^2"], "--work '60 J/m^2' must be in 1e-06 … 10 "),
-        (["wall#1.npy", *TAPE, "--length", 2], "--length 2 has no unit: a length is wanted"),
-        (["wall#1.npy", *TAPE, "--backing", "slip"], "--backing 'slip' belongs to a layer: give "),
-        (["wall#1.npy", "--tape", "wall#1.npy"], "wall#1.npy: cannot be read as YAML: it is no"),
-        (
-            ["wall#1.npy", *TAPE],
-            "wall#1.npy: the file does not tell its size or the unit of height; give --length (or "
-            "--pixel-size) and --height-unit",
-        ),
-        (["tape.yaml", *TAPE, *SIZE], "tape.yaml: no line of numbers found; "),
+        (["wall#1.npy", *TAPE, "--work", "60 J/m^2"], "--work '60 J/m^2': "),
+        (["wall#1.npy", *TAPE, "--length", 2], "--length 2: "),
+        (["wall#1.npy", *TAPE, "--detrend", "cubic"], "--detrend 'cubic': "),
+        (["wall#1.npy", *TAPE, "--backing", "slip"], "--backing 'slip': "),
+        (["wall#1.npy", "--tape", "wall#1.npy"], "wall#1.npy: not valid YAML"),
+        (["wall#1.npy", *TAPE], "wall#1.npy: "),  # of unknown size
+        (["tape.yaml", *TAPE, *SIZE], "tape.yaml: no line of numbers found"),
     ],
 )
 def test_errors_are_one_line_in_terms_of_the_command(folder, arguments, line):
-    code, answer, errors = run(folder, *arguments)
-    assert (code, answer, len(errors)) == (1, [], 1), errors
-    assert errors[0].startswith(f"stickiness: {line}")
+    answer = run(folder, *arguments)
+    assert (answer.status, answer.lines, len(answer.errors)) == (1, [], 1), answer.errors
+    assert answer.errors[0].startswith(f"stickiness: {line}")
 
 
-def test_the_library_alone_says_what_it_lacks(tmp_path):
+def test_a_folder_that_holds_something_else_is_left_alone(folder):
+    answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--output", ".")
+    assert (answer.status, len(answer.errors)) == (1, 1)
+    assert answer.errors[0].startswith("stickiness: --output . holds something else")
+
+
+def test_the_library_alone_gives_the_verdict_and_says_what_the_page_lacks(folder, tmp_path):
     shutil.copytree(ROOT / "scripts/stickiness", tmp_path / "site/stickiness")
-    code, _, errors = run(tmp_path, "wall.txt", *TAPE, scripts=tmp_path / "site")
-    assert (code, len(errors)) == (1, 1)
-    assert "the library without the workflow" in errors[0]
+    arguments = ["wall#1.npy", *TAPE, *SIZE]
+    alone = run(folder, *arguments, "--no-page", scripts=tmp_path / "site")
+    assert (alone.status, alone.errors) == (0, [])
+    answer = run(folder, *arguments, scripts=tmp_path / "site")
+    assert (answer.status, answer.lines, len(answer.errors)) == (1, alone.lines, 1)
+    assert answer.errors[0].startswith("stickiness: no page")
+    assert "--no-page" in answer.errors[0]
 
 
-def test_a_file_that_tells_all_needs_no_more_and_its_choice_is_told(folder):
+def test_a_file_that_tells_all_needs_no_more(folder):
     heights = np.load(folder / "wall#1.npy")
     places = {axis: (axis, np.linspace(0, 2, 128), {"units": "mm"}) for axis in "xy"}
     both = xr.Dataset({"z": (("x", "y"), heights, {"units": "um"}), "line": ("x", heights[0])})
     both.assign_coords(places).to_netcdf(folder / "told.nc")
-    code, answer, errors = run(folder, "told.nc", *TAPE)
-    assert (code, errors) == (0, [])
-    assert "This page shows told.nc: z; there is also line." in answer[-2]
-    assert answer[-2].endswith("for an instrument’s file, or --variable for NetCDF or npz.")
-    assert answer[-1] == f"Page: {RESULTS}/report/surfaces/told.html"
+    answer = run(folder, "told.nc", *TAPE, "--no-page")
+    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 3)
 
 
 def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
-    _, lines, _ = run(folder, "--help")
+    lines = run(folder, "--help").lines
     assert max(map(len, lines)) <= 100
     values = re.findall(r'"(\d[^"]*)"', "\n".join(lines))
     assert len(values) > 10

@@ -1,16 +1,9 @@
 """What a change re-runs, and that it is no more than that."""
 
-import os
 import re
-import subprocess
-import sys
 import time
 
 import pytest
-import yaml
-from snakemake.utils import update_config
-
-from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 
@@ -161,23 +154,3 @@ def test_adhesion_is_solved_in_full_only_where_the_dmt_limit_is_not_good_enough(
     assert done.returncode == 0, done.stdout
     solved = re.findall(r"output: results/tiny/adhesion/full/(\w+)/seeds", done.stdout)
     assert set(solved) == {"close", "full"}
-
-
-def test_a_script_runs_by_hand(copy_of_finished):
-    target = copy_of_finished / "results/tiny/adhesion/dmt/fig2.nc"
-    before = datasets.read(target)
-    target.unlink()
-    tiny, config = (copy_of_finished / f"config/{name}.yaml" for name in ("tiny", "config"))
-    merged = yaml.safe_load(config.read_text(encoding="utf-8"))
-    update_config(merged, yaml.safe_load(tiny.read_text(encoding="utf-8")))
-    config.write_text(yaml.safe_dump(merged), encoding="utf-8")
-    run = subprocess.run(
-        [sys.executable, "scripts/adhesion/average_adhesive.py", "adhesion=fig2"],
-        cwd=copy_of_finished.folder,
-        env={**os.environ, "PYTHONPATH": "scripts"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr
-    assert datasets.read(target).equals(before)

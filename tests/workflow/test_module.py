@@ -71,7 +71,7 @@ def test_a_prefix_holds_for_results_alone(folder):
     (folder / "Snakefile").write_text(text, encoding="utf-8")
     (folder / "data").mkdir()
     (folder / "data/wall.txt").write_text("not read in a dry-run", encoding="utf-8")
-    rules = ("analyse_surface", "picture_contact", "write_surface")
+    rules = ("analyse_surface", "judge_surface", "picture_contact", "write_surface")
     assert jobs(dry_run(folder, f"deep/{PAGE}")) == {f"stickiness_{rule}": 1 for rule in rules}
 
 
@@ -90,11 +90,11 @@ def test_a_wrong_key_names_the_module(folder):
     done = dry_run(folder, "-s", EXAMPLE / "Snakefile")
     assert done.returncode != 0
     (line,) = done.stdout.strip().splitlines()
-    assert line.startswith("config of module stickiness: unknown key 'sedes'")
+    assert line.startswith("config of module stickiness: sedes: ")
 
 
 def test_from_any_folder(tmp_path):
     """No configuration of its own at all."""
     page = "results/standard/report/surfaces/asphalt.html"
     planned = jobs(dry_run(tmp_path, "-s", ROOT / "Snakefile", page))
-    assert planned == {"analyse_surface": 1, "write_surface": 1}
+    assert planned == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}

@@ -8,7 +8,7 @@ from stickiness import datasets
 pytestmark = pytest.mark.workflow
 
 CASE = "  {}: {{surface: H0.7_zeta64, pressures: [{}], {}}}\n"
-PAGE = {"analyse_surface": 1, "write_surface": 1}
+PAGE = {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
 SIMULATION = {"synthesise_surface": 1, "solve_repulsive": 1, "solve_coarse": 1}
 
 
@@ -20,7 +20,9 @@ def plan_cases(workflow, **cases):
 
 
 def test_a_verdict_needs_no_simulation_and_a_page_no_other_surface(fresh):
-    assert fresh.planned("verdicts") == {"analyse_surface": len(SURFACES), "judge": 1}
+    count = len(SURFACES)
+    planned = fresh.planned("verdicts")
+    assert planned == {"analyse_surface": count, "judge_surface": count, "judge": 1}
     assert fresh.planned("results/tiny/report/surfaces/asphalt.html") == PAGE
 
 

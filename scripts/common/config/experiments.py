@@ -1,14 +1,18 @@
 """Models of config/experiments.yaml."""
 
 from itertools import pairwise
-from typing import Annotated, Any, Generic, Literal
+from typing import Annotated, Any, Generic, Literal, Self
 
-from pydantic import WithJsonSchema, model_validator
+from pydantic import Field, WithJsonSchema, model_validator
 
-from common.config import fields as f
-from common.config.entries import OBSERVED, conditions_of
-from common.config.fields import Section, needed, optional
+from common.config.conditions import OBSERVED, conditions_of
 from stickiness.criteria.registry import CRITERIA
+from stickiness.entries import fields as f
+from stickiness.entries.errors import EntryError
+from stickiness.entries.fields import Section, needed, optional
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.traction_laws import EXPONENTIAL
+from stickiness.units import Quantity
 
 _NEEDED = ("work_of_adhesion", "range", "hurst", "longest_wavelength", "shortest_wavelength")
 _WAVES = ("shortest_wavelength", "rolloff_wavelength", "longest_wavelength")
@@ -20,9 +24,9 @@ _RELATIONS = {
 }
 
 
-def _ends(known):
+def _find_ends(known: dict[str, Any]) -> list[Any]:
     """Return both ends of what is plausible, or the value twice."""
-    return known.get("between") or (known["value"], known["value"])
+    return known["between"] or [known["value"], known["value"]]
 
 
 class KnownValue(Section, Generic[f.T]):
@@ -46,17 +50,19 @@ class KnownValue(Section, Generic[f.T]):
 
     @model_validator(mode="before")
     @classmethod
-    def _require_its_source(cls, given):
-        if not isinstance(given, dict):
-            plain = f'"{given}"' if isinstance(given, str) else given
+    def check_source(cls, entry: Any) -> Any:
+        """Check that a value says how it is known."""
+        if not isinstance(entry, dict):
+            plain = f'"{entry}"' if isinstance(entry, str) else entry
             raise ValueError(
-                f"{given!r} must say how it is known: write {{value: {plain}, known: "
-                "measured}, or read, recalled, assumed instead of measured"
+                f"must say how it is known: write {{value: {plain}, known: measured}}, or read, "
+                "recalled, assumed instead of measured"
             )
-        return given
+        return entry
 
 
-KnownLength, KnownModulus = KnownValue[f.Length], KnownValue[f.Modulus]
+KnownLength = KnownValue[f.Length]
+KnownModulus = KnownValue[f.Modulus]
 
 
 class Conditions(Section):
@@ -69,7 +75,7 @@ class Conditions(Section):
     work_of_adhesion: KnownValue[f.Energy] = optional("work of adhesion on a smooth surface")
     range: KnownLength = optional("range of the attraction")
     law: f.PredictedLaw = optional("traction law; default exponential")
-    hurst: KnownValue[f.number(ge=0.01, le=1)] = optional("Hurst exponent in (0, 1]")
+    hurst: KnownValue[Annotated[float, Field(ge=0.01, le=1)]] = optional("Hurst exponent in (0, 1]")
     longest_wavelength: KnownLength = optional("longest wavelength of the roughness")
     rolloff_wavelength: KnownLength = optional("wavelength above which the spectrum is flat")
     shortest_wavelength: KnownLength = optional("shortest wavelength of the roughness")
@@ -96,38 +102,62 @@ class Observed(KnownValue[Any]):
     between: f.Pair[Any] = optional("what is plausible, [low, high]")
     quantity: Literal[tuple(OBSERVED)] = needed("what was observed")
     relation: Literal[tuple(_RELATIONS)] = optional("a relation that was reported")
-    level: f.number(gt=0, lt=1) = optional("share left at the limiting roughness; default 0.1")
+    level: Annotated[float, Field(gt=0, lt=1)] = optional(
+        "share left at the limiting roughness; default 0.1", DEFAULT_SHARE
+    )
     silent: f.Several[Literal[tuple(CRITERIA)]] = optional("criteria in whose terms it is stated")
     error: f.Energy = optional('error of the relation either way, e.g. "4 mJ/m^2"')
     factor: f.Interval[f.Positive] = optional("limits of the ratio of areas or of energies")
 
-    def _problems(self, context):
-        field = "value" if self.between is None else "between"
-        low, high = _ends(dict(self))
+    @model_validator(mode="after")
+    def check_observation(self) -> Self:
+        """Check an observation by its quantity, and give its values their unit."""
+        unit, _ = OBSERVED[self.quantity]
         if self.relation is not None:
-            quantity = _RELATIONS[self.relation]
-            if self.quantity != quantity:
-                yield f"quantity = {self.quantity!r} must be {quantity!r} for {self.relation!r}"
-            if self.factor is None:
-                yield f": the key 'factor' is missing, the limits of {self.relation!r}"
+            self._check_relation()
         elif self.quantity == "sticks":
-            if not isinstance(low, bool) or field == "between":
-                yield f"{field} = {getattr(self, field)!r} must be true or false for 'sticks'"
-        elif (unit := OBSERVED[self.quantity][0]) is not None:
-            try:
-                low, high = f.Quantity(low, unit), f.Quantity(high, unit)
-            except ValueError as error:
-                yield f"{field} = {error}"
-            if not low > 0:
-                yield f"{field} = {getattr(self, field)!r} must be positive"
+            if not isinstance(self.value, bool):
+                text = "must be true or false for 'sticks'"
+                raise EntryError(*self._find_value(), text)
+        elif unit is not None:
+            self._read_values(unit)
         else:
-            for end in (low, high):
-                if isinstance(end, bool) or not isinstance(end, int | float):
-                    yield f"{field} = {end!r} must be a number"
-                elif not 0 <= end <= 10:
-                    yield f"{field} = {end!r} must be between 0 and 10"
-        if field == "between" and not low < high:
-            yield f"between = {self.between!r} must be [low, high] with low < high"
+            self._check_numbers()
+        if self.between is not None and not self.between[0] < self.between[1]:
+            raise EntryError("between", self.between, "must be [low, high] with low < high")
+        return self
+
+    def _find_value(self) -> tuple[str, Any]:
+        """Return the key that holds the value, and the value."""
+        return ("between", self.between) if self.value is None else ("value", self.value)
+
+    def _check_relation(self) -> None:
+        quantity = _RELATIONS[self.relation]
+        if self.quantity != quantity:
+            text = f"must be {quantity!r} for {self.relation!r}"
+            raise EntryError("quantity", self.quantity, text)
+        if self.factor is None:
+            text = f"the key is missing, the limits of {self.relation!r}"
+            raise EntryError("factor", None, text)
+
+    def _read_values(self, unit: str) -> None:
+        key, value = self._find_value()
+        texts = value if isinstance(value, list) else [value]
+        try:
+            numbers = [Quantity.read(text, unit) for text in texts]
+        except ValueError as error:
+            raise EntryError(key, None, str(error)) from None
+        if not min(numbers) > 0:
+            raise EntryError(key, value, "must be positive")
+        setattr(self, key, numbers if isinstance(value, list) else numbers[0])
+
+    def _check_numbers(self) -> None:
+        key, value = self._find_value()
+        for end in value if isinstance(value, list) else [value]:
+            if isinstance(end, bool) or not isinstance(end, int | float):
+                raise EntryError(key, end, "must be a number")
+            if not 0 <= end <= 10:
+                raise EntryError(key, end, "must be between 0 and 10")
 
 
 class ObservedCase(Conditions):
@@ -142,33 +172,42 @@ class Experiment(Conditions):
     """A published experiment, with the conditions that its cases share."""
 
     label: f.Text = needed("name for readers")
+    law: f.PredictedLaw = optional("traction law; default exponential", EXPONENTIAL)
     short: f.Text = optional("author and year, where space is short")
-    published: bool = optional("false for what needs no experiment; shown, but not counted")
+    published: bool = optional("false for what needs no experiment; shown, but not counted", True)
     citation: f.Text = needed("full citation")
     note: f.Text = optional("what was done and what a reader should know")
     not_found: list[f.Text] = optional("what was looked for in the source and not found")
     missed: f.Text = optional("reason looked for, where the prediction misses the observation")
     cases: f.Names[ObservedCase] = needed("what was observed, by name")
 
-    def _problems(self, context):
-        experiment = self.model_dump(exclude_unset=True, warnings=False)
+    @model_validator(mode="after")
+    def check_cases(self) -> Self:
+        """Check that every case has all conditions, and that these agree."""
+        experiment = self.model_dump()
         for name, case in experiment["cases"].items():
-            given, path = conditions_of(experiment, case), f"cases.{name}"
+            conditions = conditions_of(experiment, case)
+            path = f"cases.{name}"
             is_limit = case["observed"]["quantity"] == "limiting_roughness"
             for key in _NEEDED if is_limit else (*_NEEDED, "h_rms"):
-                if key not in given:
-                    yield f"{path}: the key {key!r} is missing, here and in the experiment"
-            if given.keys() >= {"plane_strain_modulus", "youngs_modulus"}:
-                yield f"{path}: give one of plane_strain_modulus and youngs_modulus"
-            of_one_solid = given.keys() >= {"youngs_modulus", "poisson_ratio"}
-            if not ("plane_strain_modulus" in given or of_one_solid):
-                yield f"{path}: give plane_strain_modulus, or youngs_modulus and poisson_ratio"
+                if key not in conditions:
+                    text = "the key is missing, here and in the experiment"
+                    raise EntryError(f"{path}.{key}", None, text)
+            if conditions.keys() >= {"plane_strain_modulus", "youngs_modulus"}:
+                text = "give one of plane_strain_modulus and youngs_modulus"
+                raise EntryError(path, None, text)
+            of_one_solid = conditions.keys() >= {"youngs_modulus", "poisson_ratio"}
+            if not ("plane_strain_modulus" in conditions or of_one_solid):
+                text = "give plane_strain_modulus, or youngs_modulus and poisson_ratio"
+                raise EntryError(path, None, text)
             # The longest of the shorter waves must be below the shortest of the longer ones.
-            for shorter, longer in pairwise(key for key in _WAVES if key in given):
-                most, least = _ends(given[shorter])[1], _ends(given[longer])[0]
+            for shorter, longer in pairwise(key for key in _WAVES if key in conditions):
+                most = _find_ends(conditions[shorter])[1]
+                least = _find_ends(conditions[longer])[0]
                 if not most < least:
-                    text = f"{shorter} reaches {most:g} m and must stay below {longer}, {least:g} m"
-                    yield f"{path}.{text}"
+                    text = f"reaches {most!r} and must stay below {longer}, {least!r}"
+                    raise EntryError(f"{path}.{shorter}", None, text)
+        return self
 
 
 class Experiments(Section):

@@ -1,7 +1,6 @@
 """Reading the configuration, and checking it before any job starts.
 
-An error is one line that names file, key and value and says what would be right. The models are
-imported where they are used, since jobs read a configuration that was checked before.
+An error is one line that names file, key and value and says what would be right.
 """
 
 import re
@@ -16,28 +15,6 @@ TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the
 USER, PAPER = "config/config.yaml", "config/campaigns/paper.yaml"  #: files that are read as one
 #: Files of what this project measures once, which users do not configure.
 CAMPAIGNS = {name: f"config/campaigns/{name}.yaml" for name in ("tradeoff", "remaining")}
-
-# What errors of pydantic say here, by its names of them.
-_REASONS = {
-    "greater_than": "must be greater than {gt:g}",
-    "greater_than_equal": "must be at least {ge:g}",
-    "less_than": "must be below {lt:g}",
-    "less_than_equal": "must be at most {le:g}",
-    "multiple_of": "must be a multiple of {multiple_of:g}",
-    "too_short": "needs at least {min_length} entries",
-    "too_long": "takes at most {max_length} entries",
-    "missing": "needs two entries",
-    "string_too_short": "must not be empty",
-    "string_pattern_mismatch": "is no name: use letters, digits, dot, dash and underscore",
-    "int_type": "must be a whole number",
-    "float_type": "must be a number",
-    "string_type": "must be a text",
-    "bool_type": "must be true or false",
-    "list_type": "must be a list",
-    "tuple_type": "must be a list of two",
-    "dict_type": "must hold names and their entries",
-    "model_type": "must hold keys and values",
-}
 
 
 class ConfigError(ValueError):
@@ -97,53 +74,57 @@ def check_all(
     given: Mapping[str, Any],
     name: str = USER,
     made: bool = False,
-) -> None:
-    """Check the configuration, with the defaults, and all files it names, without changing any.
+) -> dict[str, dict[str, Any]]:
+    """Check the configuration, with the defaults, and all files that it names.
 
-    `given` is what the user gives: errors in it name the file `name`, others that of the paper's
-    figures. With `made`, measured files may be missing, since another workflow makes them.
+    Parameters
+    ----------
+    config, campaigns : mapping
+        The whole configuration, and that of the campaigns by name.
+    given : mapping
+        What the user gives: errors in it name the file `name`, others that of the paper's figures.
+    name : str
+        What errors call the user's configuration.
+    made : bool
+        Whether measured files may be missing, since another workflow makes them.
+
+    Returns
+    -------
+    dict
+        The checked content by file: "config", the tables and the campaigns. Every key is present,
+        with numbers in SI units, defaults filled in, and None for what is absent.
+
+    Raises
+    ------
+    ConfigError
+        If a key is wrong.
     """
     from common.config.models import MODELS
 
     try:
-        check(MODELS["config"], config, "")
+        checked = {"config": check(MODELS["config"], config, "")}
     except ConfigError as error:
-        text = str(error).removeprefix(": ")
-        top = re.match(r"\w*", text)[0]
-        raise ConfigError(f"{PAPER if top in config.keys() - given else name}: {text}") from None
+        problem = error.__cause__
+        top = re.match(r"\w*", problem.key)[0]
+        file = PAPER if top in config.keys() - given else name
+        raise ConfigError(f"{file}: {problem}") from problem
     tables = {table: load(config[table]) for table in TABLES}
     surfaces = tables["surfaces"].get("surfaces", {})
     for table, content in tables.items():
-        check(MODELS[table], content, config[table], surfaces=surfaces, made=made)
+        checked[table] = check(MODELS[table], content, config[table], surfaces=surfaces, made=made)
     for campaign, content in campaigns.items():
-        check(MODELS[campaign], content, CAMPAIGNS[campaign], config=config)
+        checked[campaign] = check(MODELS[campaign], content, CAMPAIGNS[campaign], config=config)
+    return checked
 
 
-def check(model: type, content: Mapping[str, Any], file: str, **context: Any) -> None:
-    """Check the content of a file against its model; a ConfigError says what is wrong first."""
+def check(model: Any, content: Mapping[str, Any], file: str, **context: Any) -> dict[str, Any]:
+    """Return the content of a file, checked; a ConfigError says what is wrong first."""
     from pydantic import ValidationError
 
+    from stickiness.entries.errors import first_error
+
     try:
-        model.model_validate(content, context=context)
+        return model.model_validate(content, context=context).model_dump()
     except ValidationError as error:
-        raise ConfigError(f"{file}: {one_line(error.errors()[0])}") from None
-
-
-def one_line(error: Mapping[str, Any]) -> str:
-    """Say in one line what pydantic finds wrong: key, value and what would be right."""
-    from common.config.fields import unknown
-
-    # Names of choices between types, and the mark of a name that is wrong, are no keys.
-    steps = [step for step in error["loc"] if not re.match(r"<|\[key\]", str(step))]
-    path = "".join(f"[{step}]" if isinstance(step, int) else f".{step}" for step in steps)[1:]
-    value, details = error["input"], error.get("ctx", {})
-    if error["type"] == "value_error":
-        text = str(details["error"])
-        return f"{path}{text}".lstrip(":. ") if text[0] in ":." else f"{path} = {text}"
-    if error["type"] == "literal_error":
-        choices = (word for word in re.findall(r"[\w.]+", details["expected"]) if word != "or")
-        return unknown(path, value, choices)
-    reason = _REASONS.get(error["type"], error["msg"]).format(**details)
-    if error["type"] == "float_type" and re.fullmatch(r"[-+.\deE]*\d", str(value)):
-        reason += ", not a text: leave off quotes, and write 1.0e-2 for 1e-2"
-    return f"{path} = {value!r} {reason.replace('1 entries', '1 entry')}"
+        problem = first_error(error, content)
+        raise ConfigError(f"{file}: {problem}") from problem

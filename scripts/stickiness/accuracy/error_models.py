@@ -55,13 +55,13 @@ class Surface:
     @classmethod
     def of(cls, entry: Mapping[str, Any]) -> Surface:
         """From a model surface of the configuration, or the parameters of a file."""
-        isotropic = entry.get("anisotropy", 1) == 1
-        gaussian = entry.get("amplitudes", "gaussian") == "gaussian"
+        isotropic = entry["anisotropy"] == 1
+        gaussian = entry["amplitudes"] == "gaussian"
         return cls(
             hurst=entry["hurst"],
             magnification=entry["magnification"],
-            window=entry.get("window", 1.0),
-            kind_measured=entry.get("rolloff") is None and isotropic and gaussian,
+            window=entry["window"],
+            kind_measured=entry["rolloff"] is None and isotropic and gaussian,
         )
 
 

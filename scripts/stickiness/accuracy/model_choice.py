@@ -20,7 +20,6 @@ from numpy.typing import NDArray
 from stickiness.accuracy.error_models import Surface
 from stickiness.arguments import positive
 from stickiness.criteria.formulas import jtb_limit
-from stickiness.units import si
 
 AXES = ("magnification", "pressure", "range_over_h_rms", "strength")
 COLUMNS = ("law", "hurst", *AXES, "ratio", "error")
@@ -127,7 +126,7 @@ def choose(entry: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
     pressures = np.sort(np.array(entry["pressures"], dtype=float))
     lengths = np.sort(np.array(entry["adhesion_length_over_range"], dtype=float))
     ranges = np.sort(np.array(entry["range_over_h_rms"], dtype=float))
-    q0_h_rms = roughness(entry)
+    q0_h_rms = entry["q0_h_rms"]
     shape = (len(pressures), len(lengths), len(ranges))
     # In units of 1/q0.
     limit = jtb_limit(1.0, lengths[:, None] * ranges * q0_h_rms, ranges * q0_h_rms)
@@ -146,13 +145,6 @@ def choose(entry: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
                 ranges[k],
                 strength,
             )
-    good = jtb & (error <= entry.get("accuracy", 0.0))
+    good = jtb & (error <= (entry["accuracy"] or 0.0))
     full = {"dmt": np.zeros(shape, bool), "full": np.ones(shape, bool), "auto": ~good}
     return Choice(full=full[entry["model"]], dmt_error=error, jtb=jtb)
-
-
-def roughness(entry: Mapping[str, Any]) -> float:
-    """Dimensionless roughness q0 h_rms, given as such or by a window and an rms height."""
-    if "q0_h_rms" in entry:
-        return float(entry["q0_h_rms"])
-    return 2 * np.pi / si(entry["window"], "m") * si(entry["h_rms"], "m")

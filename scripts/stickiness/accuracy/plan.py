@@ -9,7 +9,6 @@ from typing import Any
 from stickiness.accuracy.error_models import ErrorModels, Settings, Surface
 from stickiness.accuracy.quantities import MEASURED, MODELLED, columns_of, means_of
 from stickiness.accuracy.settings import (
-    SEEDS,
     Problem,
     UnreachableError,
     allow_for_few_seeds,
@@ -54,15 +53,15 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     """Return the plan of every case of a checked configuration; a ValueError names a case in it."""
     plans: dict[str, Plan] = {}
     for name, case in config["cases"].items():
-        quantities = tuple(case.get("quantities", MODELLED))
-        simulated = case.get("model", "simulation") == "simulation"
+        quantities = tuple(case["quantities"])
+        simulated = case["model"] == "simulation"
         for quantity in set(quantities) & set(MEASURED):
             key = f"cases.{name}.quantities"
             if not simulated:
                 raise ValueError(
                     f"{key}: theory does not give {quantity}; simulate it, or leave it out"
                 )
-            if "accuracy" in case:
+            if case["accuracy"] is not None:
                 raise ValueError(
                     f"{key}: the errors of {quantity} were not measured, so that no accuracy can "
                     "be promised; give seeds in place of accuracy, or leave it out"
@@ -84,16 +83,16 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
     """Return the settings of a case: the cheapest for its accuracy, or those of the preset."""
     case = config["cases"][name]
     sampling = config["sampling"]
-    plain = case.get("sampling", sampling["method"]) == "plain"
-    if "accuracy" not in case:
+    plain = (case["sampling"] or sampling["method"]) == "plain"
+    if case["accuracy"] is None:
         chosen = preset(config["fidelities"][config["fidelity"]])
-        seeds = case.get("seeds", config.get("seeds", chosen.seeds))
+        seeds = case["seeds"] or config["seeds"] or chosen.seeds
         return replace(chosen, seeds=seeds, coarse_seeds=0 if plain else chosen.coarse_seeds)
     problem = Problem(
         models=models,
         surface=Surface.of(config["model_surfaces"][case["surface"]]),
         pressures=sorted(case["pressures"]),
-        columns=columns_of(case.get("quantities", MODELLED)),
+        columns=columns_of(case["quantities"]),
         descriptor_seeds=sampling["descriptor_seeds"],
     )
     accuracy = case["accuracy"]
@@ -104,8 +103,8 @@ def settings_of(name: str, config: Mapping[str, Any], models: ErrorModels) -> Se
             f"cases.{name}.accuracy = {accuracy!r} is out of reach: {error}"
         ) from None
     chosen = allow_for_few_seeds(problem, chosen, accuracy)
-    at_most = case.get("at_most", sampling.get("at_most", SEEDS[-1]))
-    return replace(chosen, seeds=case.get("seeds", min(chosen.seeds, at_most)))
+    at_most = case["at_most"] or sampling["at_most"]
+    return replace(chosen, seeds=case["seeds"] or min(chosen.seeds, at_most))
 
 
 def preset(fidelity: Mapping[str, Any]) -> Settings:
@@ -114,7 +113,7 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
         pixels_per_wavelength=fidelity["pixels_per_wavelength"],
         tolerance=fidelity["tolerance"],
         seeds=fidelity["seeds"],
-        coarse_seeds=fidelity.get("coarse_seeds", FEWEST_COARSE),
+        coarse_seeds=fidelity["coarse_seeds"],
     )
 
 

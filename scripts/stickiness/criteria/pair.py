@@ -1,13 +1,14 @@
 """A material on a rough surface: what the criteria need to know, and all that is said of it.
 
 `QUANTITIES` lists what is said of a pair, and the stages write all of it to their files. To add a
-quantity, give it a line there and one in `judge`.
+quantity, give it a line there and one in `find_quantities`.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -61,7 +62,8 @@ QUANTITIES = {
 class Pair(Roughness):
     """A material on a surface; numbers, or arrays that broadcast against each other, in SI units.
 
-    What the surface adds to `Roughness` serves the other criteria than that of what remains.
+    `make_pair` makes one of a `Roughness`. What the surface adds to that serves the criteria other
+    than that of what remains.
     """
 
     rms_slope: ArrayLike  #: rms gradient [1]
@@ -83,45 +85,99 @@ class Pair(Roughness):
         """Work of adhesion over E* [m]."""
         return self.work_of_adhesion / self.modulus
 
+    @property
+    def withstands(self) -> NDArray:
+        """Whether a layer can take the heights within linear elasticity."""
+        return np.asarray(self.layer_strain) <= MOST_STRAIN
+
+    def scaled(self, factor: ArrayLike) -> Self:
+        """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
+        return replace(super().scaled(factor), layer_strain=self.layer_strain * factor)
+
     def remaining(self, sign: int = 0) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
 
         It includes the separation factor, and exceeds 1 if that is large.
         """
-        factor = choose_factor(self.separation_factor, sign)
-        share = self.share(self.adhesion_length, self.range, sign, factor)
-        return self._withstand(share, sign)
+        share = self.share(
+            adhesion_length=self.adhesion_length,
+            range=self.range,
+            sign=sign,
+            separation_factor=choose_factor(self.separation_factor, sign),
+        )
+        return self._unless_overstrained(share, sign, otherwise=0.0)
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
         """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
-        factor = choose_factor(self.separation_factor, sign)
-        at = self.adhesion_length, self.range, sign, self.pressed / self.modulus, factor
-        return self._withstand(self.tension(*at) * self.modulus, sign)
+        tension = self.tension(
+            adhesion_length=self.adhesion_length,
+            range=self.range,
+            sign=sign,
+            pressed=self.pressed / self.modulus,
+            separation_factor=choose_factor(self.separation_factor, sign),
+        )
+        return self._unless_overstrained(tension * self.modulus, sign, otherwise=0.0)
 
     def remaining_threshold(self, sign: int = 0) -> float | NDArray:
         """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`.
 
-        It is E* that changes the length. Where nothing may remain at any, it is infinite.
+        The adhesion length is varied through E*. The threshold is infinite if no modulus keeps the
+        wanted share.
         """
-        factor = choose_factor(self.separation_factor, sign)
-        at = self.range, self.wanted_share, sign, factor, self.adhesion_length
-        return self._withstand(self.threshold(*at), sign, np.inf)
+        length = self.threshold(
+            range=self.range,
+            share=self.wanted_share,
+            sign=sign,
+            separation_factor=choose_factor(self.separation_factor, sign),
+            adhesion_length=self.adhesion_length,
+        )
+        return self._unless_overstrained(length, sign, otherwise=np.inf)
 
-    def _withstand(self, value, sign, lost=0.0):
-        """Value, or what replaces it if heights that a linear layer cannot take stiffen it."""
-        withstands = np.asarray(self.layer_strain) <= MOST_STRAIN
-        return plain(np.where(withstands | (sign >= 0), value, lost))
+    def _unless_overstrained(self, value, sign, otherwise):
+        """Value, or at the low limit what replaces it if a layer cannot take the heights."""
+        return plain(np.where(self.withstands | (sign >= 0), value, otherwise))
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:
         """Attraction over repulsion by the edges of contact."""
-        at = self.h_rms, self.q0, self.rms_slope, self.adhesion_length, self.range, self.a_v
-        return equivalent_sphere.attraction(*at)
+        return equivalent_sphere.attraction(
+            self.h_rms, self.q0, self.rms_slope, self.adhesion_length, self.range, self.a_v
+        )
 
     def edge_threshold(self) -> float | NDArray:
         """Adhesion length [m] above which contact grows by itself by the edges."""
-        at = self.h_rms, self.q0, self.rms_slope, self.range, self.a_v
-        return equivalent_sphere.adhesion_length_threshold(*at)
+        return equivalent_sphere.adhesion_length_threshold(
+            self.h_rms, self.q0, self.rms_slope, self.range, self.a_v
+        )
+
+
+def make_pair(
+    rough: Roughness,
+    *,
+    modulus: ArrayLike,
+    work_of_adhesion: ArrayLike,
+    range: ArrayLike,
+    rms_curvature: ArrayLike = np.nan,
+    a_v: ArrayLike = np.nan,
+    **others: Any,
+) -> Pair:
+    """Bring a material and the roughness that it meets together; every `Pair` is made here.
+
+    Curvature and a_V serve the other criteria than that of what remains. `others` are further
+    fields of `Pair`.
+    """
+    roughness = {each.name: getattr(rough, each.name) for each in fields(Roughness)}
+    return Pair(
+        **roughness
+        | {
+            "modulus": modulus,
+            "work_of_adhesion": work_of_adhesion,
+            "range": range,
+            "rms_curvature": rms_curvature,
+            "a_v": a_v,
+        }
+        | others
+    )
 
 
 def decide(
@@ -140,31 +196,40 @@ def decide(
     ).astype("i1")
 
 
-def judge(pair: Pair) -> dict[str, NDArray]:
+def find_quantities(pair: Pair) -> dict[str, NDArray]:
     """Compute every quantity of `QUANTITIES` for a pair, by name."""
-    length, edges, tau = pair.adhesion_length, pair.edges, np.asarray(pair.edges.strength)
-    weak, between = tau <= equivalent_sphere.WEAK, tau < equivalent_sphere.TOUGH
-    tough = equivalent_sphere.tough(edges.attractive_over_contact, tau)
-    found = {}
-    for ending, sign in SIGNS.items():
-        threshold = pair.remaining_threshold(sign)
-        found[f"remaining{ending}"] = pair.remaining(sign)
-        found[f"pull_off{ending}"] = pair.pull_off(sign)
-        found[f"margin{ending}"] = length / threshold
-        found[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
-        factor = choose_factor(pair.separation_factor, sign)
-        found[f"separation_factor{ending}"] = np.broadcast_to(factor, np.shape(threshold))
-    found |= {
+    length = pair.adhesion_length
+    edges = pair.edges
+    tabor = np.asarray(edges.strength)
+    regime = np.select(
+        [
+            tabor <= equivalent_sphere.WEAK,
+            tabor < equivalent_sphere.TOUGH,
+            equivalent_sphere.tough(edges.attractive_over_contact, tabor),
+        ],
+        range(3),
+        3,
+    )
+    quantities = {
         "range_over_h_rms": pair.range / pair.h_rms,
         "energy_ratio": length / pair.elastic_energy,
         "edge_strength": edges.strength,
         "attractive_over_contact": edges.attractive_over_contact,
         "over_dmt": edges.effect,
-        "regime": np.select([weak, between, tough], range(3), 3).astype("i1"),
+        "regime": regime.astype("i1"),
         "simulated": np.asarray(edges.simulated).astype("i1"),
         "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
         "layer_strain": np.broadcast_to(pair.layer_strain, np.shape(length)),
     }
     for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
-        found[f"pair_{name}"] = getattr(pair, name)
-    return {name: np.asarray(value) for name, value in found.items()}
+        quantities[f"pair_{name}"] = getattr(pair, name)
+    # What has limits by the model: value, low and high limit.
+    for ending, sign in SIGNS.items():
+        threshold = pair.remaining_threshold(sign)
+        factor = choose_factor(pair.separation_factor, sign)
+        quantities[f"remaining{ending}"] = pair.remaining(sign)
+        quantities[f"pull_off{ending}"] = pair.pull_off(sign)
+        quantities[f"margin{ending}"] = length / threshold
+        quantities[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
+        quantities[f"separation_factor{ending}"] = np.broadcast_to(factor, np.shape(threshold))
+    return {name: np.asarray(value) for name, value in quantities.items()}

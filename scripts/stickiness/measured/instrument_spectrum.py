@@ -123,6 +123,7 @@ def analyse(
     lowest = min(modes.steps)
 
     # The interval of the fit.
+    # `modes.blur` is by the taper, not by the instrument.
     q_min = (LOWEST_MODES if modes.blur else 1) * max(modes.steps)
     if limits.fit_from is not None:
         q_min = 2 * np.pi / limits.fit_from
@@ -192,7 +193,8 @@ def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> ND
     if q_rolloff is None:
         return special.gamma(hurst + 1) / (np.sqrt(np.pi) * special.gamma(hurst + 0.5)) / q
     # With C = 1 on the plateau. Beyond q_rolloff the integral over k is an incomplete beta
-    # function in t = (q/|q|)^2, below it the integrand is constant.
+    # function in t = q^2/(q^2 + k^2), with q along the profile and k across it; below it the
+    # integrand is constant.
     t = np.minimum((q / q_rolloff) ** 2, 1.0)
     level = np.minimum((q / q_rolloff) ** (-2 * (hurst + 1)), 1.0)
     tail = special.betainc(hurst + 0.5, 0.5, t) * special.beta(hurst + 0.5, 0.5)
@@ -218,17 +220,24 @@ def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
             candidates.append(bend)
     lowest = min(candidates, key=lambda cutoff: cutoff.q)
     if not lowest.q > q_min:
-        end = f"at wavelengths of {2 * np.pi / lowest.q:.3g} m" if lowest.q else "everywhere"
+        end = (
+            f"at wavelengths of {2 * np.pi / lowest.q:.3g} (in the unit of the heights)"
+            if lowest.q
+            else "everywhere"
+        )
         raise ValueError(
             f"{lowest.reason} ends the spectrum {end}, and the longest wavelength that can be used "
-            f"is {2 * np.pi / q_min:.3g} m: nothing is left; measure a larger area or give "
+            f"is {2 * np.pi / q_min:.3g}: nothing is left; measure a larger area or give "
             "fit_from and fit_to"
         )
     return lowest
 
 
 def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> float | None:
-    """Wavelength below which heights show the tip, a sphere; None if none, inf if all do."""
+    """Wavelength below which heights show the tip, a sphere.
+
+    None if no distance shows it, infinite if all do.
+    """
     number("radius", radius)
     # A tip of radius R leaves no peak sharper than itself: heights are unreliable at distances over
     # which some second difference reaches -1/(2R) (Sanner, Nöhring, Thimons, Jacobs & Pastewka
@@ -284,8 +293,8 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None
     q = np.array(centres)
     slope = np.array(exponents)
 
-    # From the Nyquist wave number downwards, noise and below it blur: everything from the last
-    # exponent on that is not noise's, and likewise from blur's.
+    # Noise is the last run, up to the Nyquist wave number, of exponents below NOISE_EXPONENT; blur
+    # is the last run before it of exponents above BLUR_EXPONENT.
     noise = _start_of_last_run(slope < NOISE_EXPONENT)
     blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
     for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):

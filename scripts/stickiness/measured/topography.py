@@ -6,7 +6,7 @@ run along y; such a matrix is transposed on reading.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
@@ -17,8 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive
 from stickiness.measured import levelling, readers
+from stickiness.measured.doubts import doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
-from stickiness.measured.plausibility import doubt_sizes, doubt_values
 from stickiness.measured.readers import Length, Raw, metres, sides
 
 Size = Length | Sequence[Length] | None
@@ -97,6 +97,34 @@ class Profile(_Heights):
     dx: float  #: step [m]
     source: str  #: file (and variable or channel) of the heights, for messages
     largest_gap: float = 0.0  #: between neighbours as measured [m]; above `dx` if uneven
+
+
+class UntoldError(ValueError):
+    """A file does not tell its size or units.
+
+    Parameters
+    ----------
+    source : str
+        The file.
+    unknown : dict
+        What it does not tell, with the arguments of `read` that would, each instead of the others.
+    """
+
+    def __init__(self, source: str, unknown: Mapping[str, Sequence[str]]) -> None:
+        self.source = source
+        self.unknown = unknown
+        super().__init__(self.tell({}))
+
+    def tell(self, names: Mapping[str, str]) -> str:
+        """Say what is missing, with other names for the arguments, such as options of a command."""
+        wanted = []
+        for keys in self.unknown.values():
+            first, *others = (names.get(key, key) for key in keys)
+            wanted.append(first + "".join(f" (or {other})" for other in others))
+        return (
+            f"{self.source}: the file does not tell {' or '.join(self.unknown)}; "
+            f"give {' and '.join(wanted)}"
+        )
 
 
 def read(
@@ -359,22 +387,15 @@ def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
 
 def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
     """Name all keys at once that the file leaves open."""
-    unknown = []
-    keys = []
+    unknown = {}
     if size is None and raw.places is None:
-        unknown.append("its size")
-        keys.append("length (or pixel_size)")
+        unknown["its size"] = ("length", "pixel_size")
     elif size is None and raw.place_unit is None and position_unit is None:
-        unknown.append("the unit of position")
-        keys.append("position_unit")
+        unknown["the unit of position"] = ("position_unit",)
     if height_unit is None and raw.unit is None:
-        unknown.append("the unit of height")
-        keys.append("height_unit")
+        unknown["the unit of height"] = ("height_unit",)
     if unknown:
-        raise ValueError(
-            f"{raw.source}: the file does not tell {' or '.join(unknown)}; "
-            f"give {' and '.join(keys)}"
-        )
+        raise UntoldError(raw.source, unknown)
 
 
 def _contradict(raw: Raw, size, steps, height_unit, in_metres: bool) -> Iterator[str]:

@@ -38,7 +38,7 @@ class Setting:
     spectrum: Spectrum
     kernels: Kernels
     scales: ScaleNodes
-    m2: float  #: profile variance of the gradient of the whole surface
+    m2: float  #: M: profile variance of the gradient of the whole surface
     nodes: float  #: multiplies the number of quadrature nodes
 
 
@@ -116,6 +116,7 @@ def gap_curve(setting: Setting, p: float) -> GapCurve:
 def _visible_range(setting: Setting, y_end: float) -> tuple[float, float]:
     """Range of ln(y - y_end) over which gaps are not negligible beside all others."""
     high = np.log(_TAIL_LOG / (y_end + np.sqrt(y_end**2 + _TAIL_LOG)))
+    # -1/T'(y_end), of the area lost.
     slope = y_end**3 * float(setting.kernels.correction.diffusion(y_end)) / 2
     low = float(np.log(slope / erf(y_end) ** 2 / (_SMALLEST_LOG + y_end**2)))
     return min(low, high - 1.0), high  # next to full contact all gaps are that small
@@ -128,10 +129,11 @@ def scaled_gap(setting: Setting, p: float, lost: LostContact) -> NDArray:
     s2 = np.where(coarse, below - lost.m[:, None], lost.rest[:, None] - above)
     pressure2 = ((p / erf(lost.y)) ** 2)[:, None]
     finest = pressure2 / lost.rest[:, None]
-    # What is not finer ends where the exponential is zero.
+    # Scales that are not finer than m get an exponent of -740, which is zero.
     np.maximum(s2, pressure2 / (finest + 740.0), out=s2)
     x2 = pressure2 / s2
     slope = lost.y**3 * setting.kernels.correction.diffusion(lost.y)
+    # a of `theory` times exp(-y^2).
     a = np.sqrt(np.pi) * p**2 * erf(lost.y) / slope
     terms = np.exp(finest - x2)
     terms *= setting.kernels.gap_kernel(x2)

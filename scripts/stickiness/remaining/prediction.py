@@ -21,9 +21,11 @@ from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
-# Errors of a share. In simulations of two by two waves and more they contain all energies where
-# more than 5 % remains and 95 % of the smaller ones; in cells of one wave a third.
-ONSET_ERROR = 0.08  # of the onset: the spread of extrapolations to short ranges, not 90 %
+# Errors of a share. Limits with these errors contain all simulated energies above 5 %, and 95 % of
+# the smaller ones, in cells of two by two waves and more; in cells of one wave a third of them.
+ONSET_ERROR = (
+    0.08  # of the onset: the spread of extrapolations to short ranges; an envelope, no 90 % limit
+)
 SHARE_ERROR = 0.15  # relative, in proportion to what is lost
 WEAK_ERROR = 4.0  # relative, far below the onset at short ranges: the highest summits decide
 LEAST_ERROR = 0.015  # absolute, for small shares
@@ -41,9 +43,9 @@ HYSTERESIS = 1.6  # work of separation over the energy gained, at most
 # Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
 # at the energy ratios of 4 to 6 where it was.
 PINNING = 6.0
-# Pressed to more than 2 E* times the rms slope, contact is full. It lasts up to the strength of the
-# law where that is more than so many times the rms tension of full contact, E* rms slope/2: below
-# that the preload did not change simulations.
+# Pressed to more than 2 E* times the rms slope, contact is full. It lasts if the strength of the
+# law exceeds LASTING times the rms tension of full contact, E* rms slope/2; below that a preload
+# changed no simulation.
 LASTING = 2.2
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
@@ -92,10 +94,11 @@ class Roughness:
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
     rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
     law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
-    #: How both depend on the modulus of a layer on a film, see `find_film_response`
+    #: How elastic energy and compliance depend on the modulus of a layer on a film, see
+    #: `find_film_response`; zeros without a film, None: not varied
     film_response: ArrayLike | None = None
 
-    def at_modulus(self, factor: ArrayLike) -> Roughness:
+    def at_modulus(self, factor: ArrayLike) -> Self:
         """Return the same with E* times a factor: the film under a layer keeps its stiffness."""
         if self.film_response is None:
             return self
@@ -124,8 +127,6 @@ class Roughness:
         }
         if self.half_space_energy is not None:
             scaled["half_space_energy"] = self.half_space_energy * factor**2
-        if hasattr(self, "layer_strain"):  # of a `Pair`
-            scaled["layer_strain"] = self.layer_strain * factor
         return replace(self, **scaled)
 
     def share(
@@ -163,8 +164,8 @@ class Roughness:
         )
         lost = 1 - np.asarray(share)
 
-        # The relative error grows below the onset, the absolute one fades there. A tail attracts
-        # whatever small gaps do, so that with a tail it fades faster.
+        # The relative error grows below the onset, the absolute one fades there. A law with a tail
+        # attracts across the mean gap, whatever happens at small gaps: there it fades faster.
         below_onset = 1 - np.minimum(energy_ratio / find_onset(zone), 1.0)
         relative_error = (SHARE_ERROR + WEAK_ERROR * below_onset / (1 + range_ratio)) * lost
         fading = np.minimum(energy_ratio / ONSET, 1.0)
@@ -172,11 +173,11 @@ class Roughness:
         share = share * (1 + relative_error) ** sign + sign * absolute_error * lost
 
         # Layers are less certain the further the longest waves are from those of a half-space.
-        stiffening = 1 - np.asarray(self.relative_compliance)
+        compliance_lost = 1 - np.asarray(self.relative_compliance)
         layer_error = np.where(
             sign < 0,
-            LAYER_LESS * np.minimum(abs(stiffening), 1.0),
-            LAYER_MORE * np.maximum(stiffening, 0.0),
+            LAYER_LESS * np.minimum(abs(compliance_lost), 1.0),
+            LAYER_MORE * np.maximum(compliance_lost, 0.0),
         )
         share = share + sign * layer_error * fading * lost
         if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
@@ -207,8 +208,9 @@ class Roughness:
     def load_scale(self) -> float | NDArray:
         """Elastic energy of full contact over rms height and rms slope, see `share`.
 
-        A layer that is stiff to long waves raises the pressures of full contact as it does energy.
-        Of a half-space it is at most 1/4, since the mean of q over a spectrum is at most its rms.
+        A layer that is stiff to long waves raises the pressures of full contact by the same factor
+        as the energy, which cancels: hence the energy of the half-space. The scale of a half-space
+        is at most 1/4, since the mean of q over a spectrum is at most its rms.
         """
         bound = np.nan if self.half_space_energy is None else np.asarray(self.half_space_energy)
         energy = np.where(np.isfinite(bound), bound, self.elastic_energy)
@@ -236,7 +238,7 @@ class Roughness:
         )
 
     def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-        """Width of the cohesive zone over the longest waves.
+        """Width of the cohesive zone times q0.
 
         That is twice the stiffness q0/(2 S) of these waves over the strength^2/w of the law,
         so that attraction reaches over gaps the more, the stiffer a layer holds them.
@@ -339,8 +341,9 @@ class Roughness:
             return remains - pair.wanted_share
 
         # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
-        # is more than the share from energy/(1 - share) on. A film may raise the energy on the way
-        # there, at most by `log_stiffest`.
+        # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits
+        # and separation factors. A film may raise the energy on the way there, at most by
+        # `log_stiffest`.
         log_stiffest = 0.0
         if pairs.film_response is not None:
             log_stiffest = pairs.film_response[:, 0].max(axis=-1)
@@ -367,7 +370,9 @@ class PairRows(Roughness):
     """Pairs as a flat table with one row each; all columns are arrays `(n,)`."""
 
     range: NDArray  #: of the attraction [length]
-    sign: NDArray  #: -1, 0, 1: limit of the share, see `Roughness.share`
+    #: Error of the share in units of its limits, see `Roughness.share`: -1, 0 or 1 for low limit,
+    #: value and high limit, any number for an error that is drawn
+    sign: NDArray
     separation_factor: NDArray
     wanted_share: NDArray
     start_length: NDArray  #: adhesion length of the pair as given; NaN if none is

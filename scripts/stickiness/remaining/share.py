@@ -7,12 +7,13 @@ slope, says how finely the contact without adhesion is divided.
 
 At a mean gap u the surfaces are in the deeper of two states, each of energy F(u) - x G(u):
 
-- weak: attraction leaves the contact without adhesion as it is. F is the elastic energy of that,
-  G the mean attraction over that of contact: exact to first order in w (Hellmann and Feynman).
+- weak: attraction leaves the contact without adhesion as it is. F is the elastic energy of that
+  contact, G the mean attraction over that of contact: exact to first order in w (Hellmann and
+  Feynman).
 - tough: contact grows with w. G is the area in contact, and F follows from `tough_area`.
 
-What remains is the least energy, the pull-off its steepest rise with the gap. On thin layers
-`spring_share` adds to what remains.
+What remains is the depth of the lowest energy, the pull-off its steepest rise with the gap. On thin
+layers `spring_share` adds to what remains.
 """
 
 from __future__ import annotations
@@ -107,7 +108,7 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | 
     # The mean gap at which contact without adhesion stores the same energy.
     decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), 1e-6)
     gap = np.exp(np.interp(np.log(decay), _FINE_LOG_DECAY, np.log(_FINE_GAPS)))
-    # d(F - x area)/du, where x is that of the energy minimum at this area.
+    # d(F - x area)/du = dF/du (1 - x/x_t), where x_t = onset + rest t is dF/d(area).
     rise = decay_energy(gap)[1] * np.exp(-decay) * (flat_x / (start + rest * t) - 1)
     return plain(np.max(rise, axis=0, initial=0.0).reshape(x.shape) / LIFT)
 
@@ -124,7 +125,7 @@ def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> fl
     flat_scale = load_scale.ravel()
     flat_law = law.ravel()
     share = np.empty(x.size)
-    # Blocks of 400 pairs at all mean gaps fit the cache. By range: each needs attraction of few.
+    # Blocks of 400 pairs at all mean gaps fit the cache. Sorted by range, a block has few of them.
     for block in np.array_split(np.argsort(flat_e), share.size // 400 + 1):
         states = _find_weak_states(flat_x[block], flat_e[block], flat_scale[block], flat_law[block])
         share[block] = _gain_of(states)
@@ -226,7 +227,7 @@ def _gain_of_springs(energy_ratio: NDArray, range_ratio: NDArray) -> NDArray:
     e = range_ratio[:, None]
     clearances, weights = _clearances()
     closed = clearances**2 - x
-    # Beyond 1/e the balance has no solution: the point closes.
+    # Where this exceeds exp(-1) the balance has no solution: the point closes.
     pull = x / (2 * e**2) * np.exp(np.minimum(-clearances / e, 500.0))
     is_open = pull < np.exp(-1)
     pull = np.where(is_open, pull, 0.0)
@@ -249,8 +250,9 @@ def remaining_share(
 ) -> float | NDArray:
     """Share that remains in the deeper of both states, weak and tough.
 
-    `relative_compliance` is S of the longest waves on a layer. Below 1 its points are partly
-    independent: springs count by (1 - S)^2, which follows simulations of S = 0.1 to 0.5.
+    `relative_compliance` is the compliance to the longest waves over that of a half-space (S in
+    `solids`, not the share S above). Below 1 the points of a layer are partly independent: springs
+    count by its distance from 1 squared, which follows simulations at 0.1 to 0.5.
     Springs have the exponential law of equal strength.
     """
     tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))

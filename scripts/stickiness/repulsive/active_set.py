@@ -3,9 +3,10 @@
 For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
 pressure. Points under tension are released and points that penetrate are added, until neither is
 left. Between updates of the set the pressure is corrected in single precision; the next update
-starts from the true gap (iterative refinement), in double precision as soon as rounding matters.
-Below a per cent of contact only points that may touch take part (`dilute_contact`), and with free
-edges their displacement is added up without a convolution on the whole grid (`free_edges`).
+starts from the gap computed anew (iterative refinement), in double precision as soon as rounding
+matters. Below a per cent of contact only points that may touch take part (`dilute_contact`), and
+with free edges their displacement is added up without a convolution on the whole grid
+(`free_edges`).
 """
 
 from dataclasses import dataclass
@@ -25,7 +26,9 @@ _REDUCTION_WHILE_CHANGING = 0.4  # of the gap, on a set that is still changing m
 _REDUCTION_NEARLY_SETTLED = 0.01  # and on one that changes little
 _FEW_CHANGES = 1e-3  # share of changing points below which a set changes little
 _SINGLE_PRECISION_LIMIT = 1e-4  # of the largest height: a smaller residual needs double precision
-_SPLIT_LIMIT = 1e-9  # of the largest height: a smaller tolerance needs convolutions
+_SPLIT_LIMIT = (
+    1e-9  # of the largest height: a smaller tolerance needs a convolution of the whole grid
+)
 _LARGEST_KEPT = 2**22  # points: beyond this memory is dearer than the time to make operators again
 # Updates without progress …
 _STALLED_UPDATES_TO_TIGHTEN = 8  # … after which the set is solved ten times tighter
@@ -109,7 +112,7 @@ class _Grid:
         self.splits = not problem.periodic and tol > _SPLIT_LIMIT * largest
         self._operators = {self.quick.operator, self.exact.operator}
         self.spent = 0.0  # convolutions on coarser grids, by their share of the points
-        self.spent = -self.pairs
+        self.spent = -self.pairs  # operators are shared: count from now on
 
     @property
     def pairs(self):
@@ -133,10 +136,12 @@ class _Grid:
 def relax(problem, guess, *, tol, max_iterations, rough=False):
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
-    Starts from a `guess` of the "gap" (single precision), which is taken out of the mapping so that
-    its memory is free, from one of the "pressure" (any positive mean), or from a uniform pressure
-    on the highest points. `rough`: single precision suffices, `tol` is well above 1e-5.
+    It starts from what the mapping `guess` has: a "gap" in single precision, which is taken out of
+    the mapping to free its memory, or a "pressure" of any positive mean. Without a guess it starts
+    from a uniform pressure on the highest points. `rough`: single precision suffices, `tol` is well
+    above 1e-5.
     """
+    # Where active sets are known to converge; elsewhere `projected_gradients` takes over.
     sure = problem.solid == HALF_SPACE and problem.periodic
     max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
     grid = _Grid(problem, rough, tol)
@@ -163,6 +168,7 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
         if best is None or contact.residual < best.residual:
             best = contact.iterate()
             stalled = 0
+        # A single point carries the whole load.
         settled = contact.residual <= tol or contact.below.size + contact.points.size == 1
         if settled or iterations >= max_iterations or stalled > max_stalled:
             break
@@ -179,7 +185,7 @@ def relax(problem, guess, *, tol, max_iterations, rough=False):
             iterations += contact.correct_among(
                 candidates, field, goal=0.3 * tol, limit=max_iterations - iterations
             )
-            # Such a correction gains a factor of 100.
+            # The residual is that before the correction, which lowers it a hundredfold.
             field = grid.quick if contact.residual > 10 * grid.single_limit else grid.exact
             continue
 
@@ -220,7 +226,7 @@ class _Contact:
         self.reduction = _REDUCTION_WHILE_CHANGING
 
     def measure(self, field):
-        """Measure the gap, whose image stays in `field`, and by how much it is violated."""
+        """Measure the gap, whose image stays in `field`, and how it violates contact conditions."""
         self.shift, self.gaps, self.below, self.residual = _gap(
             self.grid, field, self.points, self.pressure
         )
@@ -246,7 +252,7 @@ class _Contact:
             self.gaps = None  # frees memory
             places = np.searchsorted(self.points, admitted)
             self.points = np.insert(self.points, places, admitted)
-            # In the precision of the grid, be it single.
+            # Rounded to the precision of the grid.
             pressure = self.pressure.astype(self.grid.exact.image.dtype, copy=False)
             self.pressure = np.insert(pressure, places, 0).astype(float)
             gaps = sharing.take(field.image, self.points)
@@ -389,7 +395,7 @@ def _predicted_from_pressure(grid, pressure, total):
     points = np.flatnonzero(flat > 0)
     field = grid.exact if grid.periodic else grid.quick
     shift, *_ = _gap(grid, field, points, _balanced(flat[points], total))
-    # Contact is where p > c k g, with the mean of the guess.
+    # Contact is where p > c k g. The guess has another mean, and pressures scale with it.
     threshold = field.image
     threshold += threshold.dtype.type(shift)
     threshold *= PREDICTION * field.operator.mean_stiffness * (flat.sum() / total)

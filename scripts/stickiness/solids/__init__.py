@@ -5,5 +5,6 @@
 """
 
 from stickiness.solids.layers import HALF_SPACE, Film, HalfSpace, Layer, Solid, check_solid
+from stickiness.solids.moduli import Prony, Table
 
-__all__ = ["HALF_SPACE", "Film", "HalfSpace", "Layer", "Solid", "check_solid"]
+__all__ = ["HALF_SPACE", "Film", "HalfSpace", "Layer", "Prony", "Solid", "Table", "check_solid"]

@@ -158,7 +158,7 @@ class Layer(_Compliant):
         if self.backing == "slip":
             return plain(least + 0 * k)
         flow = k**2 * 4 / 3 * (1 - self.poisson) ** 2  # over compression, in incompressible layers
-        return plain(least * np.maximum(1.0, 3 * flow / (flow + 1 - 2 * self.poisson) / k))
+        return plain(least * np.maximum(1.0, 3 * flow / (flow + (1 - 2 * self.poisson)) / k))
 
     def in_unit(self, length: float) -> Layer:
         """Return the solid with `length` as the unit of length."""

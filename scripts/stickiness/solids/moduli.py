@@ -31,6 +31,10 @@ class Constant:
         (frequency,) = positive(frequency=frequency)
         return plain(np.full(frequency.shape, self.modulus))
 
+    def scaled(self, factor: float) -> Constant:
+        """Return the modulus times a factor."""
+        return Constant(factor * self.modulus)
+
 
 @dataclass(frozen=True)
 class Prony:
@@ -46,6 +50,11 @@ class Prony:
         (terms,) = positive(terms=self.terms)
         if terms.ndim != 2 or terms.shape[1] != 2:
             raise ValueError(f"terms must be pairs of modulus and time, got {self.terms!r}")
+
+    def scaled(self, factor: float) -> Prony:
+        """Return the series with all moduli times a factor."""
+        terms = tuple((factor * modulus, time) for modulus, time in self.terms)
+        return Prony(factor * self.equilibrium, terms)
 
     def storage(self, frequency: ArrayLike) -> float | NDArray:
         """Storage modulus [Pa] at frequencies [Hz].
@@ -103,6 +112,10 @@ class Table:
             raise ValueError("a table needs two pairs of frequency and modulus at least")
         if not np.all(np.diff(frequencies) > 0):
             raise ValueError(f"frequencies must increase, got {self.frequencies!r}")
+
+    def scaled(self, factor: float) -> Table:
+        """Return the table with all moduli times a factor."""
+        return Table(self.frequencies, tuple(factor * modulus for modulus in self.moduli))
 
     def storage(self, frequency: ArrayLike) -> float | NDArray:
         """Storage modulus [Pa] at frequencies [Hz]; NaN beyond the table."""

@@ -45,12 +45,30 @@ def check(files, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("file", "wrong", "says"), [(file, *case) for file, cases in CASES.items() for case in cases]
+    ("file", "wrong", "key"), [(file, *case) for file, cases in CASES.items() for case in cases]
 )
-def test_one_line_says_what_is_wrong(check, file, wrong, says):
+def test_one_line_names_the_wrong_key_and_its_value(check, file, wrong, key):
     with pytest.raises(load.ConfigError) as caught:
         check(file, wrong)
-    assert str(caught.value) == f"{file}.yaml: {says}"
+    error = caught.value.__cause__
+    assert error.key == key
+    shown = "" if error.value is None else f" = {error.value!r}"
+    assert str(caught.value) == f"{file}.yaml: {key}{shown}: {error.message}"
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "hint"),
+    [
+        ({"fidelty": "draft"}, "did you mean 'fidelity'"),
+        ({"cases/H0.8_zeta64/surface": "H0.8_zeta65"}, "did you mean 'H0.8_zeta64'"),
+        ({"cases/H0.8_zeta64/pressures": ["1e-2"]}, "write 1.0e-2 for 1e-2"),
+        ({"cases/H0.8_zeta64/quantities": ["areas"]}, "'area'"),
+    ],
+)
+def test_an_error_says_what_would_be_right(check, wrong, hint):
+    with pytest.raises(load.ConfigError, match=hint):
+        check("config", wrong)
 
 
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.3, "thickness": "25 um"}

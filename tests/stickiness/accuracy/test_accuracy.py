@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from helpers.entries import model_surface
 from helpers.laws import SMOOTH, made_up, problem
 from scipy import stats
 
@@ -232,7 +233,7 @@ def test_settings_outside_the_measurement(part, knob, error):
     assert single_error(made_up(), part, "area", SMOOTH, 0.1, **knob) == pytest.approx(error)
 
 
-SAME = {"hurst": 0.8, "magnification": 32}
+SAME = model_surface()
 
 
 @pytest.mark.parametrize("other", [{"rolloff": 3.0}, {"amplitudes": "fixed"}, {"anisotropy": 4.0}])

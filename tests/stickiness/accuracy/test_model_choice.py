@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from helpers.entries import model_surface
 
 from adhesion import solve_adhesive
 from common.model_surfaces import cell_size, model_spectrum
@@ -14,7 +15,7 @@ from stickiness.accuracy import model_choice
 pytestmark = pytest.mark.processors
 
 ROOT = Path(__file__).parents[3]
-SURFACE = {"hurst": 0.8, "magnification": 32}
+SURFACE = model_surface()
 HEAD = ",".join(model_choice.COLUMNS)
 ASKED = {
     "q0_h_rms": 0.1,

@@ -4,8 +4,10 @@ import math
 from dataclasses import replace
 
 import pytest
+from helpers.entries import complete, model_surface
 from helpers.laws import made_up, problem
 
+from common.config import simulations
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Settings
 from stickiness.accuracy.settings import (
@@ -33,16 +35,15 @@ def stated_error(of_case, settings):
 
 
 def config(**cases):
-    surfaces = {"one": {"hurst": 0.8, "magnification": 32}}
-    cases = {
-        name: {"surface": "one", "pressures": [0.1, 0.01]} | case for name, case in cases.items()
-    }
+    usual = {"surface": "one", "pressures": [0.1, 0.01]}
+    sampling = complete(simulations.Sampling, method="multilevel", descriptor_seeds=2048)
     return {
         "fidelity": "some",
         "fidelities": {"some": PRESET},
-        "sampling": {"method": "multilevel", "descriptor_seeds": 2048},
-        "model_surfaces": surfaces | {"other": surfaces["one"]},
-        "cases": cases,
+        "seeds": None,
+        "sampling": sampling,
+        "model_surfaces": {"one": model_surface(), "other": model_surface()},
+        "cases": {name: complete(simulations.Case, **usual | case) for name, case in cases.items()},
     }
 
 

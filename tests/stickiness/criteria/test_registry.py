@@ -1,29 +1,27 @@
 """One table of criteria: an entry is all that a new criterion needs."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from helpers.analysed import fix_a_v, wall
+from helpers.analysed import wall
 
-from common.materials import read_material
-from criteria import verdicts
+import stickiness
 from criteria.judge import describe_page
-from report import table_rows, write_report
+from report.write_report import find_disagreements
+from stickiness import Material
 from stickiness.criteria.registry import CRITERIA, Criterion
+from stickiness.entries import check_material
 
-GEL = {
-    "label": "gel",
-    "plane_strain_modulus": "0.1 MPa",
-    "work_of_adhesion": "50 mJ/m^2",
-    "range": "0.3 nm",
-}
-
-
-@pytest.fixture
-def judge(monkeypatch):
-    """Function that judges an entry of a material on a wall."""
-    fix_a_v(monkeypatch)
-    given = {"wall": wall()}, {}, np.ones(1)
-    return lambda entry: verdicts.find_verdicts({"gel": read_material(entry)}, *given)
+ENTRY = check_material(
+    {
+        "label": "gel",
+        "plane_strain_modulus": "0.1 MPa",
+        "work_of_adhesion": "50 mJ/m^2",
+        "range": "0.3 nm",
+    }
+)
+GEL = Material.from_entry(ENTRY)
 
 
 @pytest.fixture
@@ -34,34 +32,32 @@ def made_up(monkeypatch):
         "Made & Up",
         margin=lambda pair: (pair.adhesion_length / pair.h_rms) ** 2,
         power=2.0,
-        reason="Heights of {h_rms} against nothing else.",
     )
     monkeypatch.setitem(CRITERIA, "made_up", entry)
     return entry
 
 
 @pytest.mark.slow
-def test_an_entry_is_all_that_a_new_criterion_needs(made_up, judge):
-    judged = judge(GEL)
-    pair = judged.sel(material="gel", surface="wall")
-    margins = pair.margin.sel(criterion="made_up").values
+def test_an_entry_is_all_that_a_new_criterion_needs(made_up):
+    verdicts = stickiness.judge({"gel": GEL}, {"wall": wall()})
+    pair = verdicts.sel(material="gel", surface="wall", criterion="made_up")
     # l_a = 0.5 um: work of adhesion over modulus, over heights of 1 and 2 um.
-    np.testing.assert_allclose(margins, [0.25, 0.0625], rtol=1e-6)
-    moduli = pair.threshold_by_criterion.sel(criterion="made_up").values
-    np.testing.assert_allclose(moduli, [50e3, 25e3], rtol=1e-6)
-
-    assert "Made & Up" in describe_page(judged, {"gel": GEL}, {"wall": "wall"})["others"]
-    rows = {row["name"]: row for row in table_rows.explain(pair, 0.05)}
-    assert rows["Made & Up"]["reason"] == "Heights of 1 … 2 µm against nothing else."
-    assert rows["Made & Up"]["answer"] == "does not stick"
-    assert "Made & Up" in write_report.find_disagreements(judged)
+    np.testing.assert_allclose(pair.margin, [0.25, 0.0625], rtol=1e-6)
+    np.testing.assert_allclose(pair.threshold_by_criterion, [50e3, 25e3], rtol=1e-6)
+    assert "Made & Up" in describe_page(verdicts, {"gel": ENTRY}, {"wall": "wall"})["others"]
+    assert "Made & Up" in find_disagreements(verdicts)
 
 
 @pytest.mark.slow
-def test_every_threshold_is_where_the_margin_is_one(judge):
+def test_every_threshold_is_where_the_margin_is_one():
     """Also for margins that are no power of the adhesion length."""
-    found = judge(GEL).sel(end="rough").squeeze()
+    surfaces = {"wall": wall()}
+    cell = stickiness.judge([GEL], surfaces, thresholds=False).sel(end="rough").squeeze()
+    moduli = [float(cell.threshold_by_criterion.sel(criterion=name)) for name in CRITERIA]
+    materials = {
+        name: replace(GEL, modulus=modulus) for name, modulus in zip(CRITERIA, moduli, strict=True)
+    }
+    verdicts = stickiness.judge(materials, surfaces, thresholds=False).sel(end="rough")
     for name in CRITERIA:
-        modulus = float(found.threshold_by_criterion.sel(criterion=name))
-        at = judge(GEL | {"plane_strain_modulus": f"{modulus!r} Pa"}).sel(end="rough").squeeze()
-        assert float(at.margin.sel(criterion=name)) == pytest.approx(1, rel=1e-6), name
+        margin = float(verdicts.margin.sel(surface="wall", material=name, criterion=name))
+        assert margin == pytest.approx(1, rel=1e-6), name

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from references import profile_parameters
 
-from real_surfaces import analyse_surface
+from stickiness import Surface
 from stickiness.measured import texture
 from stickiness.spectrum import SelfAffine
 
@@ -46,11 +46,11 @@ def test_energy_of_a_surface_lies_between_the_ends_of_its_drawing(hurst, rolloff
         ra, rq, rz, rsm = np.mean(measured, axis=0)
         assert ra * texture.RQ_OVER_RA == pytest.approx(rq, rel=0.05)
         assert texture.RZ_OVER_RQ[0] < rz / rq < texture.RZ_OVER_RQ[1]
-        drawing = {"kind": "surface_texture", "Ra": f"{ra} m", "lambda_c": f"{CUTOFF} m"}
-        for known in ({}, {"RSm": f"{rsm} m"}):
-            low, high = analyse_surface.self_affine(drawing | known).elastic_energy.values
+        for width, most in ((None, 60), (rsm, 8)):
+            drawn = Surface.from_drawing(Ra=ra, RSm=width, lambda_c=CUTOFF)
+            low, high = drawn.ends.elastic_energy
             assert low < s.elastic_energy() < high
-            assert high < (8 if known else 60) * low
+            assert high < most * low
 
 
 @pytest.mark.parametrize(
@@ -65,8 +65,10 @@ def test_parameters_of_heights_are_their_closed_forms(tmp_path):
     # Heights with an exponential distribution: Sa = 2/e, Sq = 1, Ssk = 2.
     level = -np.log1p(-(np.arange(2**16) + 0.5) / 2**16)
     np.save(tmp_path / "a.npy", np.random.default_rng(0).permutation(level).reshape(256, 256))
-    entry = {"file": str(tmp_path / "a.npy"), "length": "1 mm", "height_unit": "um"}
-    found = analyse_surface.analyse(entry | {"spikes": "keep", "detrend": "mean"})
-    sizes = [found[name] * 1e6 for name in ("mean_deviation", "h_rms_measured", "height_range")]
+    surface = Surface.read(
+        tmp_path / "a.npy", length="1 mm", height_unit="um", spikes="keep", detrend="mean"
+    )
+    data = surface.data
+    sizes = [data[name] * 1e6 for name in ("mean_deviation", "h_rms_measured", "height_range")]
     np.testing.assert_allclose(sizes, [2 / np.e, 1, np.ptp(level)], rtol=1e-3)
-    assert found.skewness == pytest.approx(2, rel=1e-2)
+    assert data.skewness == pytest.approx(2, rel=1e-2)

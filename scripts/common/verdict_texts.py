@@ -1,41 +1,17 @@
-"""Verdicts on pairs: the limits that decide them, and their numbers as texts for readers."""
+"""Numbers of verdicts as texts for readers."""
 
 import numpy as np
 
 from common.formatting import amount, duration, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
+from stickiness.verdicts.limits import find_limits, find_value
 
-LEAST_SHOWN = 1e-3  # share below which a text says 0 %
-KPA, MPA = 1e3, 1e6  # Pa: of the pull-off, and of moduli
-LEAST_STRESS, MOST_STRESS = 1.0, 1e13  # Pa, beyond which a text says so: nobody can use them
-SHARES = (0.01, 0.1, 0.3)  # of the work of adhesion, that may be wanted
-
-
-def find_limits(dataset, name="remaining"):
-    """Low and high limit of what is known of a pair: of the share that remains, they decide.
-
-    Over both ends of the surface and the limits of the model; on a measured surface quantiles of
-    the spectra drawn within its errors, with errors of the model. `name` may be another quantity.
-    Of margins and thresholds they are where the limits of the share are the wanted share.
-    """
-    low, high = dataset[f"{name}_low"].min("end"), dataset[f"{name}_high"].max("end")
-    if f"{name}_quantile" in dataset:
-        drawn = dataset[f"{name}_quantile"]
-        low = drawn.isel(quantile=0, drop=True).fillna(low)
-        high = drawn.isel(quantile=-1, drop=True).fillna(high)
-    return low, high
-
-
-def find_value(dataset, name="remaining"):
-    """One value of a quantity, between its limits: the median of draws, or that at the rough end.
-
-    Means over both ends could contradict each other, for a share is no power of a modulus.
-    """
-    value = dataset[name].sel(end="rough", drop=True)
-    if f"{name}_quantile" in dataset:
-        drawn = dataset[f"{name}_quantile"]
-        value = drawn.isel(quantile=drawn.sizes["quantile"] // 2, drop=True).fillna(value)
-    return value
+LEAST_SHOWN = 1e-3  #: share below which a text says 0 %
+KPA = 1e3  #: [Pa], of the pull-off
+MPA = 1e6  #: [Pa], of moduli
+LEAST_STRESS = 1.0  #: [Pa]; beyond these two a text says so, for nobody can use them
+MOST_STRESS = 1e13
+SHARES = (0.01, 0.1, 0.3)  #: of the work of adhesion, that may be wanted
 
 
 def count_pairs(dataset):
@@ -53,8 +29,9 @@ def describe_share(pair):
 
 def describe_quantity(pair, name, show=None):
     """Value of a quantity with the limits of all that is unknown, or one text where they agree."""
-    found = (*find_limits(pair, name), find_value(pair, name))
-    low, high, value = ((show or SHOWN[name])(float(x)) for x in found)
+    show = show or SHOWN[name]
+    low, high = (show(float(limit)) for limit in find_limits(pair, name))
+    value = show(float(find_value(pair, name)))
     limits = join(low, high, " to ")
     return value if limits == value or high.startswith("<") else f"{value} ({limits})"
 
@@ -64,7 +41,7 @@ def describe_moment(judged):
     if not judged.depends_on_rate:
         return ""
     rate = amount(judged.broken_at, "Hz")
-    if np.isnan(judged.dwell):
+    if judged.dwell is None or np.isnan(judged.dwell):
         return f"at {rate}"
     return f"after {duration(judged.dwell)} of dwell, broken at {rate}"
 
@@ -95,7 +72,8 @@ def show_probability(pair):
 
     An interval where a layer may not withstand all heights, which the draws do not know.
     """
-    low, share = float(pair.probability_low), float(pair.probability)
+    low = float(pair.probability_low)
+    share = float(pair.probability)
     if low < share:
         return join(percent(low), percent(share), " to ")
     if share not in (0, 1):

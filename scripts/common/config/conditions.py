@@ -1,9 +1,7 @@
-"""How scripts read entries of the configuration; without the models, which jobs do not need."""
+"""Conditions of published experiments, and what may be observed."""
 
 from collections.abc import Mapping
 from typing import Any
-
-MOST_POINTS = 2048  #: along a side of the grid that measured heights are pressed on, by default
 
 #: Conditions of an experiment and of its cases: unit, and name for readers.
 CONDITIONS = {
@@ -30,23 +28,12 @@ OBSERVED = {
 }
 
 
-def measurements(surface: Mapping[str, Any]) -> list[tuple[str, dict[str, Any]]]:
-    """Return every measurement of a measured surface: a prefix for messages, and all of its keys.
-
-    Keys beside the list `measurements` apply to every entry that does not give its own.
-    """
-    if "measurements" not in surface:
-        return [("", dict(surface))]
-    shared = {key: value for key, value in surface.items() if key != "measurements"}
-    return [(f"measurements[{i}].", shared | one) for i, one in enumerate(surface["measurements"])]
-
-
 def conditions_of(experiment: Mapping[str, Any], case: Mapping[str, Any]) -> dict[str, Any]:
     """Return the conditions of a case: its own, or those of the experiment."""
-    conditions = {key: case.get(key, experiment.get(key)) for key in CONDITIONS}
+    conditions = {key: case[key] or experiment[key] for key in CONDITIONS}
     # A modulus of either kind in the case replaces that of the experiment.
-    moduli = "plane_strain_modulus", "youngs_modulus"
-    for key, other in (moduli, moduli[::-1]):
-        if key in case and other not in case:
-            conditions[other] = None
-    return {key: given for key, given in conditions.items() if given is not None}
+    if case["plane_strain_modulus"] and not case["youngs_modulus"]:
+        conditions["youngs_modulus"] = None
+    if case["youngs_modulus"] and not case["plane_strain_modulus"]:
+        conditions["plane_strain_modulus"] = None
+    return {key: condition for key, condition in conditions.items() if condition is not None}

@@ -8,7 +8,7 @@ import yaml
 from scipy import ndimage
 
 from stickiness import surface
-from stickiness.measured import instrument_spectrum, plausibility, topography
+from stickiness.measured import doubts, instrument_spectrum, topography
 from stickiness.spectrum import SelfAffine
 
 pytestmark = pytest.mark.processors
@@ -39,8 +39,8 @@ def with_zeros(heights, share):
     ],
 )
 def test_numbers_that_were_not_measured_are_doubted_and_those_of_surfaces_not(values, words):
-    doubts = " ".join(plausibility.doubt_values(values))
-    assert words in doubts if words else doubts == ""
+    text = " ".join(doubts.doubt_values(values))
+    assert words in text if words else text == ""
 
 
 @pytest.mark.slow
@@ -58,10 +58,10 @@ def test_the_marker_that_the_message_names_is_read_as_missing(tmp_path, marker):
 
 
 def test_sizes_of_scans_and_profiles_are_not_doubted():
-    assert not list(plausibility.doubt_sizes(1e-6 * rough(), (1e-5, 2e-5)))
-    assert not list(plausibility.doubt_sizes(1e-10 * rough(), (1e-9, 1e-9)))
-    assert not list(plausibility.doubt_sizes(1e-5 * rough()[0], (1e-4,)))
-    atoms = " ".join(plausibility.doubt_sizes(1e-13 * rough(), (1e-12, 1e-12)))
+    assert not list(doubts.doubt_sizes(1e-6 * rough(), (1e-5, 2e-5)))
+    assert not list(doubts.doubt_sizes(1e-10 * rough(), (1e-9, 1e-9)))
+    assert not list(doubts.doubt_sizes(1e-5 * rough()[0], (1e-4,)))
+    atoms = " ".join(doubts.doubt_sizes(1e-13 * rough(), (1e-12, 1e-12)))
     assert "the side of 1.28e-10 m is shorter than 1e-09 m" in atoms
 
 
@@ -76,4 +76,4 @@ def test_spectra_of_surfaces_seen_through_instruments_are_not_doubted(hurst, blu
         heights = surface.synthesise(spectrum, 256, 2 * np.pi, seed)
         blurred = ndimage.gaussian_filter(heights, blur, mode="wrap")
         map_ = topography.Topography(blurred, 1e-6, 1e-6, "here").detrended()
-        assert not list(plausibility.doubt_fit(instrument_spectrum.analyse(map_).fit))
+        assert not list(doubts.doubt_fit(instrument_spectrum.analyse(map_).fit))

@@ -1,0 +1,238 @@
+"""Verdicts, criteria and sizes of surfaces as rows of tables, for all pages."""
+
+import numpy as np
+
+from common import formatting, provided
+from common import verdict_texts as texts
+from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
+from common.materials import show_modulus
+from stickiness.criteria.formulas import PRINTED_A_V
+from stickiness.criteria.pair import (
+    BROAD_A_V,
+    DEPENDS,
+    MOST_STRAIN,
+    NOT_JUDGED,
+    REGIMES,
+    SIGNS,
+    WORDS,
+)
+from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.statistics import COVERS
+from stickiness.verdicts.limits import find_limits, find_value
+
+TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
+NEAR = 0.1  # relative, within which more digits tell a modulus from its threshold
+LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
+COLUMNS = (
+    "remaining",
+    "pull_off",
+    "threshold",
+    "energy_ratio",
+    "margin",
+    "onset",
+    "probability",
+    "errors",
+    "modulus",
+)
+
+
+def arrange_pairs(verdicts, materials, labels):
+    """Rows of all pairs, the user's first, by entries of `materials` and `labels` of surfaces."""
+    rows = []
+    for material in provided.user_defined_first(verdicts.material.values, provided.MATERIALS):
+        for surface in provided.user_defined_first(verdicts.surface.values, provided.SURFACES):
+            pair = verdicts.sel(material=material, surface=surface)
+            row = describe_pair(pair, materials[material])
+            row["key"] = material
+            row["material"] = materials[material]["label"]
+            row["name"] = surface
+            row["surface"] = labels[surface]
+            row["mine"] = False
+            rows.append(row)
+    for row in provided.choose_mine(rows):
+        row["mine"] = True
+    return rows
+
+
+def describe_pair(pair, entry):
+    """Verdict on a `pair`: `text` by column for readers, `sort` by column for sorting.
+
+    `entry` is that of its material in the configuration. Texts in `ends` are values at both ends of
+    the surface. A pair that is not judged has no numbers and comes last in every order.
+    """
+    code = int(pair.verdict)
+    row = {
+        "pair": pair,
+        "code": code,
+        "word": WORDS[code],
+        "tone": TONES[code],
+        "modulus": show_modulus(float(pair.modulus_quoted), entry, digits=3),
+        "moment": texts.describe_moment(pair),
+        "threshold": NOTHING,
+        "stiffening": "",
+        "strain": "",
+        "rates": [],
+        "ends": {},
+        "not_judged": str(pair.not_judged.item()),
+    }
+    if code == NOT_JUDGED:
+        row["text"] = dict.fromkeys(COLUMNS, NOTHING)
+        row["sort"] = dict.fromkeys((*COLUMNS, "verdict"), -1.0)
+        return row
+    if abs(pair.stiffening - 1).max() >= LEAST_EFFECT:
+        row["stiffening"] = interval(*pair.stiffening.values, 2)
+    if pair.layer_strain.max() > MOST_STRAIN:
+        row["strain"] = number(pair.layer_strain.max(), 2)
+    row["unknown"] = find_largest_unknown(pair) if code == DEPENDS else ""
+    row |= describe_bounds(pair, entry)
+    row["rates"] = list_rates(pair)
+    row["ends"] = {
+        name: texts.join(*map(show, sorted(pair[name].values)))
+        for name, show in texts.SHOWN.items()
+    }
+    cells = describe_cells(pair)
+    row["text"] = {name: text for name, (text, _) in cells.items()}
+    row["sort"] = {name: float(value) for name, (_, value) in cells.items()}
+    row["sort"]["verdict"] = code
+    return row
+
+
+def describe_cells(pair):
+    """Text of every one of `COLUMNS`, and the value by which it is sorted."""
+    onset = pair.margin.sel(criterion=EDGES)
+    low, high = find_limits(pair, "margin")
+    modulus = float(pair.modulus_quoted)
+    threshold = texts.describe_quantity(pair, "modulus_threshold")
+    # A measured surface has spectra drawn from the errors of the measurement.
+    is_drawn = bool(np.isfinite(pair.probability))
+    errors = (
+        f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
+        if is_drawn
+        else NOTHING
+    )
+    probability = texts.show_probability(pair) if is_drawn else NOTHING
+    return {
+        "remaining": (texts.describe_share(pair), find_value(pair)),
+        "pull_off": (texts.describe_pull_off(pair), find_value(pair, "pull_off")),
+        "threshold": (threshold, find_value(pair, "modulus_threshold")),
+        "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
+        "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
+        "onset": (interval(*onset.values, 2), onset.mean()),
+        "probability": (probability, pair.probability),
+        "errors": (errors, np.hypot(pair.error_of_spectrum, pair.error_of_model)),
+        "modulus": (texts.SHOWN["modulus_threshold"](modulus), modulus),
+    }
+
+
+def describe_bounds(pair, entry):
+    """Threshold of the modulus as that was given, and its limits, empty where nobody can use them.
+
+    The verdict changes at the limits, so that they are told from the modulus of the material.
+    """
+    name = "modulus_threshold"
+    actual = float(pair.modulus_quoted)
+    bounds = [float(find_value(pair, name)), *map(float, find_limits(pair, name))]
+    useful = [bound for bound in bounds if texts.LEAST_STRESS <= bound <= texts.MOST_STRESS]
+
+    def show(bound):
+        if bound not in useful:
+            return ""
+        digits = 4 if abs(bound / actual - 1) < NEAR else 2
+        return show_modulus(bound, entry, digits, beside=useful)
+
+    text, low, high = map(show, bounds)
+    least = low.partition(" = ")[2]
+    most = high.partition(" = ")[2]
+    unit = most[most.rfind(" ") :]
+    least = least.removesuffix(unit)
+    text = f"{text} ({least or 0} to {most or 'any'})" if text else "none that matters"
+    return {"threshold": text, "sticks_below": low, "fails_above": high}
+
+
+def list_rates(pair):
+    """Frequencies [Hz] below which a pair sticks within all limits, and below which it may.
+
+    0 and infinity stand for none and any. Empty of a material whose modulus does not depend on the
+    rate, or that is judged by its dwell.
+    """
+    rates = [float(pair.rate_threshold_low), float(pair.rate_threshold_high)]
+    return [] if np.isnan(rates).any() else rates
+
+
+def find_largest_unknown(pair):
+    """What widens the limits of a pair most: the strain of its layer, the surface or the model."""
+    if float(find_limits(pair, "margin")[0]) == 0:
+        return "layer"
+    if np.isfinite(pair.error_of_spectrum):
+        return "surface" if pair.error_of_spectrum > pair.error_of_model else "model"
+    # A surface that was not measured is known between two ends.
+    ends, low, high = (np.log(pair[f"modulus_threshold{ending}"]) for ending in SIGNS)
+    return "surface" if np.ptp(ends.values) > (high - low).mean() else "model"
+
+
+def explain(pair, work_of_adhesion):
+    """What every criterion says of a judged pair, with its margins.
+
+    The reason of each is in reasons.html.j2, which quotes the `facts`.
+    """
+    facts = gather_facts(pair, work_of_adhesion)
+    sticky = pair.margin > 1
+    rows = []
+    for name in map(str, pair.criterion.values):
+        says = sticky.sel(criterion=name)
+        answers = ("does not stick", "depends", "sticks")
+        rows.append(
+            {
+                "criterion": name,
+                "name": CRITERIA[name].label,
+                "answer": answers[int(says.any()) + int(says.all())],
+                "margins": interval(*pair.margin.sel(criterion=name).values, 2),
+                "disagrees": bool((says != sticky.sel(criterion=REMAINING)).any()),
+                "facts": facts,
+            }
+        )
+    return rows
+
+
+def gather_facts(pair, work_of_adhesion):
+    """Texts that the reasons quote; intervals are over both ends of the surface."""
+    rough = pair.sel(end="rough")
+    curvature = float(rough.pair_rms_curvature)
+    intervals = ("attractive_over_contact", "edge_strength", "over_dmt")
+    share = texts.describe_share(pair)
+    return {name: interval(*pair[name].values, 2) for name in intervals} | {
+        "remaining": share if share.endswith("times") else f"{share} of",
+        "wanted": percent(DEFAULT_SHARE),
+        "regime": " to ".join(dict.fromkeys(REGIMES[int(code)] for code in pair.regime)),
+        "h_rms": quantity(*pair.pair_h_rms.values, "m"),
+        "q0": number(rough.pair_q0),
+        "a_v": number(pair.pair_a_v.mean(), 2),
+        "constant_a_v": number(BROAD_A_V, 2),
+        "printed_a_v": number(PRINTED_A_V),
+        "rms_slope": number(rough.pair_rms_slope, 2),
+        "rms_curvature": number(curvature, 2),
+        "summit_radius": amount(2 / curvature, "m", 2),
+        "energy": f"{number(work_of_adhesion / float(rough.energy_ratio), 2)} J/m²",
+        "work_of_adhesion": f"{number(work_of_adhesion, 2)} J/m²",
+        "modulus": amount(pair.modulus_quoted, "Pa", 2),
+    }
+
+
+def describe_surface(surface):
+    """Rms height, rms slope and C0 at H = 0.8 of a surface, rounded to what is known of them."""
+    height = surface.h_rms.values
+    slope = surface.rms_slope.values
+    if "draw" in surface.dims:  # both ends are one standard error off; errors shown cover 90 %
+        height_error = COVERS * np.ptp(height) / 2
+        height_text = formatting.quantity_with_error(height.mean(), height_error, "m")
+        slope_text = with_error(slope.mean(), COVERS * np.ptp(slope) / 2)
+    else:
+        height_text = quantity(*height, "m")
+        slope_text = interval(*slope)
+    if "C0_reference" in surface:
+        line = with_error(surface.C0_reference, surface.C0_reference_total_error)
+    else:  # the highest line with H = 0.8 that the spectrum touches
+        bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
+        line = bound + interval(*surface.C0_reference_upper.values, 2)
+    return {"height": height_text, "slope": slope_text, "line": line}

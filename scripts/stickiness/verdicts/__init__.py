@@ -1,0 +1,19 @@
+"""How a material and a surface become a verdict.
+
+What goes in:
+
+- `rough_surface`: `Surface`, what is known of a rough surface; `measured_surface`, `analysis` and
+  `parametric` make one of measured heights, a drawing or parameters, `surface_variables` lists what
+  it stores
+- `material`: `Material`, the solid that touches it, and its adhesion
+
+What happens to them:
+
+- `pair_roughness`: the roughness that a material meets on a surface, with layers and two rough
+  solids
+- `judgement`: `judge`, the only place where pairs become numbers
+- `draws`, `curves`, `thresholds`, `budgets`: what it says of draws, of other moduli, heights, rates
+  and dwells, of what would make a pair stick, and of errors
+- `limits`: the value and the limits that decide
+- `verdict`: `verdict` and `thresholds` of one pair
+"""

@@ -1,0 +1,229 @@
+"""What measurements tell of a surface: its spectrum, moments and draws, with their errors.
+
+Measurements are stitched to one spectrum, to which a self-affine law is fitted. Spectra are drawn
+that agree with the measured one within its errors, and that contain waves which the instrument does
+not resolve. Doubts about the data forbid a verdict, unless the user insists on one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from scipy import stats
+
+from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
+from stickiness.measured import stitching
+from stickiness.measured.doubts import doubt_fit
+from stickiness.measured.instrument_spectrum import MeasuredSpectrum
+from stickiness.measured.self_affine_fit import SelfAffineFit
+from stickiness.measured.topography import Profile, Topography
+from stickiness.spectrum.direction import find_ratio
+from stickiness.statistics import COVERS
+from stickiness.verdicts.measured_surface import Measurement
+from stickiness.verdicts.parametric import (
+    ENDS,
+    POINTS_PER_DECADE,
+    REFERENCE_HURST,
+    describe_variables,
+)
+
+DRAWS = 200  #: spectra that are drawn
+SEED = 1  #: of the draws
+END_QUANTILES = (0.16, 0.84)  #: of the draws, one standard error either side: smooth and rough end
+PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
+IGNORED = "judged all the same (plausibility: ignore)"
+
+
+def analyse(
+    measurements: Sequence[Measurement],
+    *,
+    extend_to: float | None = None,
+    ignore_doubts: bool = False,
+) -> xr.Dataset:
+    """Analyse measurements of one surface.
+
+    Parameters
+    ----------
+    measurements : sequence of Measurement
+        Levelled heights, lengths in m.
+    extend_to : float, optional
+        Wavelength [m] down to which the fitted law extrapolates the spectrum. By default it goes on
+        to an unknown end, which widens the limits of verdicts.
+    ignore_doubts : bool
+        Judge implausible data, too.
+
+    Returns
+    -------
+    Dataset
+        Variables of `surface_variables.SURFACE_VARIABLES`. Its attribute `not_judged` lists, a line
+        each, why no verdict should rest on the data; it is empty if one may.
+    """
+    heights = [measurement.heights for measurement in measurements]
+    analysed = [measurement.find_spectrum() for measurement in measurements]
+    spectrum = stitching.stitch([each for each, _ in analysed])
+    fit = spectrum.fit
+    unfitted = [doubt for _, doubt in analysed]
+
+    # Doubts: no fit, a fit that no surface has, or heights that no instrument measures.
+    doubts = [doubt for doubt in unfitted if doubt] or [*doubt_fit(fit)]
+    q_extended = None if extend_to is None else 2 * np.pi / extend_to
+    if q_extended is not None and not fit.is_self_affine:
+        doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
+        q_extended = None
+    doubts += [doubt for each in heights for doubt in each.doubts]
+    not_judged = [] if ignore_doubts else doubts
+
+    # Spectra that agree with the measured one, with waves that the instrument does not resolve.
+    draws = stitching.draw(
+        spectrum,
+        DRAWS,
+        SEED,
+        extend_to=q_extended,
+        continue_to=2 * np.pi / stitching.SHORTEST_WAVE,
+    )
+    dataset = xr.merge(
+        [
+            _tabulate_spectrum(spectrum, q_extended),
+            _thin_picture(heights[0]),
+            _describe_fit(spectrum, q_extended),
+            _describe_heights(measurements),
+            _tabulate_draws(draws),
+        ]
+    )
+    if isinstance(spectrum, stitching.Stitched):
+        dataset = dataset.merge(_compare_measurements(spectrum))
+    dataset = _add_budgets(describe_variables(dataset), fit)
+    return dataset.assign_attrs(
+        remarks="; ".join(f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged),
+        cutoff=spectrum.cutoff.reason,
+        files="; ".join(each.source for each in heights),
+        contradictions="\n".join(text for each in heights for text in each.contradictions),
+        choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
+        not_judged="\n".join(not_judged),
+    )
+
+
+def _tabulate_spectrum(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Dataset:
+    """Measured and fitted spectrum at both ends; extrapolated by the fit to `q_extended` [1/m]."""
+    fit = spectrum.fit
+    rings = spectrum.rings
+    q = rings.q
+    error = rings.standard_error
+    psd = [rings.psd, rings.psd]
+    if q_extended is not None:
+        top = spectrum.cutoff.q
+        inside = q <= top * (1 + 1e-9)
+        count = int(np.ceil(np.log10(q_extended / top) * POINTS_PER_DECADE)) + 1
+        beyond = np.geomspace(top, q_extended, count)[0 if q[inside][-1] < top * 0.99 else 1 :]
+        q = np.append(q[inside], beyond)
+        # Standard error of the fitted ln C, beyond the plateau.
+        design = np.array([np.ones_like(beyond), -2 * np.log(beyond)])
+        spread = np.sqrt(np.einsum("in,ij,jn->n", design, fit.log_covariance[:2, :2], design))
+        law = fit.psd(beyond)
+        psd = [np.append(rings.psd[inside], law * np.exp(sign * spread)) for sign in (-1, 1)]
+        error = np.append(error[inside], law * spread)
+    fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
+    data = {
+        "psd": (("end", "wave_number"), psd),
+        "psd_standard_error": ("wave_number", error),
+        "psd_fit": ("wave_number", fit.psd(q)),
+        "fitted": ("wave_number", fitted.astype("i1")),
+    }
+    return xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
+
+
+def _thin_picture(heights: Topography | Profile) -> xr.DataArray:
+    """Levelled heights, thinned to what a picture shows."""
+    picture = heights.to_xarray()
+    if picture.ndim == 1:
+        return picture.rename("profile")
+    thin = max(1, *(n // PICTURE_POINTS for n in picture.shape))
+    return picture[::thin, ::thin].astype("f4").rename("heights")
+
+
+def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Dataset:
+    """Parameters of the fitted law, and the band of the spectrum."""
+    fit = spectrum.fit
+    cutoff = spectrum.cutoff
+    line, _, upper = fit.c0_at_hurst(REFERENCE_HURST)
+    dataset = xr.Dataset(
+        {
+            "C0": ("end", fit.c0 * np.ones(2)),
+            "C0_relative_error": fit.c0_se / fit.c0,
+            "C0_reference": line,
+            "C0_reference_upper": ("end", [upper, upper]),
+            "hurst": fit.hurst,
+            "misfit": fit.misfit,
+            "q0": fit.q_rolloff or spectrum.lowest,
+            "q1": cutoff.q if q_extended is None else q_extended,
+            "q_cutoff": cutoff.q,
+            "cutoff_detected": int(cutoff.detected),
+        }
+    )
+    if fit.q_rolloff is not None:
+        dataset["q_rolloff"] = fit.q_rolloff
+    if np.isfinite(spectrum.anisotropy):
+        dataset["anisotropy"] = spectrum.anisotropy
+        dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
+    return dataset
+
+
+def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
+    """Parameters of the first heights, and what is missing of all."""
+    every = [measurement.heights for measurement in measurements]
+    first = every[0]
+    return xr.Dataset(
+        {
+            "h_rms_measured": first.h_rms,
+            "mean_deviation": np.mean(np.abs(first.heights)),  # levelled heights have no mean
+            "height_range": np.ptp(first.heights),
+            "skewness": stats.skew(first.heights, axis=None),
+            "h_rms_as_read": first.h_rms_as_read(measurements[0].detrend),
+            "missing_fraction": max(heights.missing_fraction for heights in every),
+            "dropped_points": sum(heights.dropped for heights in every),
+            "masked_spikes": sum(heights.spikes for heights in every),
+            "cropped_fraction": max(heights.cropped for heights in every),
+        }
+    )
+
+
+def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
+    """Both ends of every moment, and the draws themselves for what depends on several moments."""
+    data = {
+        "unresolved_energy": ("end", np.quantile(draws.unresolved, END_QUANTILES)),
+        "q0_draws": ("draw", draws.q0),
+    }
+    for name, values in draws.moments.items():
+        data[name] = ("end", draws.quantiles(name, END_QUANTILES))
+        data[f"{name}_draws"] = ("draw", values)
+    return xr.Dataset(data, coords={"draw": np.arange(DRAWS)})
+
+
+def _compare_measurements(spectrum: stitching.Stitched) -> xr.Dataset:
+    """Spectrum of every measurement, and how far they differ."""
+    places = {
+        "measurement": np.arange(len(spectrum.levels)),
+        "wave_number_measured": spectrum.rings.q,
+    }
+    data = {
+        "psd_measurement": (tuple(places), spectrum.levels),
+        "offset": ("measurement", spectrum.offsets),
+        "scatter": spectrum.scatter,
+    }
+    return xr.Dataset(data, coords=places)
+
+
+def _add_budgets(dataset: xr.Dataset, fit: SelfAffineFit) -> xr.Dataset:
+    """Add error budgets from the standard errors of what was fitted."""
+    _, reference_error, _ = fit.c0_at_hurst(REFERENCE_HURST)
+    errors = {"hurst": fit.hurst_se, "C0_reference": reference_error}
+    if fit.q_rolloff is not None:
+        errors["q_rolloff"] = fit.q_rolloff_se
+    parts = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
+    parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
+    for name, error in errors.items():
+        parts["sampling"] = ErrorComponent(COVERS * error, "of the spectrum measured")
+        dataset = with_budget(dataset, name, **parts)
+    return dataset

@@ -1,0 +1,229 @@
+"""Materials: elasticity and adhesion of the solid that touches a rough surface, in SI units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stickiness.arguments import number
+from stickiness.plausibility import warn_of_si
+from stickiness.solids import HALF_SPACE, Film, Layer, Solid
+from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
+from stickiness.traction_laws import EXPONENTIAL, PREDICTED
+
+if TYPE_CHECKING:
+    from stickiness.verdicts.rough_surface import Surface
+
+
+@dataclass(frozen=True, kw_only=True)
+class Material:
+    """A solid that touches a rough surface, and its adhesion to that surface.
+
+    Parameters
+    ----------
+    modulus : float or solids.moduli.Prony or solids.moduli.Table
+        Young's modulus [Pa], or the plane-strain modulus E* if `poisson` is not given. A Prony
+        series or a table gives it as a function of time or frequency.
+    poisson : float, optional
+        Poisson's ratio; then E* = modulus/(1 - poisson^2).
+    work_of_adhesion : float
+        Work of adhesion of the pair [J/m^2].
+    range : float
+        Range of the attraction [m].
+    solid : HalfSpace or Layer
+        Shape of the solid, thickness in m; see `stickiness.solids`.
+    law : str
+        Traction law: "exponential" or "van_der_waals".
+    pressed : float
+        Mean pressure [Pa] that pressed the pair together before separation.
+    dwell : float, optional
+        Time [s] for which contact is made. Then the relaxation modulus at this time decides, and
+        dissipation at the edge of contact multiplies the work of separation.
+    broken_at : float
+        Frequency [Hz] that stands for the rate at which contact is broken after a dwell.
+    surface : Surface, optional
+        Roughness of the solid itself, which adds to that of the other.
+    label : str
+        Name for readers.
+
+    Raises
+    ------
+    ValueError
+        If a number is not positive and finite, if `poisson` is not above -1 and at most 0.5, if a
+        layer has another Poisson's ratio, or if `modulus` is not known at the time or frequency
+        at which the verdict is made.
+
+    Examples
+    --------
+    >>> tape = Material(modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    >>> print(f"E* = {tape.plane_strain_modulus / 1e3:.0f} kPa")
+    E* = 267 kPa
+    """
+
+    modulus: float | Prony | Table
+    work_of_adhesion: float
+    range: float
+    poisson: float | None = None
+    solid: Solid = HALF_SPACE
+    law: str = EXPONENTIAL
+    pressed: float = 0.0
+    dwell: float | None = None
+    broken_at: float = REFERENCE_FREQUENCY
+    surface: Surface | None = None
+    label: str = "the material"
+
+    def __post_init__(self):
+        if not self.depends_on_rate:
+            number("modulus", self.modulus)
+        number("work_of_adhesion", self.work_of_adhesion)
+        number("range", self.range)
+        number("pressed", self.pressed, zero=True)
+        number("broken_at", self.broken_at)
+        if self.poisson is not None and not -1 < self.poisson <= 0.5:
+            raise ValueError(f"poisson must be above -1 and at most 0.5, got {self.poisson!r}")
+        if isinstance(self.solid, Layer) and self.poisson != self.solid.poisson:
+            raise ValueError(
+                f"poisson = {self.poisson!r} must equal the layer's, {self.solid.poisson!r}: "
+                "`modulus` is that of the layer"
+            )
+        if self.surface is not None and not hasattr(self.surface, "draws"):
+            raise ValueError(f"surface must be a Surface, got {self.surface!r}")
+        if self.law not in PREDICTED:
+            raise ValueError(f"law must be one of {', '.join(PREDICTED)}, got {self.law!r}")
+        if self.dwell is not None:
+            number("dwell", self.dwell)
+            if not self.depends_on_rate:
+                raise ValueError(
+                    f"dwell = {self.dwell!r} needs a modulus that depends on time: give a Prony "
+                    "series or a table"
+                )
+        if not np.isfinite([self.plane_strain_modulus, *self.separation_factor]).all():
+            raise ValueError(
+                "modulus: the table must cover the frequency at which the verdict is made: 1 Hz, "
+                "or after a dwell 1/(pi^2 dwell) and `broken_at`"
+            )
+
+    @classmethod
+    def from_entry(
+        cls, entry: Mapping[str, Any], surfaces: Mapping[str, Surface] | None = None
+    ) -> Material:
+        """Make a material of a checked entry of the configuration, with values in SI units.
+
+        `surfaces` holds, by name, the surfaces of materials that are rough themselves.
+        """
+        material = cls(
+            modulus=_read_modulus(entry),
+            poisson=entry["poisson_ratio"] if entry["plane_strain_modulus"] is None else None,
+            work_of_adhesion=float(entry["work_of_adhesion"]),
+            range=float(entry["range"]),
+            law=entry.get("law") or EXPONENTIAL,
+            pressed=float(entry.get("pressed") or 0.0),
+            dwell=entry.get("dwell"),
+            broken_at=float(entry.get("broken_at") or REFERENCE_FREQUENCY),
+            surface=_find_surface(entry.get("surface"), surfaces),
+            label=entry.get("label") or cls.label,
+        )
+        return replace(material, solid=_read_solid(entry, material))
+
+    @classmethod
+    def read(cls, path: Any, name: str | None = None) -> Material:
+        """Read a material from a YAML file of the form ``materials: {my_tape: {…}}``.
+
+        Parameters
+        ----------
+        path : path
+            The file; its keys are those of the configuration, see docs/inputs.md.
+        name : str, optional
+            Which material to read; by default the only one in the file.
+
+        Raises
+        ------
+        ValueError
+            If the file is not valid, or if it holds several materials and no name is given.
+        """
+        from stickiness.entries import read_materials  # needs pydantic, which little else does
+
+        entries = read_materials(path)
+        if name is None and len(entries) > 1:
+            raise ValueError(f"{path} holds several materials; give one of {', '.join(entries)}")
+        return cls.from_entry(entries[next(iter(entries)) if name is None else name])
+
+    @property
+    def depends_on_rate(self) -> bool:
+        """Whether the modulus depends on time or frequency."""
+        return isinstance(self.modulus, Prony | Table)
+
+    @cached_property
+    def plane_strain(self) -> Modulus:
+        """Plane-strain modulus E* [Pa] as a function of time and frequency."""
+        modulus = self.modulus if self.depends_on_rate else Constant(float(self.modulus))
+        return modulus if self.poisson is None else modulus.scaled(1 / (1 - self.poisson**2))
+
+    @cached_property
+    def plane_strain_modulus(self) -> float:
+        """Plane-strain modulus E* [Pa] of the verdict: after the dwell, or at 1 Hz without one."""
+        if self.dwell is None:
+            return float(self.plane_strain.storage(REFERENCE_FREQUENCY))
+        return float(self.plane_strain.relaxation(self.dwell))
+
+    @cached_property
+    def separation_factor(self) -> tuple[float, float, float]:
+        """Factor on the work of separation (value, low, high); 1 without a dwell."""
+        if self.dwell is None:
+            return 1.0, 1.0, 1.0
+        return self.plane_strain.separation_factor(self.dwell, self.broken_at)
+
+    def warn(self) -> None:
+        """Warn of values that hardly any real pair has, with a `PlausibilityWarning`."""
+        warn_of_si(
+            modulus=self.plane_strain_modulus * (1 - (self.poisson or 0.0) ** 2),
+            work_of_adhesion=self.work_of_adhesion,
+            range=self.range,
+        )
+        if isinstance(self.solid, Layer):
+            warn_of_si(thickness=self.solid.thickness)
+
+
+def _find_surface(name: str | None, surfaces: Mapping[str, Surface] | None) -> Surface | None:
+    """Surface of this name, of a material that is rough itself."""
+    if not name:
+        return None
+    if name not in (surfaces or {}):
+        raise ValueError(
+            f"surface = {name!r}: the roughness of a material itself is known only to the "
+            "workflow, by the surfaces of its configuration; in Python give Material(surface=…)"
+        )
+    return surfaces[name]
+
+
+def _read_modulus(entry: Mapping[str, Any]) -> float | Prony | Table:
+    """Young's modulus, or E*, of an entry of the configuration."""
+    if entry["plane_strain_modulus"] is not None:
+        return float(entry["plane_strain_modulus"])
+    if entry.get("youngs_modulus_table") is not None:
+        frequencies, moduli = zip(*entry["youngs_modulus_table"], strict=True)
+        return Table(frequencies=frequencies, moduli=moduli)
+    if entry.get("youngs_modulus_prony") is not None:
+        series = entry["youngs_modulus_prony"]
+        return Prony(series["equilibrium"], tuple(map(tuple, series["terms"])))
+    return float(entry["youngs_modulus"])
+
+
+def _read_solid(entry: Mapping[str, Any], material: Material) -> Solid:
+    """Half-space, or layer on a rigid base or on a film, of an entry of the configuration."""
+    if entry.get("thickness") is None:
+        return HALF_SPACE
+    poisson = entry["poisson_ratio"]
+    backing = entry["backing"]
+    if isinstance(backing, Mapping):
+        youngs_modulus = material.plane_strain_modulus * (1 - poisson**2)
+        backing = Film(
+            modulus_ratio=backing["youngs_modulus"] / youngs_modulus,
+            poisson=backing["poisson_ratio"],
+            thickness=float(backing["thickness"]),
+        )
+    return Layer(thickness=float(entry["thickness"]), poisson=poisson, backing=backing)

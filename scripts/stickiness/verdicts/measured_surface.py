@@ -1,0 +1,91 @@
+"""One measurement of a surface as configured: levelled heights, and the spectrum found in them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from inspect import signature
+from typing import Any
+
+from stickiness.measured import instrument_spectrum, topography
+from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
+from stickiness.measured.psd import Taper
+from stickiness.measured.topography import Profile, Topography
+
+JACKSBORO = "builtin:jacksboro"  #: name of the topography that comes with the project
+FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
+_ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
+LIMIT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  #: lengths of `Limits`
+_READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """Levelled heights of one measurement, and how its spectrum is to be found."""
+
+    heights: Topography | Profile
+    detrend: str = "plane"  #: what was subtracted from the heights
+    window: Taper = "hann"  #: taper of the heights before they are transformed
+    limits: Limits = field(default_factory=Limits)  #: of the instrument
+
+    @classmethod
+    def from_entry(cls, entry: Mapping[str, Any]) -> Measurement:
+        """Read a measurement as a checked entry of the configuration says.
+
+        A file with too many missing points is read all the same, with a doubt that forbids a
+        verdict, so that its page can show what is wrong.
+        """
+        if entry["file"] == JACKSBORO:
+            heights = topography.jacksboro()
+        else:
+            reading = {key: entry[key] for key in _READING if entry.get(key) is not None}
+            heights = topography.read(entry["file"], max_missing=_ALL_MISSING, **reading)
+            heights = _doubt_missing(heights, most=entry["max_missing"])
+        lengths = {key: float(entry[key]) for key in LIMIT_KEYS if entry.get(key) is not None}
+        return cls(
+            heights=heights.detrended(entry["detrend"]),
+            detrend=entry["detrend"],
+            window=entry["window"],
+            limits=Limits(**lengths, detect=entry["cutoff"] == "detect"),
+        )
+
+    def find_spectrum(self) -> tuple[MeasuredSpectrum, str]:
+        """Spectrum of the heights, and why its fit cannot be relied on; empty if it can.
+
+        Raises
+        ------
+        ValueError
+            If the heights have no spectrum at all.
+        """
+        try:
+            return instrument_spectrum.analyse(self.heights, self.window, self.limits), ""
+        except ValueError as error:
+            doubt = self._explain(error)
+        try:
+            return instrument_spectrum.analyse(self.heights, self.window, demand=False), doubt
+        except ValueError:
+            raise ValueError(doubt) from None
+
+    def _explain(self, error: ValueError) -> str:
+        """Say why the spectrum has no fit."""
+        shape = self.heights.heights.shape
+        points = " x ".join(map(str, shape))
+        doubt = f"{self.heights.source}: no fit to the spectrum of {points} points: {error}"
+        if min(shape) < FEWEST_POINTS[len(shape)]:
+            doubt += (
+                f"; a map needs about {FEWEST_POINTS[2]} points along its shorter side, a profile "
+                f"{FEWEST_POINTS[1]}"
+            )
+        return doubt
+
+
+def _doubt_missing(heights: Topography | Profile, most: float) -> Topography | Profile:
+    """Add a doubt to heights of which more than the share `most` is missing."""
+    if heights.missing_fraction <= most:
+        return heights
+    doubt = (
+        f"{100 * heights.missing_fraction:.2g} % of the points of {heights.source} are missing or "
+        f"not used, more than {100 * most:.2g} % (max_missing): cut them off with missing: crop, "
+        "measure again or raise max_missing"
+    )
+    return replace(heights, doubts=(*heights.doubts, doubt))

@@ -1,0 +1,258 @@
+"""Roughness of a pair: that of the surface and of the material, as the material's solid meets it.
+
+The surface of a material that is rough itself adds its spectrum. A layer of finite thickness
+changes the energy that it takes to conform. Everything is known at both ends of the surface, and on
+the draws of a surface that was measured.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
+from stickiness.criteria.pair import Pair, make_pair
+from stickiness.remaining.prediction import Roughness, find_film_response
+from stickiness.solids import HALF_SPACE, Film, Solid
+from stickiness.spectrum import combine
+from stickiness.spectrum.interface import Spectrum
+from stickiness.verdicts.material import Material
+from stickiness.verdicts.parametric import MOMENTS
+from stickiness.verdicts.rough_surface import Surface
+
+SHUFFLE_SEED = 3  #: of the order in which draws of a second surface meet those of the first
+TOO_DIFFERENT = (
+    "the two rough solids differ too much in scale: at the load at which a_V is evaluated, "
+    f"{LOAD:g} E* q0 h_rms, they are in full contact"
+)
+
+
+class LimitedAv(NamedTuple):
+    """a_V of a pair at both ends of its surface, ``(2,)`` each."""
+
+    value: NDArray
+    low: NDArray
+    high: NDArray
+
+
+@dataclass(frozen=True)
+class PairRoughness:
+    """Roughness that a material meets on a surface."""
+
+    ends: Roughness  #: at the smooth and the rough end, ``(2,)``; q0 is the same at both
+    draws: Roughness | None  #: of every draw of a measured surface, ``(n,)``
+    rms_curvature: NDArray  #: at both ends [1/m], ``(2,)``
+    spectra: tuple[Spectrum, ...]  #: of both ends, of both solids if both are rough
+    stiffening: NDArray  #: energy of full contact over that of a half-space, ``(2,)``
+    film_bends: bool  #: whether the solid is a layer on a film
+    a_v: LimitedAv
+    not_judged: str  #: why the pair is not judged, a line each; empty if it is
+
+    def meet_draws(self, material: Material, wanted_share: float) -> Pair | None:
+        """`Pair` of the material with every draw; None of a surface that was not measured."""
+        return None if self.draws is None else _meet(material, self.draws, wanted_share)
+
+    def meet_ends(self, material: Material, wanted_share: float) -> Pair:
+        """`Pair` of the material with both ends of the surface, for what needs no a_V."""
+        return _meet(material, self.ends, wanted_share)
+
+
+def _meet(material: Material, rough: Roughness, wanted_share: float) -> Pair:
+    """`Pair` of a material and a roughness."""
+    return make_pair(
+        rough,
+        modulus=material.plane_strain_modulus,
+        work_of_adhesion=material.work_of_adhesion,
+        range=material.range,
+        law=material.law,
+        pressed=material.pressed,
+        wanted_share=wanted_share,
+        separation_factor=material.separation_factor,
+        layer_strain=material.solid.strain(rough.h_rms, rough.q0),
+    )
+
+
+def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
+    """Find the roughness that a material meets on a surface."""
+    own = material.surface
+    ends = surface.ends
+    draws = surface.draws
+    spectra = surface.spectra
+    rms_curvature = _curvature(surface)
+    doubts = [surface.not_judged]
+
+    # A material that is rough itself adds its spectrum, independent of the other.
+    if own is not None:
+        doubts.append(own.not_judged)
+        spectra = tuple(
+            combine(first, second) for first, second in zip(spectra, own.spectra, strict=True)
+        )
+        ends, draws = _add_surfaces(surface, own, material.solid)
+        rms_curvature = np.hypot(rms_curvature, _curvature(own))
+
+    # A layer changes the energy of full contact, and the compliance to the longest waves.
+    stiffening = np.ones(2)
+    if material.solid != HALF_SPACE:
+        ends, draws, stiffening = _put_on_layer(ends, draws, spectra, material.solid)
+
+    a_v, doubt = _find_a_v(material, surface, ends, rms_curvature, spectra)
+    doubts.append(doubt)
+    doubts.append(_doubt_smoothness(material.range, h_rms=float(ends.h_rms[0])))
+    return PairRoughness(
+        ends=ends,
+        draws=draws,
+        rms_curvature=rms_curvature,
+        spectra=tuple(spectra),
+        stiffening=stiffening,
+        film_bends=isinstance(getattr(material.solid, "backing", None), Film),
+        a_v=a_v,
+        not_judged="\n".join(filter(None, doubts)),
+    )
+
+
+def _doubt_smoothness(range: float, h_rms: float) -> str:
+    """Say that heights are too small to matter, as those in a wrong unit are; empty if not."""
+    if range <= RANGES[-1] * h_rms:
+        return ""
+    return (
+        f"the range of {range:.3g} m is more than {RANGES[-1]:g} times the rms height of "
+        f"{h_rms:.3g} m: for this attraction the surface is smooth"
+    )
+
+
+def _curvature(surface: Surface) -> NDArray:
+    """Rms Laplacian of a surface at both ends [1/m]."""
+    return surface.data.rms_curvature.values
+
+
+def _find_a_v(
+    material: Material,
+    surface: Surface,
+    ends: Roughness,
+    rms_curvature: NDArray,
+    spectra: tuple[Spectrum, ...],
+) -> tuple[LimitedAv, str]:
+    """a_V of the pair at both ends, and why it is not known; then that of the surface alone."""
+    a_v: tuple[SurfaceAv, ...] = surface.a_v
+    doubt = ""
+    if material.surface is not None:
+        moments = zip(ends.q0, ends.h_rms, ends.rms_slope, rms_curvature, strict=True)
+        try:
+            a_v = tuple(
+                surface_a_v(spectrum, dict(zip(("q0", *MOMENTS), values, strict=True)))
+                for spectrum, values in zip(spectra, moments, strict=True)
+            )
+        except ValueError:  # attractive areas vanish within rounding
+            doubt = TOO_DIFFERENT
+    limited = [
+        end_a_v.at(material.range / h_rms) for end_a_v, h_rms in zip(a_v, ends.h_rms, strict=True)
+    ]
+    return LimitedAv(*np.transpose(limited)), doubt
+
+
+def _add_surfaces(
+    surface: Surface, own: Surface, solid: Solid
+) -> tuple[Roughness, Roughness | None]:
+    """Roughness of two rough half-spaces at both ends and on draws.
+
+    The draws of one surface are kept if the other has draws, too, or ends that agree.
+    """
+    if surface.draws is None and own.draws is not None:
+        return _add_surfaces(own, surface, solid)
+    # q0 is the geometric mean of both, weighted by the energies that they store.
+    stored, added = (
+        sum(spectrum.elastic_energy(solid) for spectrum in each.spectra) for each in (surface, own)
+    )
+    share = float(stored / (stored + added))
+    ends = _add(surface.ends, own.ends, share)
+    if surface.draws is None:
+        return ends, None
+    if own.draws is not None:
+        # Measurements of two surfaces err independently, although their draws have one seed.
+        second = _repeat_draws(own.draws, count=surface.draw_count, shuffled=own is not surface)
+    elif np.ptp(own.ends.h_rms) == np.ptp(own.ends.elastic_energy) == 0:
+        second = _take_smooth_end(own.ends)
+    else:
+        return ends, None
+    draws = _add(surface.draws, second, share)
+    # As in `Surface.draws`: slopes of draws are not kept.
+    return ends, replace(draws, rms_slope=ends.rms_slope.mean())
+
+
+def _add(first: Roughness, second: Roughness, share: float) -> Roughness:
+    """Roughness of two solids; the first stores the `share` of the elastic energy."""
+    return replace(
+        first,
+        h_rms=np.hypot(first.h_rms, second.h_rms),
+        rms_slope=np.hypot(first.rms_slope, second.rms_slope),
+        q0=first.q0**share * second.q0 ** (1 - share),
+        elastic_energy=first.elastic_energy + second.elastic_energy,
+        half_space_energy=first.half_space_energy + second.half_space_energy,
+        anisotropy_error_factor=np.maximum(
+            first.anisotropy_error_factor, second.anisotropy_error_factor
+        ),
+    )
+
+
+def _repeat_draws(draws: Roughness, count: int, shuffled: bool) -> Roughness:
+    """As many draws as `count`, repeated or cut off, in their order or in a random one."""
+    order = np.resize(np.arange(draws.h_rms.size), count)
+    if shuffled:
+        order = np.random.default_rng(SHUFFLE_SEED).permutation(order)
+    return replace(
+        draws,
+        h_rms=draws.h_rms[order],
+        q0=draws.q0[order],
+        elastic_energy=draws.elastic_energy[order],
+        half_space_energy=draws.half_space_energy[order],
+    )
+
+
+def _take_smooth_end(ends: Roughness) -> Roughness:
+    """Roughness of the smooth end alone."""
+    return replace(
+        ends,
+        h_rms=ends.h_rms[0],
+        q0=ends.q0[0],
+        elastic_energy=ends.elastic_energy[0],
+        half_space_energy=ends.half_space_energy[0],
+        rms_slope=ends.rms_slope[0],
+        anisotropy_error_factor=ends.anisotropy_error_factor[0],
+    )
+
+
+def _put_on_layer(
+    ends: Roughness, draws: Roughness | None, spectra: tuple[Spectrum, ...], solid: Solid
+) -> tuple[Roughness, Roughness | None, NDArray]:
+    """Roughness as a layer meets it, and its energy of full contact over that of a half-space."""
+    energy = [spectrum.elastic_energy(solid) for spectrum in spectra]
+    stiffening = np.divide(energy, [spectrum.elastic_energy() for spectrum in spectra])
+    compliance = float(solid.factor(float(ends.q0[0])))
+    ends = replace(
+        ends,
+        elastic_energy=ends.elastic_energy * stiffening,
+        relative_compliance=np.full(2, compliance),
+    )
+    if draws is not None:
+        # The spectra of the draws are not kept: the layer acts on them as on both ends.
+        draws = replace(
+            draws,
+            elastic_energy=draws.elastic_energy * np.sqrt(np.prod(stiffening)),
+            relative_compliance=np.float64(compliance),
+        )
+    if isinstance(solid.backing, Film):
+        # The film makes the solid softer to long waves, the layer stiffer to others: energies on a
+        # half-space bound neither way.
+        q0 = float(ends.q0[0])
+        responses = np.array([find_film_response(spectrum, solid, q0) for spectrum in spectra])
+        ends = replace(ends, half_space_energy=np.full(2, np.nan), film_response=responses)
+        if draws is not None:
+            draws = replace(
+                draws,
+                half_space_energy=np.full(draws.h_rms.shape, np.nan),
+                film_response=responses.mean(axis=0),
+            )
+    return ends, draws, stiffening

@@ -1,0 +1,384 @@
+"""What is known of the roughness of a surface, from whatever source: `Surface`.
+
+Measured heights, a spectrum, a drawing and parameters in the configuration all become the same
+thing: a smooth and a rough end of what is known, each with its spectrum and its moments. A measured
+surface also has draws, that is spectra which agree with the measured one within its errors and
+contain waves that the instrument does not resolve. Verdicts rest on the draws where there are any.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import ArrayLike
+
+from stickiness import datasets
+from stickiness.arguments import positive
+from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
+from stickiness.measured.stitching import MOST_UNRESOLVED
+from stickiness.plausibility import PlausibilityWarning, warn_of_si
+from stickiness.remaining.prediction import FILM_FACTORS, Roughness, find_anisotropy_error_factor
+from stickiness.spectrum.interface import Spectrum
+from stickiness.spectrum.kinds import SelfAffine, Tabulated
+from stickiness.verdicts import parametric
+from stickiness.verdicts.parametric import ENDS, MOMENTS
+
+#: What a verdict needs of the file of a surface.
+NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
+_SAME_SHAPE = 1e-6  # relative, within which both ends have spectra of one shape
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """What is known of the roughness of a surface; lengths in m.
+
+    Make one with `from_heights`, `from_profile`, `from_spectrum`, `from_drawing` or `read`.
+
+    Attributes
+    ----------
+    data : Dataset
+        The variables of `surface_variables.SURFACE_VARIABLES` that are known: spectrum and moments
+        at both ends, draws, unresolved waves, the fit, and a thinned picture of the heights. It is
+        what the workflow stores in ``real_surfaces/<surface>.nc``.
+    shells : Spectrum, optional
+        Spectrum of a periodic cell, whose waves are discrete and have no density to tabulate.
+
+    See Also
+    --------
+    stickiness.verdict : whether a material sticks to a surface
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
+    >>> wall = Surface.from_spectrum(rough)
+    >>> print(f"{wall.ends.h_rms[0]:.2g} m")
+    1e-06 m
+    """
+
+    data: xr.Dataset
+    shells: Spectrum | None = None
+
+    @classmethod
+    def from_spectrum(cls, spectrum: Spectrum, rough: Spectrum | None = None) -> Surface:
+        """Describe a surface by its spectrum, or by a smooth and a `rough` end of its spectrum.
+
+        The surface has the waves of the spectrum and no others. Both ends must have the same band.
+
+        Raises
+        ------
+        ValueError
+            If the bands differ, or if the rough end has the lower rms height.
+        """
+        rough = spectrum if rough is None else rough
+        if not np.allclose(spectrum.band, rough.band, rtol=1e-9):
+            raise ValueError(f"rough must have the band {spectrum.band}, got {rough.band}")
+        if rough.h_rms < spectrum.h_rms:
+            raise ValueError(
+                f"rough must have the higher rms height, got {rough.h_rms:.3g} below "
+                f"{spectrum.h_rms:.3g}"
+            )
+        if spectrum.is_discrete:
+            return cls(_describe_shells(spectrum), shells=spectrum)
+        return cls(
+            parametric.tabulate_ends(
+                spectrum,
+                rough,
+                hurst=getattr(spectrum, "hurst", None),
+                C0=[each.C0 for each in (spectrum, rough) if isinstance(each, SelfAffine)] or None,
+            )
+        )
+
+    @classmethod
+    def from_heights(
+        cls, heights: ArrayLike, length: float | tuple[float, float], **options: Any
+    ) -> Surface:
+        """Analyse a map of heights.
+
+        Parameters
+        ----------
+        heights : (nx, ny) array
+            Heights [m], NaN or masked where nothing was measured; the first axis runs along x.
+        length : float or pair of floats
+            Side of the map, or its sides along x and y [m].
+        **options
+            Keys of a measured surface, see docs/inputs.md, with lengths in m: `detrend`, `missing`,
+            `max_missing`, `missing_rim`, `spikes`, `window`, `fit_from`, `fit_to`, `resolution`,
+            `tip_radius`, `cutoff`, `extend_to` and `plausibility`.
+
+        Raises
+        ------
+        ValueError
+            If the heights are no map, a side is missing, or too many points are missing.
+        """
+        heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+        if heights.ndim != 2:
+            raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
+        if np.ndim(length) == 0 and heights.shape[0] != heights.shape[1]:
+            raise ValueError(
+                f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
+            )
+        sides = np.broadcast_to(positive(length=length)[0], 2)
+        for side in dict.fromkeys(map(float, sides)):
+            warn_of_si(length=side)
+        steps = tuple(float(side) / n for side, n in zip(sides, heights.shape, strict=True))
+        return cls._from_array(heights, steps, options)
+
+    @classmethod
+    def from_profile(cls, heights: ArrayLike, length: float, **options: Any) -> Surface:
+        """Analyse a line profile of even steps.
+
+        We assume that the surface is isotropic, and convert the spectrum of the profile.
+
+        Parameters
+        ----------
+        heights : (n,) array
+            Heights [m], NaN or masked where nothing was measured.
+        length : float
+            Length of the profile [m].
+        **options
+            As of `from_heights`.
+        """
+        heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+        if heights.ndim != 1:
+            raise ValueError(f"a profile must be an (n,) array, got the shape {heights.shape}")
+        (side,) = positive(length=length)
+        warn_of_si(length=float(side))
+        return cls._from_array(heights, float(side) / heights.size, options)
+
+    @classmethod
+    def _from_array(
+        cls, heights: np.ndarray, steps: float | tuple[float, ...], options: Mapping[str, Any]
+    ) -> Surface:
+        """Analyse heights on a grid of these steps [m]."""
+        from stickiness.measured import topography
+        from stickiness.measured.instrument_spectrum import Limits
+        from stickiness.verdicts.analysis import analyse
+        from stickiness.verdicts.measured_surface import LIMIT_KEYS, Measurement
+
+        options = dict(options)
+        extend_to = options.pop("extend_to", None)
+        if extend_to is not None:
+            (extend_to,) = map(float, positive(extend_to=extend_to))
+        ignore_doubts = options.pop("plausibility", "check") == "ignore"
+        lengths = {key: options.pop(key) for key in LIMIT_KEYS & options.keys()}
+        limits = Limits(**lengths, detect=options.pop("cutoff", "detect") == "detect")
+        window = options.pop("window", "hann")
+        detrend = options.pop("detrend", "plane")
+        levelled = topography.from_array(heights, steps, **options).detrended(detrend)
+        measurement = Measurement(levelled, detrend=detrend, window=window, limits=limits)
+        return cls(analyse([measurement], extend_to=extend_to, ignore_doubts=ignore_doubts))
+
+    @classmethod
+    def from_drawing(
+        cls,
+        *,
+        Ra: float | tuple[float, float] | None = None,
+        Rq: float | tuple[float, float] | None = None,
+        RSm: float | tuple[float, float] | None = None,
+        lambda_c: float | None = None,
+        shortest_wavelength: float = 1e-9,
+    ) -> Surface:
+        """Describe a surface by the parameters of profiles on a drawing, all in m.
+
+        Parameters
+        ----------
+        Ra, Rq : float or (low, high)
+            Arithmetic or rms deviation of the profile; exactly one of them.
+        RSm : float or (low, high), optional
+            Mean width of the profile elements; default 0.04 to 0.5 times `lambda_c`.
+        lambda_c : float, optional
+            Cut-off of the profile filter; default by ISO 4288.
+        shortest_wavelength : float
+            Shortest wavelength of the surface.
+
+        Raises
+        ------
+        ValueError
+            If not exactly one of Ra and Rq is given, or if a value is not positive.
+        """
+        if (Ra is None) == (Rq is None):
+            raise ValueError("give exactly one of Ra and Rq")
+        lengths = {"Ra": Ra, "Rq": Rq, "RSm": RSm, "lambda_c": lambda_c}
+        lengths["shortest_wavelength"] = shortest_wavelength
+        lengths = {name: value for name, value in lengths.items() if value is not None}
+        for name, value in lengths.items():
+            (ends,) = positive(**{name: value})
+            if ends.ndim and (ends.shape != (2,) or ends[0] > ends[1]):
+                raise ValueError(f"{name} must be a length or (low, high), got {value!r}")
+        lengths = dict.fromkeys(("Ra", "Rq", "RSm", "lambda_c")) | lengths
+        return cls(parametric.read_drawing(lengths))
+
+    @classmethod
+    def read(cls, path: str | Path, **options: Any) -> Surface:
+        """Read a measured topography from a file of an instrument, NetCDF, numpy or text.
+
+        Parameters
+        ----------
+        path : path
+            The file. The rows of a matrix in a text or numpy file run along y, as in an image.
+        **options
+            Keys of a measured surface, see docs/inputs.md: those of `from_heights`, and `length`
+            and `height_unit` of a map, `position_unit` and `height_unit` of a profile, `channel`
+            and others. Values with units are texts, or numbers in SI units.
+
+        Raises
+        ------
+        ValueError
+            If the file cannot be read; the message says what to give.
+        """
+        from stickiness.entries import check_surface  # needs pydantic, which little else does
+
+        return cls.from_entry(check_surface({"kind": "measured", "file": str(path), **options}))
+
+    @classmethod
+    def from_entry(cls, entry: Mapping[str, Any]) -> Surface:
+        """Make a surface of a checked entry of the configuration, with values in SI units."""
+        if entry["kind"] == "self_affine":
+            return cls(parametric.read_self_affine(entry))
+        if entry["kind"] == "surface_texture":
+            return cls(parametric.read_drawing(entry))
+        from stickiness.entries import list_measurements
+        from stickiness.verdicts.analysis import analyse
+        from stickiness.verdicts.measured_surface import Measurement
+
+        measurements = [Measurement.from_entry(each) for each in list_measurements(entry)]
+        return cls(
+            analyse(
+                measurements,
+                extend_to=entry["extend_to"],
+                ignore_doubts=entry["plausibility"] == "ignore",
+            )
+        )
+
+    @classmethod
+    def open(cls, path: str | Path) -> Surface:
+        """Open a file that `write` has written."""
+        return cls(datasets.read(path, NEEDED))
+
+    def write(self, path: str | Path, *, title: str, parameters: Mapping[str, Any]) -> None:
+        """Write what is known of the surface to a NetCDF file."""
+        if self.shells is not None:
+            raise ValueError("the spectrum of a periodic cell has no density that can be written")
+        datasets.write(self.data, path, title=title, parameters=parameters)
+
+    @property
+    def not_judged(self) -> str:
+        """Why no verdict should rest on the data, a line each; empty if one may."""
+        return self.data.attrs.get("not_judged", "")
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Doubts about the data that were ignored as the user wished."""
+        return tuple(filter(None, self.data.attrs.get("remarks", "").split("; ")))
+
+    def __repr__(self) -> str:
+        h_rms = sorted(self.data.h_rms.values)
+        draws = f", {self.draw_count} draws" if self.draw_count else ""
+        return f"Surface(h_rms = {h_rms[0]:.3g} to {h_rms[1]:.3g} m{draws})"
+
+    @property
+    def draw_count(self) -> int:
+        """Number of draws; 0 of a surface that was not measured."""
+        return self.data.sizes.get("draw", 0)
+
+    @cached_property
+    def spectra(self) -> tuple[Spectrum, Spectrum]:
+        """Spectra of the smooth and of the rough end, up to q1."""
+        if self.shells is not None:
+            return self.shells, self.shells
+        inside = np.flatnonzero(self.data.wave_number <= float(self.data.q1) * (1 + 1e-9))
+        q = self.data.wave_number.values[inside]
+        smooth, rough = (self.data.psd.sel(end=end).values[inside] for end in ENDS)
+        return Tabulated(q, smooth), Tabulated(q, rough)
+
+    @cached_property
+    def ends(self) -> Roughness:
+        """Roughness that a half-space meets at the smooth and at the rough end, ``(2,)``."""
+        data = self.data.sel(end=list(ENDS))
+        energy = data.elastic_energy.values
+        return Roughness(
+            h_rms=data.h_rms.values,
+            q0=np.full(2, float(data.q0)),
+            elastic_energy=energy,
+            relative_compliance=np.ones(2),
+            half_space_energy=energy,
+            anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
+            rms_slope=data.rms_slope.values,
+            film_response=np.zeros((2, 2, FILM_FACTORS.size)),
+        )
+
+    @cached_property
+    def draws(self) -> Roughness | None:
+        """Roughness of every draw, ``(n,)``; None of a surface that was not measured."""
+        if "h_rms_draws" not in self.data:
+            return None
+        energy = self.data.elastic_energy_draws.values
+        return Roughness(
+            h_rms=self.data.h_rms_draws.values,
+            q0=self.data.q0_draws.values,
+            elastic_energy=energy,
+            relative_compliance=np.float64(1.0),
+            half_space_energy=energy,
+            anisotropy_error_factor=np.float64(self._anisotropy_error_factor),
+            # Slopes of the draws are not kept; those of both ends hardly differ.
+            rms_slope=self.ends.rms_slope.mean(),
+            film_response=np.zeros((2, FILM_FACTORS.size)),
+        )
+
+    @property
+    def _anisotropy_error_factor(self) -> float:
+        return find_anisotropy_error_factor(float(self.data.get("axis_ratio", 1.0)))
+
+    @cached_property
+    def a_v(self) -> tuple[SurfaceAv, SurfaceAv]:
+        """a_V of both ends by theory; it is computed once where they differ by a factor only."""
+        psd = self.data.psd.sel(end=list(ENDS)).values
+        ratio = psd[0] / psd[1]
+        if np.ptp(ratio) < _SAME_SHAPE * ratio.max():
+            a_v = self.find_a_v(0)
+            return a_v, a_v
+        return self.find_a_v(0), self.find_a_v(1)
+
+    def find_a_v(self, end: int) -> SurfaceAv:
+        """a_V of the smooth (0) or rough (1) end by Persson's theory."""
+        moments = {name: float(self.data[name].sel(end=ENDS[end])) for name in MOMENTS}
+        return surface_a_v(self.spectra[end], moments | {"q0": float(self.data.q0)})
+
+    @property
+    def unresolved_energy(self) -> float:
+        """Elastic energy of waves that the instrument does not resolve, over that of the others.
+
+        It is that of the rough end if the fitted law goes on to 0.3 nm; 0 of a surface that was not
+        measured.
+        """
+        return float(self.data["unresolved_energy"].max()) if self.draw_count else 0.0
+
+    def warn(self) -> None:
+        """Warn of slopes that are not small, and of unresolved waves that decide."""
+        warn_of_si(rms_slope=float(self.data.rms_slope[-1]))
+        if self.unresolved_energy > MOST_UNRESOLVED:
+            warnings.warn(
+                "waves that the instrument does not resolve decide: if the fitted law goes on to "
+                f"0.3 nm, full contact takes {1 + self.unresolved_energy:.2g} times the energy. "
+                "The limits include that; a finer measurement narrows them",
+                PlausibilityWarning,
+                stacklevel=2,
+            )
+
+
+def _describe_shells(spectrum: Spectrum) -> xr.Dataset:
+    """Moments of the spectrum of a periodic cell; its density only tells that both ends agree."""
+    data: dict[str, Any] = {name: ("end", [getattr(spectrum, name)] * 2) for name in MOMENTS}
+    data["elastic_energy"] = ("end", [spectrum.elastic_energy()] * 2)
+    data["psd"] = (("end", "wave_number"), np.ones((2, spectrum.q.size)))
+    data["q0"] = spectrum.q_longest
+    data["q1"] = spectrum.q1
+    return xr.Dataset(data, coords={"end": list(ENDS), "wave_number": spectrum.q})

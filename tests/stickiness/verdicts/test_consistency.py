@@ -1,0 +1,210 @@
+"""The verdict, the share, the probability, the margin and the threshold of a pair agree."""
+
+import re
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+import xarray as xr
+from helpers.analysed import A_V, wall
+
+from common.table_rows import describe_pair
+from stickiness import Material, judge
+from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, SIGNS, WORDS
+from stickiness.criteria.registry import REMAINING
+from stickiness.entries import check_material
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids import HALF_SPACE
+from stickiness.units import si
+from stickiness.verdicts import curves, pair_roughness
+from stickiness.verdicts.limits import find_limits, find_value
+
+LIMITED = ("remaining", "pull_off", "margin", "modulus_threshold")
+SURFACES = ("a", "b", "c", "rough", "x")
+ROUGH_MATERIAL = "rough"  # surface of materials that are rough themselves; it was not measured
+FILM = {"youngs_modulus": "1 GPa", "poisson_ratio": 0.4, "thickness": "20 um"}
+SERIES = {"equilibrium": "20 kPa", "terms": [["0.1 MPa", "1 s"], ["10 MPa", "1 ms"]]}
+TABLE = [["1 mHz", "10 kPa"], ["1 Hz", "0.2 MPa"], ["100 Hz", "1 MPa"], ["1 kHz", "0.5 MPa"]]
+
+
+class Judged(NamedTuple):
+    """Entries of materials, the materials, and the verdicts on all surfaces."""
+
+    entries: dict[str, dict[str, Any]]
+    materials: dict[str, Material]
+    verdicts: xr.Dataset
+
+
+def make_entry(rng):
+    """Entry of any kind: modulus, layer, dwell, pressure, roughness and law are drawn."""
+    entry = {
+        "work_of_adhesion": f"{10 ** rng.uniform(-2, 0)!r} J/m^2",
+        "poisson_ratio": 0.5,
+        "range": f"{10 ** rng.uniform(-10, -7.5)!r} m",
+    }
+    depends_on_rate = rng.random() < 0.5
+    if not depends_on_rate:
+        entry["youngs_modulus"] = f"{10 ** rng.uniform(3, 8)!r} Pa"
+    elif rng.integers(2) == 0:
+        entry["youngs_modulus_prony"] = SERIES
+    else:
+        entry["youngs_modulus_table"] = TABLE
+    if rng.random() < 0.7:
+        entry["thickness"] = f"{10 ** rng.uniform(-0.5, 2.5)!r} um"
+        entry["backing"] = ("bonded", "slip", FILM)[rng.integers(3)]
+    dwell = {"dwell": "10 s"} if depends_on_rate else {}
+    pressed = {"pressed": "1 MPa"}
+    rough = {"surface": ROUGH_MATERIAL}
+    tail = {"law": "van_der_waals"}
+    for option in (dwell, pressed, rough, tail):
+        if rng.random() < 0.3:
+            entry |= option
+    return check_material(entry)
+
+
+def make_wall(rng, draws):
+    """Surface with draws if it was measured."""
+    longest = 10 ** rng.uniform(-4, -2)
+    h_rms = 10 ** rng.uniform(-7.5, -5)
+    return wall(
+        h_rms=0.8 * h_rms,
+        draws=draws,
+        apart=1.5,
+        scatter=0.2,
+        longest=longest,
+        shortest=1e-3 * longest,
+        axis_ratio=rng.choice([1.0, 3.0]),
+    )
+
+
+@pytest.fixture(scope="module")
+def judged():
+    """Verdicts on many materials and surfaces of all kinds."""
+    rng = np.random.default_rng(5)
+    entries = {str(i): make_entry(rng) for i in range(30)}
+    walls = {name: make_wall(rng, 60 * (name < ROUGH_MATERIAL)) for name in SURFACES}
+    materials = {name: Material.from_entry(entry, walls) for name, entry in entries.items()}
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pair_roughness, "surface_a_v", lambda *_: A_V)
+        for axis in ("MODULUS", "ROUGHNESS", "DWELL"):  # of curves, which take most of the time
+            patch.setattr(curves, f"{axis}_FACTORS", np.ones(1))
+        verdicts = judge(materials, walls, frequencies=np.geomspace(1e-4, 1e4, 5), thresholds=False)
+        some = {name: materials[name] for name in list(materials)[:15]}
+        on_two = {name: walls[name] for name in ("a", ROUGH_MATERIAL)}
+        with_thresholds = judge(some, on_two, curves=False)
+    return Judged(entries, materials, verdicts), with_thresholds
+
+
+@pytest.mark.slow
+def test_values_lie_within_limits(judged):
+    verdicts = judged[0].verdicts
+    for name in LIMITED:
+        dataset = verdicts.sel(criterion=REMAINING) if name == "margin" else verdicts
+        low, high = find_limits(dataset, name)
+        by_pair = (low, find_value(dataset, name), high)
+        by_end = (dataset[f"{name}_low"], dataset[name], dataset[f"{name}_high"])
+        for least, value, most in (by_pair, by_end):
+            assert (least <= value * (1 + 1e-9)).all(), name
+            assert (value <= most * (1 + 1e-9)).all(), name
+
+
+@pytest.mark.slow
+def test_share_margin_threshold_and_probability_say_the_same(judged):
+    """Without any tolerance: there are no ties among random numbers."""
+    verdicts = judged[0].verdicts
+    agree = np.testing.assert_array_equal
+    low, high = find_limits(verdicts)
+    words = np.array(WORDS)[verdicts.verdict.values]
+    assert set(words.ravel()) == set(WORDS[:5])
+    margins = find_limits(verdicts, "margin")
+    thresholds = find_limits(verdicts, "modulus_threshold")
+    for limit, margin, threshold in zip((low, high), margins, thresholds, strict=True):
+        agree(limit >= DEFAULT_SHARE, margin >= 1)
+        np.testing.assert_allclose(margin * verdicts.modulus_quoted, threshold, rtol=1e-12)
+    threshold = find_value(verdicts, "modulus_threshold")
+    agree(find_value(verdicts) >= DEFAULT_SHARE, threshold >= verdicts.modulus_quoted)
+    sticks = np.isin(words, ["sticks", "sticks fully"])
+    fails = np.isin(words, ["does not stick", "adheres locally, does not hold"])
+    agree(sticks, low >= DEFAULT_SHARE)
+    agree(fails, high < DEFAULT_SHARE)
+    agree(words == "sticks fully", low >= FULL_SHARE)
+    drawn = np.isfinite(verdicts.probability).values
+    least = verdicts.probability_low.values[drawn]
+    most = verdicts.probability.values[drawn]
+    agree(sticks[drawn], least > 0.95)
+    agree(fails[drawn], most <= 0.05)
+    assert (least <= most).all()
+    # Draws scatter about both ends of the surface by less than a factor of ten in strain.
+    far = (verdicts.layer_strain > 10 * MOST_STRAIN).all("end").values[drawn]
+    assert (most[far] > 0.95).any()
+    assert (least[far] == 0).all()
+    strained = (verdicts.layer_strain > MOST_STRAIN).any("end").values
+    assert ((low == 0) & (thresholds[0] == 0)).values[~drawn & strained].all()
+
+
+@pytest.mark.slow
+def test_pairs_are_on_the_same_side_of_all_thresholds_as_their_shares(judged):
+    words = set()
+    outside = 0
+    (_, materials, _), verdicts = judged
+    cells = [
+        verdicts.sel(material=name, surface=surface)
+        for name in verdicts.material.values
+        for surface in verdicts.surface.values
+    ]
+    for pair in cells:
+        material = materials[str(pair.material.values)]
+        low_keeps, high_keeps = (float(limit) >= DEFAULT_SHARE for limit in find_limits(pair))
+        words.add((low_keeps, high_keeps))
+        value, least, most = (float(pair[f"rms_height_threshold{end}"]) for end in SIGNS)
+        assert least <= value <= most
+        drawn = bool(np.isfinite(pair.probability))
+        height = float(np.sqrt(pair.pair_h_rms.prod()) if drawn else pair.pair_h_rms[-1])
+        assert (least > height, most > height) == (low_keeps, high_keeps)
+        slowest = float(pair.rate_threshold_low)
+        fastest = float(pair.rate_threshold_high)
+        has_rate = material.depends_on_rate and material.dwell is None
+        assert np.isnan(fastest) == (not has_rate)
+        if has_rate:
+            assert (slowest > 1, fastest > 1) == (low_keeps, high_keeps)
+        thinnest = float(pair.thickness_threshold_low)
+        thickest = float(pair.thickness_threshold_high)
+        assert np.isnan(thickest) == (material.solid == HALF_SPACE)
+        if material.solid != HALF_SPACE:
+            thickness = material.solid.thickness
+            # Between its limits a layer on a film may stick where thicker ones do not.
+            assert low_keeps >= (thickest < thickness)
+            assert high_keeps <= (thinnest < thickness)
+            outside += not thinnest < thickness < thickest
+    assert len(words) == 3
+    assert outside > 3
+
+
+@pytest.mark.slow
+def test_texts_do_not_contradict_the_verdict(judged):
+    (entries, _, _), verdicts = judged
+    for name in verdicts.material.values:
+        entry = entries[name]
+        for surface in verdicts.surface.values:
+            pair = verdicts.sel(material=name, surface=surface)
+            row = describe_pair(pair, entry)
+            shares = find_limits(pair)
+            for text in (*row["text"].values(), row["threshold"], row["modulus"]):
+                assert not re.search(r"nan|\(–|– \(|to –|inf", text), text
+                assert text != "–" or np.isnan(pair.probability)
+            assert len(set(re.findall(r"\w?Pa", row["threshold"]))) <= 1  # one unit
+            if row["word"] == "depends":
+                assert row["text"]["probability"][0] not in "<>"
+                assert row["unknown"] in ("layer", "surface", "model")
+            # As shown, the modulus is on the same side of the limits as the share.
+            given = read_shown(row["modulus"])
+            assert given == pytest.approx(0.75 * float(pair.modulus_quoted), rel=0.01)
+            for text, share in zip((row["sticks_below"], row["fails_above"]), shares, strict=True):
+                assert not text or (read_shown(text) >= given) == (share >= DEFAULT_SHARE)
+
+
+def read_shown(text):
+    """Pa of a modulus as shown, such as "E = 0.2 MPa"."""
+    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
+    number = re.sub("^10(?=[⁻⁰¹²³⁴-⁹])", "1 × 10", text.removeprefix("E = "))
+    return si(number.translate(digits).replace(" × 10", "e"), "Pa")

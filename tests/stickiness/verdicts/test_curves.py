@@ -1,0 +1,209 @@
+"""What remains along the modulus, the heights and the rate."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+import xarray as xr
+from helpers.analysed import fix_a_v
+
+from stickiness import Material, Surface, judge
+from stickiness.remaining import predict
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.solids import Layer
+from stickiness.solids.moduli import Prony, Table
+from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.curves import DWELL_FACTORS, MODULUS_FACTORS, ROUGHNESS_FACTORS
+from stickiness.verdicts.limits import find_limits
+
+HEIGHTS = np.array([1e-6, 1.5e-6])
+Q0 = 6e4
+TAPE = Material(modulus=0.4e6, poisson=0.5, work_of_adhesion=0.07, range=3e-9)
+SLOW = replace(TAPE, modulus=Prony(0.1e6, ((0.5e6, 0.1), (1e9, 1e-6))))
+RESTED = replace(SLOW, dwell=0.2, broken_at=3.0)
+THICK = 40e-6  # of a layer that can take the heights [m]
+THIN = 7e-6  # of one that cannot
+FREQUENCIES = np.geomspace(1e-4, 1e6, 21)
+DRAWS = 60
+
+
+def make_spectrum(h_rms):
+    return SelfAffine(hurst=0.8, q0=Q0, q1=1e3 * Q0, h_rms=h_rms)
+
+
+@cache
+def make_surface(drawn):
+    """Surface between two spectra, with spectra drawn around its middle if it was measured."""
+    surface = Surface.from_spectrum(*map(make_spectrum, HEIGHTS))
+    if drawn:
+        h_rms = np.random.default_rng(1).lognormal(np.log(1.2e-6), 0.35, DRAWS)
+        energy = make_spectrum(HEIGHTS[0]).elastic_energy() * (h_rms / HEIGHTS[0]) ** 2
+        surface = Surface(
+            surface.data.assign(
+                h_rms_draws=("draw", h_rms),
+                q0_draws=("draw", np.full(DRAWS, Q0)),
+                elastic_energy_draws=("draw", energy),
+            )
+        )
+    return fix_a_v(surface)
+
+
+def judge_on_surface(materials, drawn, frequencies=(1.0,)):
+    surfaces = {"wall": make_surface(drawn)}
+    dataset = judge(materials, surfaces, frequencies=frequencies, thresholds=False)
+    return dataset.sel(surface="wall")
+
+
+@cache
+def follow(drawn, thickness=THICK):
+    """Curves beside what is stored of the pairs."""
+    layer = replace(TAPE, solid=Layer(thickness, 0.5))
+    materials = {"tape": TAPE, "slow": SLOW, "layer": layer, "rested": RESTED}
+    return judge_on_surface(materials, drawn, FREQUENCIES)
+
+
+def judge_at(moduli, drawn):
+    """Share and limits of the tape at these E* [Pa]."""
+    tapes = [replace(TAPE, modulus=0.75 * float(modulus)) for modulus in moduli]
+    dataset = judge_on_surface(tapes, drawn)
+    return [
+        shares.transpose(..., "material") for shares in (dataset.remaining, *find_limits(dataset))
+    ]
+
+
+@pytest.fixture(scope="module", params=[False, True], ids=["given", "measured"])
+def drawn(request):
+    return request.param
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("axis", "dimension", "points"),
+    [
+        ("modulus", "modulus_factor", MODULUS_FACTORS),
+        ("roughness", "roughness_factor", ROUGHNESS_FACTORS),
+        ("rate", "frequency", FREQUENCIES),
+        ("dwell", "dwell_factor", DWELL_FACTORS),
+    ],
+)
+@pytest.mark.parametrize("thickness", [THICK, THIN])
+def test_at_the_pair_itself_curves_are_what_is_stored(drawn, thickness, axis, dimension, points):
+    dataset = follow(drawn, thickness)
+    pair_itself = dataset.isel({dimension: np.argmin(abs(np.log(points)))})
+    expected = (dataset.remaining, *find_limits(dataset))
+    rested = dataset.material == "rested"
+    followed = {"rate": ~rested, "dwell": rested}.get(axis, rested | True)
+    for ending, values in zip(("", "_low", "_high"), expected, strict=True):
+        curve = pair_itself[f"remaining_by_{axis}{ending}"]
+        np.testing.assert_allclose(
+            curve.sel(material=followed), values.sel(material=followed), rtol=1e-9
+        )
+    assert (dataset.remaining > 0.01).all()
+    assert (dataset.remaining < 0.99 * dataset.separation_factor).all()
+    assert (float(expected[1].sel(material="layer")) == 0) == (thickness == THIN)
+
+
+def test_curves_cross_the_wanted_share_at_the_threshold(drawn):
+    tape = follow(drawn).sel(material="tape")
+    thresholds = tape.modulus_threshold.values
+    share, _, _ = judge_at(thresholds, drawn)
+    np.testing.assert_allclose(np.diag(share), DEFAULT_SHARE, rtol=1e-6)
+    limits = [float(limit) for limit in find_limits(tape, "modulus_threshold")]
+    assert limits[0] < min(thresholds) < max(thresholds) < limits[1]
+    _, low, high = judge_at(limits, drawn)
+    # Quantiles of thresholds and of shares interpolate between different draws.
+    np.testing.assert_allclose([low[0], high[1]], DEFAULT_SHARE, rtol=0.02 if drawn else 1e-6)
+    margins = np.array([float(limit) for limit in find_limits(tape, "margin")])
+    np.testing.assert_allclose(limits, margins * TAPE.plane_strain_modulus)
+    # On a measured surface the limits have the errors of the spectrum and of the model.
+    low_by_model = float(tape.modulus_threshold_low.min())
+    high_by_model = float(tape.modulus_threshold_high.max())
+    assert (limits[0] < low_by_model and limits[1] > high_by_model) == drawn
+
+
+def test_every_material_has_its_own_law(drawn):
+    hard = replace(TAPE, modulus=100e9, range=30e-9)
+    laws = ("exponential", "van_der_waals")
+    materials = {law: replace(hard, law=law) for law in laws} | {"none": hard}
+    dataset = judge_on_surface(materials, drawn, FREQUENCIES)
+    length = hard.work_of_adhesion / hard.plane_strain_modulus
+    for law in laws:
+        expected = [predict(make_spectrum(h), length, 3e-8, law=law).separation for h in HEIGHTS]
+        np.testing.assert_allclose(dataset.remaining.sel(material=law), expected, rtol=1e-9)
+    short = dataset.sel(material="exponential")
+    tail = dataset.sel(material="van_der_waals")
+    assert np.all(tail.remaining > 5 * short.remaining)
+    names = ["remaining", "remaining_by_modulus", "pull_off", "remaining_quantile"]
+    xr.testing.assert_equal(
+        dataset[names].sel(material="none", drop=True), short[names].drop_vars("material")
+    )
+    if drawn:
+        assert np.all(tail.remaining_quantile > 3 * short.remaining_quantile)
+
+
+@pytest.mark.parametrize("place", [0, 10, 20, 32])
+def test_a_factor_on_the_heights_is_another_surface(drawn, place):
+    length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus
+    spectra = [make_spectrum(h * ROUGHNESS_FACTORS[place]) for h in HEIGHTS]
+    expected = [predict(spectrum, length, TAPE.range).separation for spectrum in spectra]
+    curve = follow(drawn).remaining_by_roughness.sel(material="tape")
+    np.testing.assert_allclose(curve.isel(roughness_factor=place), expected, rtol=1e-9)
+
+
+def test_the_rate_counts_by_the_modulus(drawn):
+    moduli = SLOW.plane_strain.storage(FREQUENCIES)
+    slow = follow(drawn).sel(material="slow")
+    for ending, expected in zip(("", "_low", "_high"), judge_at(moduli, drawn), strict=True):
+        np.testing.assert_allclose(slow[f"remaining_by_rate{ending}"], expected, rtol=1e-9)
+
+
+@pytest.mark.parametrize("factor", [1e-4, 1.0, 1e3])
+def test_the_dwell_counts_by_the_relaxed_modulus_and_the_factor(drawn, factor):
+    """Curves of dwells are verdicts of materials with these dwells."""
+    other = replace(RESTED, dwell=0.2 * factor)
+    verdict = judge_on_surface([other], drawn).isel(material=0)
+    curve = follow(drawn).sel(material="rested")
+    curve = curve.isel(dwell_factor=np.argmin(abs(DWELL_FACTORS - factor)))
+    shares = (verdict.remaining, *find_limits(verdict))
+    for ending, values in zip(("", "_low", "_high"), shares, strict=True):
+        np.testing.assert_allclose(curve[f"remaining_by_dwell{ending}"], values, rtol=1e-9)
+    series = other.plane_strain
+    assert other.plane_strain_modulus == series.relaxation(0.2 * factor)
+    value, low, high = other.separation_factor
+    assert (value, low, high) == series.separation_factor(0.2 * factor, 3.0)
+    length = other.work_of_adhesion / other.plane_strain_modulus
+    expected = [predict(make_spectrum(h), length, 3e-9).separation for h in HEIGHTS]
+    np.testing.assert_allclose(verdict.remaining, np.multiply(value, expected), rtol=1e-6)
+    assert (verdict.separation_factor_high == pytest.approx(high)).all()
+
+
+def test_the_curve_of_a_table_ends_where_the_table_does():
+    table = Table((0.01, 1.0, 100.0), (0.1e6, 0.2e6, 0.6e6))
+    tape = replace(RESTED, modulus=table, dwell=1.0, broken_at=10.0)
+    dataset = judge_on_surface([tape], drawn=False)
+    known = np.isfinite(dataset.remaining_by_dwell_low.isel(material=0))
+    covered = abs(np.log10(DWELL_FACTORS * np.pi**2)) <= 2  # 0.01 to 100 Hz are 10 s to 1 ms
+    np.testing.assert_array_equal(known, covered)
+    # E' goes as powers log10(2)/2 and log10(3)/2 of the frequency below and above 1 Hz.
+    relaxed = 0.2 / np.pi ** np.log10(2)
+    expected = (0.2 * 3**0.5 / relaxed, 1.0, 0.6 / relaxed)
+    assert tape.separation_factor == pytest.approx(expected)
+
+
+def test_limits_of_a_dwell_are_those_of_the_factor(drawn):
+    elastic = replace(TAPE, modulus=RESTED.plane_strain_modulus, poisson=None)
+    dataset = judge_on_surface({"rested": RESTED, "elastic": elastic}, drawn)
+    low, high = (float(limit) for limit in find_limits(dataset.sel(material="rested")))
+    least, most = (float(limit) for limit in find_limits(dataset.sel(material="elastic")))
+    top = float(dataset.separation_factor_high.sel(material="rested").max())
+    assert top > 1000  # 1 GPa over 0.1 MPa and some
+    # At the high limit the factor multiplies the area in contact, or the share if that is more.
+    length = RESTED.work_of_adhesion / RESTED.plane_strain_modulus
+    alone = [predict(make_spectrum(h), length, RESTED.range) for h in HEIGHTS]
+    more = max(max(each.area_at_zero_load, each.separation) for each in alone) * (top - 1)
+    if drawn:  # few draws have both limits at once
+        assert least <= low < 2 * least
+        assert most < high <= most + more * 1.01
+    else:
+        assert (low, high) == pytest.approx((least, most + more))

@@ -1,0 +1,158 @@
+"""The library's verdict is what the workflow's scripts write."""
+
+import json
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+from helpers.pages import make_job
+
+from criteria import judge_surface
+from stickiness import Material, Surface, datasets, surface, verdict
+from stickiness.criteria.pair import WORDS
+from stickiness.criteria.registry import REMAINING
+from stickiness.entries import check_material
+from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.verdict import find_limited
+
+MAP_SIDE = 2 * np.pi / 6e4  # [m]
+SPECTRUM = SelfAffine(hurst=0.8, q0=6e4, q1=6e6, h_rms=1e-6)
+TEXTS = {
+    "poisson_ratio": 0.5,
+    "work_of_adhesion": "60 mJ/m^2",
+    "range": "0.3 nm",
+}
+TAPE = {"youngs_modulus": "0.2 MPa"}
+SERIES = {"equilibrium": "0.1 MPa", "terms": [["0.5 MPa", "0.1 s"], ["10 MPa", "1 ms"]]}
+FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
+LIMITED = ("remaining", "pull_off", "modulus_threshold", "separation_factor")
+
+pytestmark = pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
+
+
+class Written(NamedTuple):
+    """What the script writes of one pair."""
+
+    cell: Any
+    contact_law: dict[str, Any]
+
+
+def run_workflow(folder, wall, texts):
+    """Judge one material of the configuration on a surface by the rule's script."""
+    entry = check_material(TEXTS | texts)
+    wall.write(folder / "wall.nc", title="wall", parameters={})
+    inputs = {"surface": folder / "wall.nc", "material_surfaces": [folder / "wall.nc"]}
+    outputs = {"verdicts": folder / "verdicts.nc", "contact_laws": folder / "laws.json"}
+    judge_surface.main(
+        make_job(
+            inputs,
+            outputs,
+            wildcards={"real_surface": "wall"},
+            materials={"tape": entry},
+            material_surfaces=["wall"],
+            labels={"wall": "the wall"},
+            frequencies={"minimum": 1e-2, "maximum": 1e2, "per_decade": 1},
+        )
+    )
+    verdicts = datasets.read(outputs["verdicts"])
+    laws = json.loads(outputs["contact_laws"].read_text(encoding="utf-8"))
+    (contact_law,) = laws["pairs"]
+    return Written(verdicts.sel(material="tape", surface="wall"), contact_law)
+
+
+def check(answer, written):
+    """Compare an answer of the library with what the script has written."""
+    cell = written.cell
+    assert answer.word == WORDS[int(cell.verdict)]
+    assert answer.word != "not judged"
+    for name in LIMITED:
+        ours = [getattr(answer, name), *getattr(answer, f"{name}_limits")]
+        np.testing.assert_allclose(ours, find_limited(cell, name), rtol=1e-12)
+    for name, margin in answer.margins.items():
+        if name != REMAINING:  # of which the draws have the margin
+            theirs = float(cell.margin.sel(criterion=name, end="rough"))
+            assert margin == pytest.approx(theirs, rel=1e-12), name
+    contact_law = answer.to_dict()
+    del contact_law["version"]
+    del contact_law["warnings"]
+    for name, quantity in contact_law.items():
+        theirs = written.contact_law[name]
+        if isinstance(quantity, str):
+            assert quantity == theirs
+            continue
+        assert quantity.keys() == theirs.keys()
+        assert quantity["unit"] == theirs["unit"]
+        for part in quantity.keys() - {"unit"}:
+            assert quantity[part] == pytest.approx(theirs[part], rel=1e-12), (name, part)
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        Surface.from_spectrum(SPECTRUM),
+        Surface.from_drawing(Ra=(1e-6, 2e-6), shortest_wavelength=1e-8),
+    ],
+    ids=["spectrum", "drawing"],
+)
+@pytest.mark.parametrize(
+    "texts",
+    [
+        TAPE,
+        TAPE | {"thickness": "40 um"},
+        {"youngs_modulus_prony": SERIES, "thickness": "40 um", "backing": FILM},
+        {"youngs_modulus_prony": SERIES, "dwell": "10 s", "broken_at": "3 Hz"},
+        TAPE | {"surface": "wall"},
+    ],
+    ids=["half-space", "layer", "film with rates", "dwell", "two rough solids"],
+)
+def test_pairs_of_described_surfaces(wall, texts, tmp_path):
+    written = run_workflow(tmp_path, wall, texts)
+    material = Material.from_entry(check_material(TEXTS | texts), {"wall": wall})
+    check(verdict(wall, material), written)
+
+
+def test_properties_are_as_good_as_an_entry(tmp_path):
+    wall = Surface.from_spectrum(SPECTRUM)
+    written = run_workflow(tmp_path, wall, TAPE)
+    answer = verdict(SPECTRUM, modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    check(answer, written)
+
+
+MAP = surface.synthesise(SPECTRUM, 256, MAP_SIDE, seed=3)
+PROFILE_STEP = 2e-7  # [m]
+PROFILE = surface.synthesise(SPECTRUM, 1024, 1024 * PROFILE_STEP, seed=4)[:, 0]
+MATERIAL = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+
+
+@pytest.fixture
+def map_file(tmp_path):
+    np.save(tmp_path / "wall.npy", MAP * 1e6)
+    return Surface.read(tmp_path / "wall.npy", length=f"{MAP_SIDE!r} m", height_unit="um")
+
+
+@pytest.fixture
+def profile_file(tmp_path):
+    positions = np.arange(PROFILE.size) * PROFILE_STEP
+    np.savetxt(tmp_path / "profile.txt", np.transpose([positions, PROFILE]) * 1e6)
+    return Surface.read(tmp_path / "profile.txt", position_unit="um", height_unit="um")
+
+
+def test_a_map(map_file, tmp_path):
+    check(verdict(map_file, MATERIAL), run_workflow(tmp_path, map_file, TAPE))
+
+
+def test_a_line_profile(profile_file, tmp_path):
+    check(verdict(profile_file, MATERIAL), run_workflow(tmp_path, profile_file, TAPE))
+
+
+def test_a_map_from_an_array(map_file, tmp_path):
+    heights = (MAP * 1e6) * 1e-6  # as they are read
+    written = run_workflow(tmp_path, map_file, TAPE)
+    check(verdict(heights, MATERIAL, length=MAP_SIDE), written)
+    check(verdict(Surface.from_heights(heights, MAP_SIDE), MATERIAL), written)
+
+
+def test_a_line_profile_from_an_array(profile_file, tmp_path):
+    heights = np.loadtxt(tmp_path / "profile.txt")[:, 1] * 1e-6
+    wall = Surface.from_profile(heights, PROFILE_STEP * PROFILE.size)
+    check(verdict(wall, MATERIAL), run_workflow(tmp_path, profile_file, TAPE))

@@ -1,0 +1,221 @@
+"""What a material and a surface bring to their contact: layers, two rough solids, direction."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from helpers.analysed import LONGEST, fix_a_v, wall
+
+from stickiness import Material, Surface, judge
+from stickiness.criteria.pair import WORDS
+from stickiness.remaining import predict
+from stickiness.remaining.prediction import DEFAULT_SHARE, FILM_FACTORS, find_film_response
+from stickiness.solids import Film, Layer
+from stickiness.solids.moduli import Table
+from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.limits import find_limits
+from stickiness.verdicts.pair_roughness import TOO_DIFFERENT, combine_roughness
+
+TAPE = Material(modulus=0.1e6, poisson=0.5, work_of_adhesion=0.07, range=3e-10)
+FILM = Film(3e9 / TAPE.modulus, 0.4, 25e-6)
+THIN_FILM_MODULUS = 0.1e9  # Young's modulus [Pa]
+
+
+def put_on_layer(thickness, backing="bonded"):
+    """The tape as a layer."""
+    return replace(TAPE, solid=Layer(thickness, 0.5, backing))
+
+
+def layer_factor(k, backing):
+    """S of an incompressible layer, as physics books have it."""
+    if backing == "slip":
+        return (np.cosh(2 * k) - 1) / (np.sinh(2 * k) + 2 * k)
+    return (np.sinh(2 * k) - 2 * k) / (np.cosh(2 * k) + 2 * k**2 + 1)
+
+
+@pytest.mark.parametrize("backing", ["bonded", "slip"])
+def test_a_layer_takes_the_energy_of_its_response(backing):
+    surface = wall()
+    rough = combine_roughness(put_on_layer(40e-6, backing), surface)
+    data = surface.data
+    q = np.geomspace(float(data.q0), float(data.q1), 20001)
+    psd = np.exp(np.interp(np.log(q), np.log(data.wave_number), np.log(data.psd[0])))
+    factor = layer_factor(np.minimum(q * 40e-6, 300), backing)
+    ratio = np.trapezoid(q**3 * psd / factor, np.log(q)) / np.trapezoid(q**3 * psd, np.log(q))
+    assert rough.stiffening == pytest.approx([ratio, ratio], rel=1e-5)
+    energy = ratio * data.elastic_energy.values
+    assert rough.ends.elastic_energy == pytest.approx(energy, rel=1e-5)
+    compliance = layer_factor(float(data.q0) * 40e-6, backing)
+    assert rough.ends.relative_compliance == pytest.approx(np.full(2, compliance))
+
+
+def test_a_thick_layer_is_a_half_space():
+    thick = combine_roughness(put_on_layer(1.0), wall())
+    deep = combine_roughness(TAPE, wall())
+    assert thick.ends.elastic_energy == pytest.approx(deep.ends.elastic_energy, rel=1e-12)
+    assert (thick.ends.relative_compliance == 1).all()
+    assert (deep.ends.relative_compliance == 1).all()
+    assert (deep.stiffening == 1).all()
+
+
+def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
+    base = combine_roughness(put_on_layer(40e-6), wall())
+    tape = combine_roughness(put_on_layer(40e-6, FILM), wall())
+    thin = combine_roughness(put_on_layer(40e-6, replace(FILM, thickness=2e-6)), wall())
+    assert (base.stiffening > tape.stiffening).all()
+    assert (tape.stiffening > thin.stiffening).all()
+    assert np.isnan(tape.ends.half_space_energy).all()  # a half-space bounds nothing
+    assert np.isfinite(base.ends.half_space_energy).all()
+    assert [each.film_bends for each in (base, tape, thin)] == [False, True, True]
+
+
+def make_thin_tape(modulus):
+    """The tape on a thin film, whose own Young's modulus stays as it is."""
+    film = Film(THIN_FILM_MODULUS / modulus, 0.4, 4e-6)
+    return replace(TAPE, modulus=modulus, solid=Layer(40e-6, 0.5, film))
+
+
+def judge_at_moduli(moduli, draws):
+    """Verdicts on the thin tape with these E* [Pa]."""
+    tapes = [make_thin_tape(0.75 * float(modulus)) for modulus in moduli]
+    surface = wall(h_rms=1.3e-6, draws=draws)
+    return judge(tapes, {"wall": surface}, thresholds=False).sel(surface="wall")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("draws", [0, 60])
+def test_thresholds_and_curves_of_a_tape_keep_its_film(draws):
+    """They interpolate the response of the layer. Verdicts at other moduli do not."""
+    tape = judge_at_moduli([0.1e6], draws).isel(material=0)
+    thresholds = tape.modulus_threshold.values.tolist()
+    limits = [float(limit) for limit in find_limits(tape, "modulus_threshold")]
+    at_thresholds = judge_at_moduli([*thresholds, *limits], draws)
+    low, high = find_limits(at_thresholds)
+    # Errors of the energy are up to 3e-4; the share falls with its third power there.
+    values = np.diag(at_thresholds.remaining.isel(material=[0, 1]))
+    np.testing.assert_allclose(values, DEFAULT_SHARE, rtol=3e-3)
+    np.testing.assert_allclose([low[2], high[3]], DEFAULT_SHARE, rtol=3e-3)
+    for place in (40, 55, 65):
+        factor = float(tape.modulus_factor[place])
+        other = judge_at_moduli([0.1e6 * factor], draws).isel(material=0)
+        curve = tape.isel(modulus_factor=place)
+        np.testing.assert_allclose(
+            curve.remaining_by_modulus, other.remaining, rtol=2e-3, atol=1e-5
+        )
+        for name, limit in zip(("low", "high"), find_limits(other), strict=True):
+            at_limit = float(curve[f"remaining_by_modulus_{name}"])
+            assert at_limit == pytest.approx(float(limit), rel=2e-3, abs=1e-5)
+
+
+@pytest.mark.slow
+def test_a_rate_dependent_tape_has_its_film_at_every_rate_and_dwell():
+    table = Table((1e-3, 1.0, 1e3), (10e3, 0.1e6, 3e6))
+
+    def put_on_film(material):
+        """The ratio of moduli is that to Young's modulus of the verdict."""
+        film = Film(THIN_FILM_MODULUS / (0.75 * material.plane_strain_modulus), 0.4, 4e-6)
+        return replace(material, solid=Layer(40e-6, 0.5, film))
+
+    slow = put_on_film(replace(TAPE, modulus=table))
+    rested = put_on_film(replace(TAPE, modulus=table, dwell=10.0, broken_at=1.0))
+    surface = wall()
+    dataset = judge(
+        {"slow": slow, "rested": rested},
+        {"wall": surface},
+        frequencies=np.geomspace(1e-2, 1e2, 5),
+        thresholds=False,
+    ).sel(surface="wall")
+
+    def check(modulus, shares, scale):
+        film = Film(THIN_FILM_MODULUS / (0.75 * modulus), 0.4, 4e-6)
+        solid = Layer(40e-6, 0.5, film)
+        expected = [
+            predict(spectrum, 0.07 / modulus, 3e-10, solid=solid).separation
+            for spectrum in surface.spectra
+        ]
+        np.testing.assert_allclose(shares, scale * np.array(expected), rtol=2e-3, atol=1e-6)
+
+    by_rate = dataset.sel(material="slow")
+    for modulus, shares in zip(
+        by_rate.modulus.values, by_rate.remaining_by_rate.values.T, strict=True
+    ):
+        check(float(modulus), shares, scale=1.0)
+    after_dwell = dataset.sel(material="rested").remaining.values
+    check(rested.plane_strain_modulus, after_dwell, scale=rested.separation_factor[0])
+
+
+def test_the_response_on_a_film_ends_at_the_rigid_base_and_at_the_bent_plate():
+    q0 = 2 * np.pi / LONGEST
+    spectrum = SelfAffine(hurst=0.8, q0=q0, q1=2 * q0, h_rms=1e-6)
+    solid = Layer(40e-6, 0.5, Film(1e3, 0.4, 25e-6))
+    energy, compliance = np.exp(find_film_response(spectrum, solid, q0))
+    base = Layer(40e-6, 0.5)
+    soft = spectrum.elastic_energy(base), base.factor(q0)
+    at = energy * spectrum.elastic_energy(solid), compliance * solid.factor(q0)
+    assert (at[0][0], at[1][0]) == pytest.approx(soft, rel=1e-5)
+    # A hard layer bends the plate: it takes D q^4/2 times the variance of every wave.
+    plate = 1e3 * 0.75 / (1 - 0.16) * (25e-6) ** 3 / 12
+    bent = plate * spectrum.integrate(lambda q: q**4, *spectrum.band) / 2
+    hard = 1e-6 * bent, 1e6 / (2 * plate * q0**3)
+    assert (at[0][-1], at[1][-1]) == pytest.approx(hard, rel=1e-3)
+    at_one = FILM_FACTORS.size // 2
+    assert (energy[at_one], compliance[at_one]) == pytest.approx((1, 1), rel=1e-12)
+    assert find_film_response(spectrum, base, q0) is None
+
+
+def test_the_layer_acts_on_draws_as_on_both_ends():
+    layer = combine_roughness(put_on_layer(40e-6), wall(draws=3))
+    plain = combine_roughness(TAPE, wall(draws=3))
+    ratio = layer.draws.elastic_energy / plain.draws.elastic_energy
+    assert ratio == pytest.approx(np.full(3, layer.stiffening[0]))
+    assert layer.draws.relative_compliance < 1
+    assert layer.draws.half_space_energy == pytest.approx(plain.draws.elastic_energy)
+
+
+def test_roughness_of_both_solids_adds():
+    surface = wall(draws=4)
+    both = combine_roughness(replace(TAPE, surface=surface), surface)
+    one = combine_roughness(TAPE, surface)
+    for name in ("h_rms", "rms_slope"):
+        combined = getattr(both.ends, name)
+        assert combined == pytest.approx(np.sqrt(2) * getattr(one.ends, name))
+    assert both.rms_curvature == pytest.approx(np.sqrt(2) * one.rms_curvature)
+    assert both.ends.elastic_energy == pytest.approx(2 * one.ends.elastic_energy)
+    assert both.ends.q0 == pytest.approx(one.ends.q0)
+    assert both.draws.h_rms == pytest.approx(np.sqrt(2) * one.draws.h_rms)
+    assert both.draws.elastic_energy == pytest.approx(2 * one.draws.elastic_energy)
+    assert (both.ends.anisotropy_error_factor == 1).all()
+
+
+def test_a_smooth_partner_changes_nothing():
+    rough = wall(draws=4)
+    smooth = wall(h_rms=1e-11, apart=1.0)  # known exactly
+    both = combine_roughness(replace(TAPE, surface=smooth), rough)
+    assert both.ends.elastic_energy == pytest.approx(rough.ends.elastic_energy, rel=1e-6)
+    assert both.ends.q0 == pytest.approx(rough.ends.q0, rel=1e-6)
+    assert both.draws.h_rms == pytest.approx(rough.draws.h_rms, rel=1e-6)
+
+
+@pytest.mark.slow
+def test_solids_of_very_different_scale_are_not_judged():
+    steep = fix_a_v(Surface(wall(h_rms=1e-3).data.assign(q0=6e8)))
+    dataset = judge([replace(TAPE, surface=steep)], [steep])
+    assert dataset.not_judged.item() == TOO_DIFFERENT
+    assert WORDS[dataset.verdict.item()] == "not judged"
+    assert np.isnan(dataset.remaining).all()
+
+
+@pytest.mark.parametrize(("axis_ratio", "factor"), [(1.0, 1), (4.0, 2)])
+def test_a_direction_widens_limits(axis_ratio, factor):
+    rough = combine_roughness(TAPE, wall(axis_ratio=axis_ratio))
+    assert (rough.ends.anisotropy_error_factor == factor).all()
+
+
+@pytest.mark.slow
+def test_thinner_tapes_keep_less():
+    materials = {"deep": TAPE, "50": put_on_layer(50e-6), "20": put_on_layer(20e-6)}
+    dataset = judge(materials, {"wall": wall(h_rms=3e-6)}, thresholds=False)
+    smooth = dataset.sel(surface="wall", end="smooth")
+    strains = [3 * 3 / d / (d * 1e-6 * 2 * np.pi / LONGEST) for d in (50, 20)]
+    assert smooth.layer_strain.values == pytest.approx([0, *strains], rel=1e-3)
+    assert (smooth.remaining.diff("material") < 0).all()

@@ -1,0 +1,91 @@
+"""`Surface` from whatever source, and what two rough solids have in common."""
+
+import numpy as np
+import pytest
+from helpers.analysed import wall
+
+from stickiness import Material, Surface, judge, thresholds, verdict
+from stickiness.criteria.pair import NOT_JUDGED
+from stickiness.solids import Layer
+from stickiness.spectrum import SelfAffine
+from stickiness.surface import synthesise
+
+BAND = {"hurst": 0.8, "q0": 6e5, "q1": 6e7}
+TAPE = {"modulus": 2e6, "poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
+SIDE = 2 * np.pi / 6e5
+
+
+@pytest.fixture(scope="module")
+def measured():
+    heights = synthesise(SelfAffine(**BAND, h_rms=1e-7), n=256, length=SIDE, seed=1)
+    return Surface.from_heights(heights, SIDE)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Surface.from_drawing(Ra=(3e-7, 1e-8)), "Ra must be a length or"),
+        (lambda: Surface.from_drawing(Ra=(1e-7, 2e-7, 3e-7)), "Ra must be a length or"),
+        (lambda: Surface.from_drawing(Ra=1e-7, Rq=1e-7), "exactly one of Ra and Rq"),
+        (
+            lambda: Surface.from_spectrum(
+                SelfAffine(**BAND, h_rms=2e-7), SelfAffine(**BAND, h_rms=1e-7)
+            ),
+            "rough must have the higher rms height",
+        ),
+        (
+            lambda: Surface.from_spectrum(
+                SelfAffine(**BAND, h_rms=1e-7), SelfAffine(**BAND | {"q1": 6e8}, h_rms=2e-7)
+            ),
+            "rough must have the band",
+        ),
+        (lambda: Surface.from_heights(np.ones((8, 8)), SIDE, extend_to="1 nm"), "extend_to must"),
+        (lambda: judge(Material(**TAPE), [wall()]), "materials must be a list or"),
+        (lambda: judge([Material(**TAPE)], [SelfAffine(**BAND, h_rms=1e-7)]), "surfaces must be"),
+        (lambda: verdict(Material(**TAPE), wall()), "surface must be a Surface"),
+        (lambda: verdict("wall.txt", Material(**TAPE)), "Surface.read opens a file"),
+        (lambda: Material(**TAPE, surface=SelfAffine(**BAND, h_rms=1e-7)), "surface must be"),
+    ],
+)
+def test_mistakes_are_named(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+@pytest.mark.slow
+def test_two_rough_solids_may_change_places(measured):
+    """One measured, the other known exactly: the draws of the measured one decide in both."""
+    known = Surface.from_spectrum(SelfAffine(**BAND, h_rms=1e-7))
+    first = verdict(measured, Material(**TAPE, surface=known))
+    second = verdict(known, Material(**TAPE, surface=measured))
+    assert first.remaining == pytest.approx(second.remaining, rel=1e-9)
+    assert first.remaining_limits == pytest.approx(second.remaining_limits, rel=1e-9)
+
+
+@pytest.mark.slow
+def test_draws_of_two_measurements_are_independent(measured):
+    """Those of a surface on itself are not: there all heights are sqrt(2) as high."""
+    other = synthesise(SelfAffine(**BAND, h_rms=1e-7), n=256, length=SIDE, seed=2)
+    other = Surface.from_heights(other, SIDE)
+    twice = verdict(measured, Material(**TAPE, surface=measured))
+    both = verdict(measured, Material(**TAPE, surface=other))
+    spread = np.diff(np.log(twice.modulus_threshold_limits))
+    assert np.diff(np.log(both.modulus_threshold_limits)) < spread
+
+
+def test_nothing_is_said_of_a_pair_that_is_not_judged():
+    noise = 1e-9 * np.random.default_rng(1).normal(size=(128, 128))
+    with pytest.warns(UserWarning, match="unresolved|does not resolve|rms_slope"):
+        answer = thresholds(noise, length=1e-5, **TAPE)
+    assert np.isnan(answer.modulus).all()
+    rough = Surface.from_spectrum(SelfAffine(**BAND, h_rms=1e-12))
+    answer = verdict(rough, Material(**TAPE))
+    assert judge([Material(**TAPE)], [rough]).verdict == NOT_JUDGED
+    assert "modulus_threshold" not in answer.to_dict()
+
+
+@pytest.mark.parametrize("q0", [1e-3, 1.0, 1e3])
+def test_strain_of_a_thin_incompressible_layer_is_finite(q0):
+    """It tends to 3 h_rms/(q0 d^2) of a plate that is sheared between parallel walls."""
+    layer = Layer(thickness=5e-5, poisson=0.5)
+    assert layer.strain(1e-6, q0) == pytest.approx(3 * 1e-6 / (q0 * 5e-5**2), rel=1e-9)
