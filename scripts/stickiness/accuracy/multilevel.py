@@ -122,8 +122,8 @@ def corrected_mean(fine, coarse, level, one_sign=True, fewest=_FEWEST) -> Estima
     From `fewest` fine seeds on, the coefficient of the coarse solution is the slope of fine against
     coarse, entry by entry. With fewer it is the ratio of their means, or 1 where coarse solutions
     are not all of `one_sign`: fitted to four seeds, a slope can double the variance of a plain
-    mean. The ratio suits areas at ranges that the coarse grid does not resolve: those are too
-    large, but all in proportion.
+    mean. Areas within a range that the coarse grid does not resolve are too large by one factor:
+    there the ratio is right.
     """
     if len(fine) >= fewest:
         factor = _left_out_slopes(fine, coarse)
@@ -175,7 +175,7 @@ def descriptors(spectrum, length, seeds, amplitudes="gaussian", cutoff=8.0) -> N
 
 
 def _samples(name: str, given: ArrayLike, shape: tuple = (), fewest: int = 2) -> NDArray:
-    """Finite samples along axis 0, of a shape (where given) that may hold "any" for a length."""
+    """Finite samples along axis 0; a length "any" in `shape` may be any."""
     (values,) = finite(**{name: given})
     if values.ndim == 0 or len(values) < fewest:
         raise ValueError(f"{name} must hold at least {fewest} samples, got shape {values.shape}")
@@ -200,7 +200,7 @@ def _regress(values: NDArray, controls: NDArray, target: NDArray) -> tuple[NDArr
     slopes = inverse @ (left.T @ values)
     residual = values - values.mean(0) - left @ (left.T @ values)
     leverage = 1 / len(values) + np.sum(left**2, axis=1)
-    # A seed that alone fixes a direction says nothing about it once it is left out.
+    # With a leverage of 1 the residual is rounding, and must not be divided by nothing.
     ratio = residual / np.maximum(1 - leverage, _SINGULAR)[:, None]
     offset = scaled - (target - centre) / spread
     lever = np.sum((offset @ inverse) * left, axis=1)

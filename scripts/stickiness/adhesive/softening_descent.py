@@ -1,9 +1,10 @@
-"""Quick descent for laws with a wall, which only soften, mostly in single precision.
+"""Quick descent for laws with a wall, whose traction never grows with the gap.
 
-The steps are those of `descent`, in rounds: increments of gap, force and energy are in single
-precision within a round, and computed again in double precision between rounds (iterative
-refinement). Once the force is small it changes linearly with the gap: the law is then evaluated,
-and energies are compared, between rounds only. Fields of the compiled loops at the end are flat.
+Most of it is in single precision. The steps are those of `descent`, in rounds: increments of gap,
+force and energy are in single precision within a round, and computed again in double precision
+between rounds (iterative refinement). Once the force is small it changes linearly with the gap: the
+law is then evaluated, and energies are compared, between rounds only. Fields of the compiled loops
+at the end are flat.
 """
 
 import numpy as np
@@ -16,7 +17,7 @@ _ROUND_REDUCTION = 1e-3  # reduction of the force by a round
 _LINEAR_RESIDUAL = 1e-3  # residual below which the traction is linear in the change of the gap
 _MAX_ROUND_STEPS = 50  # steps of a round at most
 _MAX_LINEAR_CHANGE = 0.03  # change of a gap, over the range, up to which that holds
-# Force on points behind the wall, over the residual, from which on a step is cut anyway.
+# A step is cut at the wall once the force behind it exceeds this multiple of the residual.
 _CUT_FORCE = 1.0
 _PUT_OFF_FORCE = 0.3  # residual over the force on points behind the wall at which a round ends
 _MAX_SHORTENINGS = 30
@@ -96,7 +97,8 @@ class _Steps:
         def field():
             return convolution.aligned_zeros(size, np.float32)
 
-        # Change of the gap in a round, over the unit of pressure, and the one that closes the gap.
+        # All gaps and pressures here are over `problem.unit`. The change of the gap in a round, and
+        # the one that brings a point to the wall.
         self.change = field()
         self.lowest = field()
         # Traction of the law and its slope, at the last step and at the next.
@@ -163,7 +165,7 @@ class _Steps:
                 self.product = 0.0
                 continue
             curvature = stiffness + softening
-            longest = max(self.law.range, 1.0)
+            longest = max(self.law.range, 1.0)  # or h_rms, the unit of heights
             if not curvature > 0:
                 curvature = stiffness
                 longest = self.law.range
@@ -289,7 +291,7 @@ class _Steps:
         self.potential = self.new_potential
 
     def _mean(self, total):
-        """Mean over free points, which a prescribed mean gap leaves no work to do."""
+        """Mean over free points: at a prescribed mean gap it does no work."""
         return total / max(self.free_points, 1) if self.at_gap else 0.0
 
     def _stiffen(self, field, out):
@@ -302,7 +304,7 @@ def _move_gap(gap, new_gap, change, unit, above):
     total = 0.0
     for i in range(gap.size):
         moved = gap[i] + change[i] * unit
-        moved = 0.0 if not above[i] or moved <= 0 else moved  # keeps what is not a number
+        moved = 0.0 if not above[i] or moved <= 0 else moved  # NaN stays NaN
         new_gap[i] = moved
         total += moved
     return total

@@ -1,9 +1,9 @@
 """Where Persson's theory loses contact, scale by scale, and the distribution of gaps it opens.
 
-Contact lost on resolving a scale opens the gap u1 (see `theory`), a smooth but expensive sum over
-all finer scales. P(u) needs many nodes, because the widths of its Gaussians have a kink at every
-step of q(m). So ln u1 is summed at Chebyshev points (`GapCurve`, which all variants of the theory
-share) and interpolated at the nodes of P(u) (`GapProfile`).
+Symbols are those of `theory`: m, M, p(m), y and u1. Contact lost on resolving a scale opens the gap
+u1, a smooth but expensive sum over all finer scales. P(u) needs many nodes, because the widths of
+its Gaussians have a kink at every step of q(m). So ln u1 is summed at Chebyshev points (`GapCurve`,
+which all variants of the theory share) and interpolated at the nodes of P(u) (`GapProfile`).
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class LostContact:
 
     @classmethod
     def at(cls, setting: Setting, p: float, y_end: float, log_step: NDArray) -> LostContact:
-        """At values of ln(y - y_end)."""
+        """Contact lost at values of ln(y - y_end)."""
         step = np.exp(log_step)
         y = y_end + step
         rest = p**2 * setting.kernels.area_scale_step(y_end, step)
@@ -75,7 +75,7 @@ class GapCurve:
     def log_gap(self, log_step: NDArray, lost: LostContact) -> NDArray:
         """Ln u1, free of underflow: u1 spans hundreds of orders of magnitude.
 
-        Below the panels, where u1 is zero beside all others, its smooth part is held.
+        Below the panels, where u1 is zero beside all others, its smooth part stays constant.
         """
         inside = np.clip(log_step, self.edges[0], self.edges[-1])
         panel = np.clip(np.searchsorted(self.edges, inside) - 1, 0, len(self.series) - 1)
@@ -163,7 +163,7 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
     curve = gap_curve(setting, p)
     y_end = curve.y_end
     edges, change, thinned = _panel_edges(curve, variant, reach)
-    # With fewer panels, next to a strong shell, all have the rule of the highest order.
+    # Where panels are few, as next to a strong shell, all have the rule of the highest order.
     if len(change) < 100 * setting.nodes:
         change = np.full(len(change), np.inf)
     log_step, weight = _panel_nodes(edges, change)
@@ -241,7 +241,8 @@ def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, 
     y, log_gap, width = _gaussians(curve, variant, grid)
     width = np.maximum(width, 1e-300)
 
-    # Their change from point to point. Moves by many widths are laid at most 2000 panels for.
+    # Their change from point to point. Where Gaussians move by many of their widths, at most 2000
+    # panels follow them.
     visible_gap = np.minimum(np.exp(log_gap), reach * setting.spectrum.h_rms)
     mean_width = 0.5 * (width[1:] + width[:-1])
     change = 0.5 * np.diff(grid) + 0.6 * np.abs(np.diff(np.log(width)))
@@ -263,8 +264,8 @@ def _panel_edges(curve: GapCurve, variant: str, reach: float) -> tuple[NDArray, 
 def _breaks(curve: GapCurve) -> NDArray:
     """Values of ln(y - y_end) where q(m) is not smooth, the strongest of those that matter.
 
-    And, where q jumps, values next to it: on the coarse side of a shell its part in u1 vanishes
-    as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
+    Where q jumps, values next to it are among them: on the coarse side of a shell its part in u1
+    vanishes as exp(-p(m)^2/(m_shell - m)), and h falls to what the finer shells hold.
     """
     setting = curve.setting
     p = curve.p

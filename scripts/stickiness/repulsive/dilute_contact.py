@@ -25,19 +25,19 @@ _CANDIDATE_GAP = 1.0  # of the rms gap in contact: candidates are what lies belo
 _SPACING = 4  # of the grid of long waves, in pixels
 _SPLIT_WIDTH = 0.8  # of the split, in spacings: the shortest wave of that grid keeps 0.013
 _REACH = 10  # of near pairs, in pixels
-_BESIDE = 3  # and of the stiffness that preconditions
+_BESIDE = 3  # in pixels, of the stiffness that preconditions
 _TABLE = 64  # pixels along the sides of the table of near pairs
 _PATCH = (_TABLE, _TABLE)
 #: Penetrations up to this multiple of the rms gap in contact may yet vanish.
 ADMITTED_PENETRATION = 0.7
 _MAX_SET_CHANGES = 30  # changes of the set in a correction
 _USUAL_REDUCTION = 0.01  # reduction of the gap by a correction
-_BEST_REDUCTION = 0.002  # and one that it can still make, if it is the last
-_REDUCTION_WHILE_CHANGING = 0.1  # and one between changes of the set
+_BEST_REDUCTION = 0.002  # by a last correction: a goal within it is reached at once
+_REDUCTION_WHILE_CHANGING = 0.1  # reduction of the gap between changes of the set
 
 
 def is_worthwhile(grid, count):
-    """Whether corrections among `count` candidates pay on a grid, of about square pixels."""
+    """Whether corrections among `count` points pay on a grid, of about square pixels."""
     pixel = [a / n for a, n in zip(grid.sides, grid.shape, strict=True)]
     square = max(pixel) < 1.5 * min(pixel)
     return square and min(grid.shape) >= 2 * _TABLE and count <= _MAX_CANDIDATES * _points(grid)
@@ -49,7 +49,7 @@ def _points(grid):
 
 
 def select_candidates(grid, last, points, below, image, shift):
-    """Candidates, unless too many: the `last` ones, unless some that penetrate are missing.
+    """The `last` candidates if they hold all that penetrate, else new ones; None if too many.
 
     `points` are in contact and those `below` penetrate; `image` plus `shift` is the gap.
     """
@@ -209,7 +209,7 @@ class _FreeSplit(free_edges.Split):
 
     def __init__(self, shape, pixel):
         super().__init__(shape, pixel, np.float32, free_edges.COARSE)
-        # A period that brings no points together.
+        # A period so wide that no point neighbours another across it.
         self.cell = (shape[0] + _REACH, shape[1] + _REACH)
         rest = self.rest([_REACH] * 2)
         self.near = _truncate_kernel(np.hstack([rest, rest[:, :0:-1]]), _REACH)

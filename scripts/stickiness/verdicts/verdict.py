@@ -94,6 +94,7 @@ class StickinessVerdict:
                 f"{self.word}: {self._describe_remaining()}",
                 f"pull-off stress: {self._describe_pull_off()}",
                 self._describe_threshold(),
+                *self._describe_dwell(),
                 *doubts,
             ]
         )
@@ -134,6 +135,17 @@ class StickinessVerdict:
             return f"sticks below {name} = {low} MPa, and probably at any modulus; {actual}"
         high = "any" if high == "any" else f"{high} MPa"
         return f"sticks below {name} = {value} MPa ({low} to {high}); {actual}"
+
+    def _describe_dwell(self) -> list[str]:
+        """What a dwell does, in one line; none without one."""
+        if self.material.dwell is None:
+            return []
+        factors = (self.separation_factor, *self.separation_factor_limits)
+        value, low, high = map(_round, factors)
+        return [
+            f"after a dwell of {self.material.dwell:g} s; dissipation multiplies the work of "
+            f"separation by {value} ({low} to {high})"
+        ]
 
 
 def _round(value: float, digits: int = 2) -> str:
