@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import os
 import re
 import subprocess
 import sys
@@ -38,6 +39,9 @@ def main() -> None:
         for verdict in verdicts:
             label = verdict.material.label
             print(f"{label[0].upper()}{label[1:]}: {verdict}")
+        for choice in verdicts[0].surface.choices:
+            source, others = choice.split(" | ")
+            print(f"This is {source}; the file also holds {others} (--channel, --variable)")
     if not options.no_page:
         page = make_page(options, material_texts, surface_texts)
         print(f"Page: {page}", file=sys.stderr if options.json else sys.stdout)
@@ -186,15 +190,14 @@ def make_page(
 
 
 def check_output(folder: Path) -> None:
-    """Make the folder for the page, which must hold nothing else; end the command if it cannot."""
+    """End the command if the folder for the page holds something else or cannot be written."""
     config = folder / "config/config.yaml"
     is_ours = config.is_file() and config.read_text(encoding="utf-8").startswith(MARK)
     if folder.is_file() or (not is_ours and folder.is_dir() and any(folder.iterdir())):
         fail(f"--output {folder} holds something else; give a new folder")
-    try:
-        config.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        fail(f"--output {folder} cannot be written ({error.strerror}); give another folder")
+    existing = next(path for path in (folder, *folder.absolute().parents) if path.is_dir())
+    if not os.access(existing, os.W_OK):
+        fail(f"--output {folder} cannot be written; give another folder")
 
 
 def write_configuration(
@@ -211,10 +214,17 @@ def write_configuration(
         "materials": {"materials": {"material": material_texts}},
         "surfaces": {"surfaces": {name: surface_texts}},
     }
+    try:
+        (options.output / "config").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        fail(f"--output {options.output} cannot be written ({error.strerror}); give another folder")
     for table, content in files.items():  # YAML includes JSON
         text = MARK + json.dumps(content, ensure_ascii=False, indent=2)
         (options.output / f"config/{table}.yaml").write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main()
+    try:
+        main()
+    except BrokenPipeError:  # whoever reads the output has read enough
+        sys.stderr.close()

@@ -182,7 +182,8 @@ def test_a_file_that_tells_all_needs_no_more(folder):
     both = xr.Dataset({"z": (("x", "y"), heights, {"units": "um"}), "line": ("x", heights[0])})
     both.assign_coords(places).to_netcdf(folder / "told.nc")
     answer = run(folder, "told.nc", *TAPE, "--no-page")
-    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 3)
+    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 4)
+    assert answer.lines[-1].startswith("This is told.nc: z; the file also holds line")
 
 
 def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
@@ -191,3 +192,14 @@ def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
     values = re.findall(r'"(\d[^"]*)"', "\n".join(lines))
     assert len(values) > 10
     assert all(re.match(r"[\d.]+ [a-zA-Z]", value) for value in values)
+
+
+def test_a_command_that_failed_can_be_mended(folder, tmp_path):
+    """Neither it nor a folder that cannot be written leaves anything behind."""
+    output = tmp_path / "page"
+    wrong = run(folder, "wall#1.npy", *TAPE, "--length", "2", "--output", output)
+    assert wrong.status == 1
+    assert not output.exists()
+    answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--output", "/proc/page")
+    assert (answer.status, len(answer.errors)) == (1, 1)
+    assert answer.errors[0].startswith("stickiness: --output /proc/page")

@@ -276,8 +276,15 @@ class Surface:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Doubts about the data that were ignored as the user wished."""
-        return tuple(filter(None, self.data.attrs.get("remarks", "").split("; ")))
+        """Doubts that the user ignored, and where the user contradicts the file."""
+        ignored = self.data.attrs.get("remarks", "").split("; ")
+        contradictions = self.data.attrs.get("contradictions", "").split("\n")
+        return tuple(filter(None, (*ignored, *contradictions)))
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """What else the files hold, where one of several data sets was taken."""
+        return tuple(filter(None, self.data.attrs.get("choices", "").split("\n")))
 
     def __repr__(self) -> str:
         h_rms = sorted(self.data.h_rms.values)

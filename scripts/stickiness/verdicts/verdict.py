@@ -104,7 +104,8 @@ class StickinessVerdict:
         wanted = f"{100 * self.wanted_share:g} % is wanted"
         if max(shares) <= 1:
             value, low, high = (_round(100 * share) for share in shares)
-            return f"{value} % of the work of adhesion remains ({low} to {high} %); {wanted}"
+            limits = f" ({low} to {high} %)" if low != high else ""
+            return f"{value} % of the work of adhesion remains{limits}; {wanted}"
         value, low, high = map(_round, shares)
         return f"{value} times the work of adhesion remains ({low} to {high} times); {wanted}"
 
