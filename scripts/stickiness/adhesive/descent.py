@@ -20,15 +20,16 @@ _MAX_SHORTENINGS = 30
 _STIFF_POINT = 3.0
 
 
-def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, rough=False):
+def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, approximate=False):
     """Go down in energy from a gap to a state of equilibrium; returns the last `State`.
 
     At a prescribed mean gap the start must have it. `observer` is called with every state; descent
-    stops when it returns true. `elastic` is the elastic pressure of the start, if known. `rough`:
-    increments in single precision are good enough for the result.
+    stops when it returns true. `elastic` is the elastic pressure of the start, if known. With
+    `approximate`, increments in single precision are good enough for the result.
     """
     state = problem.state(gap, elastic)
-    fresh = elastic is None or rough  # whether the elastic pressure is free of single precision
+    # Whether the elastic pressure is free of single precision, or need not be.
+    fresh = elastic is None or approximate
     reference = state.residual
     conjugate = _Conjugate(problem)
     iteration = 0
@@ -36,7 +37,7 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
     last_soft = 0
     while True:
         # Recompute the elastic pressure every four decades, and before the end is believed.
-        good_enough = rough and state.residual <= tol
+        good_enough = approximate and state.residual <= tol
         if not fresh and not good_enough and state.residual <= max(tol, REFRESH * reference):
             state = refreshed(problem, state)
             fresh = True
@@ -57,7 +58,7 @@ def descend(problem, gap, tol, max_iterations, observer=None, elastic=None, roug
             break  # nothing but rounding is left to gain
         else:
             conjugate.forget()
-    if not fresh and not rough:
+    if not fresh and not approximate:
         state = refreshed(problem, state)
     state.iterations = iteration
     state.last_run = iteration - last_soft

@@ -116,7 +116,7 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
             max_iterations=max_iterations - spent,
             observer=observe,
             elastic=state.elastic,
-            rough=not final,
+            approximate=not final,
         )
         spent += state.iterations
         if state.separated or spent >= max_iterations or not state.residual <= aim:

@@ -90,9 +90,9 @@ class _Field:
 
 
 class _Grid:
-    """Heights on a grid, and scratch fields in single and, unless `rough`, double precision."""
+    """Heights on a grid, with scratch fields in single and, if needed, in double precision."""
 
-    def __init__(self, problem, rough, tol=0.0):
+    def __init__(self, problem, approximate, tol=0.0):
         self.heights = problem.heights
         self.shape = problem.heights.shape
         self.sides = problem.sides
@@ -102,13 +102,13 @@ class _Grid:
         # One array in double precision, or two in single: an image is read before the next is made.
         memory = convolution.aligned_zeros(self.heights.size, np.float64)
         self.scratch = memory.view(np.float32)[self.heights.size :]
-        self.exact = _Field(problem.operator(np.float32 if rough else np.float64), memory)
-        self.quick = self.exact if rough else _Field(problem.operator(np.float32), memory)
+        self.exact = _Field(problem.operator(np.float32 if approximate else np.float64), memory)
+        self.quick = self.exact if approximate else _Field(problem.operator(np.float32), memory)
         # Below this residual rounding in single precision (some 1e-6 of the heights) is felt.
         largest = max(float(self.heights.max()), -float(self.heights.min()))
         if not problem.periodic:  # an absolute displacement is about as large as this
             largest = max(largest, problem.load)
-        self.single_limit = 0.0 if rough else _SINGLE_PRECISION_LIMIT * largest
+        self.single_limit = 0.0 if approximate else _SINGLE_PRECISION_LIMIT * largest
         self.splits = not problem.periodic and tol > _SPLIT_LIMIT * largest
         self._operators = {self.quick.operator, self.exact.operator}
         self.spent = 0.0  # convolutions on coarser grids, by their share of the points
@@ -133,18 +133,18 @@ class _Grid:
         return np.flatnonzero(np.diff(begins))
 
 
-def relax(problem, guess, *, tol, max_iterations, rough=False):
+def relax(problem, guess, *, tol, max_iterations, approximate=False):
     """Find pressure and gap on one grid; returns the iterate of the smallest residual.
 
     It starts from what the mapping `guess` has: a "gap" in single precision, which is taken out of
     the mapping to free its memory, or a "pressure" of any positive mean. Without a guess it starts
-    from a uniform pressure on the highest points. `rough`: single precision suffices, `tol` is well
-    above 1e-5.
+    from a uniform pressure on the highest points. With `approximate`, single precision suffices:
+    `tol` is well above 1e-5.
     """
     # Where active sets are known to converge; elsewhere `projected_gradients` takes over.
     sure = problem.solid == HALF_SPACE and problem.periodic
     max_stalled = _MAX_STALLED_UPDATES if sure else _MAX_STALLED_UNSURE
-    grid = _Grid(problem, rough, tol)
+    grid = _Grid(problem, approximate, tol)
     field = grid.exact if problem.periodic and "pressure" in guess else grid.quick
     contact = _first_contact(problem, grid, guess)
     if contact.points.size == problem.heights.size and problem.periodic:

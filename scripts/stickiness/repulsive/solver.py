@@ -352,7 +352,7 @@ def _guess_from_coarser_grids(problem, work):
     tol = np.clip(
         _COARSE_TOLERANCE_OF_STEP * step, _LEAST_COARSE_TOLERANCE, _LARGEST_COARSE_TOLERANCE
     )
-    state = active_set.relax(coarse, guess, tol=tol, max_iterations=200, rough=True)
+    state = active_set.relax(coarse, guess, tol=tol, max_iterations=200, approximate=True)
     work.append(state.fft_pairs * heights.size)
     if problem.periodic:
         return {"gap": half_space.interpolate(state.gap, shape)}

@@ -68,7 +68,7 @@ def test_the_last_operators_of_a_kind_are_kept(most, kind):
 def preconditioned(shape, touching, solid):
     """Product of preconditioner and compliance on a set of points, without the mean."""
     problem = Problem(np.zeros(shape), (1.0, shape[1] / shape[0]), 1.0, solid)
-    grid = _Grid(problem, rough=True)
+    grid = _Grid(problem, approximate=True)
     apply = Preconditioner(grid, np.flatnonzero(touching))
     project = np.eye(touching.sum()) - 1 / touching.sum()
     unit = np.eye(touching.sum(), dtype=np.float32)
