@@ -5,12 +5,11 @@ import numpy as np
 from common.formatting import amount, duration, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS
 
 LEAST_SHOWN = 1e-3  #: share below which a text says 0 %
 KPA = 1e3  #: [Pa], of the pull-off
 MPA = 1e6  #: [Pa], of moduli
-LEAST_STRESS = 1.0  #: [Pa]; beyond these two a text says so, for nobody can use them
-MOST_STRESS = 1e13
 SHARES = (0.01, 0.1, 0.3)  #: of the work of adhesion, that may be wanted
 
 

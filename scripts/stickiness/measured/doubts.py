@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.measured.levelling import find_spikes
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.plausibility import LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
 from stickiness.statistics import COVERS
@@ -108,12 +107,3 @@ def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
             f"the spectrum departs from a power law by {100 * fit.misfit:.0f} % (rms): limit the "
             "fit by fit_from and fit_to to where it holds"
         )
-
-
-def doubt_heights(heights: NDArray, fit: SelfAffineFit) -> Iterator[str]:
-    """Doubts about a map as it stands, spikes included, and about its spectrum."""
-    spikes = int(np.count_nonzero(find_spikes(heights)))
-    if spikes:
-        yield f"points far off all their neighbours, spikes: {spikes}; mask and fill them"
-    yield from doubt_values(heights)
-    yield from doubt_fit(fit)

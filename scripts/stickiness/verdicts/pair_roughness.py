@@ -47,7 +47,6 @@ class PairRoughness:
     rms_curvature: NDArray  #: at both ends [1/m], ``(2,)``
     spectra: tuple[Spectrum, ...]  #: of both ends, of both solids if both are rough
     stiffening: NDArray  #: energy of full contact over that of a half-space, ``(2,)``
-    film_bends: bool  #: whether the solid is a layer on a film
     a_v: LimitedAv
     not_judged: str  #: why the pair is not judged, a line each; empty if it is
 
@@ -107,7 +106,6 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
         rms_curvature=rms_curvature,
         spectra=tuple(spectra),
         stiffening=stiffening,
-        film_bends=isinstance(getattr(material.solid, "backing", None), Film),
         a_v=a_v,
         not_judged="\n".join(filter(None, doubts)),
     )

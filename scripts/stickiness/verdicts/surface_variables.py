@@ -43,5 +43,3 @@ SURFACE_VARIABLES = {
     "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
     "scatter": ("1", "standard deviation between measurements in ln C", "no two overlap"),
 }
-#: Variables that have one value for every draw of a measured surface, `<name>_draws`.
-DRAWN_VARIABLES = ("h_rms", "rms_slope", "rms_curvature", "elastic_energy")
