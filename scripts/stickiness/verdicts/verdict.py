@@ -214,16 +214,8 @@ def verdict(
     'does not stick'
     """
     pair = read_pair(surface, material, length=length, **properties)
-    cell = judge(
-        [pair.material],
-        [pair.surface],
-        wanted_share=wanted_share,
-        curves=False,
-        thresholds=False,
-    )
-    for doubt in pair.doubts:
-        warnings.warn(doubt, PlausibilityWarning, stacklevel=2)
-    return summarise(cell.isel(material=0, surface=0), pair, wanted_share)
+    cell = _judge_one(pair, wanted_share=wanted_share, thresholds=False)
+    return summarise(cell, pair, wanted_share)
 
 
 @dataclass(frozen=True)
@@ -277,16 +269,7 @@ def thresholds(
     sticks below E = 1.57 MPa
     """
     pair = read_pair(surface, material, length=length, **properties)
-    dataset = judge(
-        [pair.material],
-        [pair.surface],
-        wanted_share=wanted_share,
-        contact_area=contact_area,
-        curves=False,
-    )
-    for doubt in pair.doubts:
-        warnings.warn(doubt, PlausibilityWarning, stacklevel=2)
-    cell = dataset.isel(material=0, surface=0)
+    cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
 
     def collect(name: str) -> Threshold | None:
         threshold = Threshold(*(float(cell[f"{name}{ending}"]) for ending in SIGNS))
@@ -356,6 +339,14 @@ def read_pair(
             warnings.warn(warning.message, stacklevel=3)
     doubts = [str(w.message) for w in caught if issubclass(w.category, PlausibilityWarning)]
     return ReadPair(material, surface, tuple(doubts))
+
+
+def _judge_one(pair: ReadPair, **settings: Any) -> xr.Dataset:
+    """The cell of `judge` for one pair, with a warning of every doubt about it."""
+    dataset = judge([pair.material], [pair.surface], curves=False, **settings)
+    for doubt in pair.doubts:
+        warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
+    return dataset.isel(material=0, surface=0)
 
 
 def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> StickinessVerdict:
