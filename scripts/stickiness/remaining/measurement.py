@@ -253,9 +253,10 @@ def _gain(points):
         end = after.state
         slope = (end.mean_pressure - start.mean_pressure) / (end.mean_gap - start.mean_gap)
         if after.event is None and start.mean_pressure * end.mean_pressure < 0 and slope < 0:
-            # Up to zero load between them, along a straight line from either state.
+            # Up to zero load between them, along a straight line from either state. The lesser of
+            # both holds where the first touch bends the line, too.
             ends = [state.mean_pressure**2 / (-2 * slope) - state.energy for state in (start, end)]
-            gains.append(sum(ends) / 2)
+            gains.append(min(ends))
     return max(*gains, 0.0)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from references.gradient_flow import follow
 
-from stickiness import adhesive, surface
+from stickiness import adhesive, repulsive, surface
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measure
 from stickiness.solids import HalfSpace, Layer
@@ -48,6 +48,35 @@ def test_without_jumps_all_works_are_the_energy_gained():
     assert found.pixels_in_zone > 2
     assert [point.state.mean_gap for point in found.points] == list(found.gap)
     assert found.points[0].state.gap.shape == (64, 64)
+
+
+def find_weak_limit(heights, law):
+    """Largest gain of energy over the work of adhesion if attraction leaves the contact as it is.
+
+    Over contacts without adhesion, from the first touch on: attraction less elastic energy.
+    """
+    lattice = 2 * np.pi / LENGTH * np.fft.fftfreq(len(heights), 1 / len(heights))
+    q = np.hypot(lattice[:, None], lattice)
+    q[0, 0] = np.inf
+    gains = [-np.mean(law.potential(heights.max() - heights))]
+    for pressure in np.geomspace(1e-9, 0.1, 20):
+        contact = repulsive.solve(heights, LENGTH, pressure, tol=1e-9)
+        waves = np.fft.fft2(contact.pressure, norm="forward")
+        stored = np.sum(np.abs(waves) ** 2 / q)
+        gains.append(-np.mean(law.potential(contact.gap)) - stored)
+    return max(gains) / law.adhesion_length
+
+
+@pytest.mark.parametrize(("ratio", "seed"), [(3e-6, 1), (1e-4, 3)])
+def test_far_below_the_onset_the_weak_limit_remains(ratio, seed):
+    spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=6.0, h_rms=1.0)
+    heights = surface.synthesise(spectrum, n=32, length=LENGTH, seed=seed)
+    energy = surface.realised_spectrum(heights, LENGTH).elastic_energy()
+    law = adhesive.Exponential(adhesion_length=ratio * energy, range=0.5)
+    remaining = measure(heights, LENGTH, law, squeeze=0.1, half_grid=False)
+    limit = find_weak_limit(heights, law)
+    assert remaining.separation == pytest.approx(limit, rel=0.01)
+    assert remaining.bound == pytest.approx(limit, rel=0.01)
 
 
 @pytest.mark.slow
