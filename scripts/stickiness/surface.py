@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from scipy import fft
 
 from stickiness.arguments import grid, integer, number
+from stickiness.spectrum.direction import find_ratio_of_modes
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_spectrum
 from stickiness.spectrum.kinds import Shells
 
@@ -134,11 +135,14 @@ def lattice_spectrum(spectrum: Spectrum, length: float) -> Shells:
     total *= 2  # each mode and its mirror image
     if spectrum.prescribed == "h_rms":
         total *= spectrum.h_rms**2 / total.sum()
-    return Shells(2 * np.pi / length * np.sqrt(square), total)
+    return Shells(2 * np.pi / length * np.sqrt(square), total, spectrum.anisotropy)
 
 
 def realised_spectrum(heights: NDArray, length: float) -> Shells:
-    """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct ``|q|``."""
+    """Return the spectrum of given periodic heights `(n, n)`, one shell per distinct ``|q|``.
+
+    Its `anisotropy` is that of the gradients, 1 if chance explains it.
+    """
     i, j, power = _periodogram(heights)
     if not power.ravel()[1:].any():
         raise ValueError("heights must not be flat: they hold no wave")
@@ -146,7 +150,8 @@ def realised_spectrum(heights: NDArray, length: float) -> Shells:
     square, total = _sum_shells(i, j, power)
     # Modes that hold nothing but rounding are not part of the surface's band.
     keep = (square > 0) & (total > 1e-24 * total[1:].sum())
-    return Shells(2 * np.pi / length * np.sqrt(square[keep]), total[keep])
+    q = 2 * np.pi / length * np.sqrt(square[keep])
+    return Shells(q, total[keep], find_ratio_of_modes(i, j, power))
 
 
 def moments(heights: NDArray, length: float) -> Moments:

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from stickiness import surface
-from stickiness.spectrum import SelfAffine, Shells
+from stickiness.remaining.prediction import find_anisotropy_error_factor, predict
+from stickiness.spectrum import SelfAffine, Shells, combine
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
 
@@ -104,6 +105,34 @@ def test_gaussian_modes_have_the_spectrum_on_average():
     assert np.all(np.abs(power.mean(axis=0) - window.variance) < 4 * error)
     # the standard error of a sample variance of 400 exponentials is 14 %
     np.testing.assert_allclose(power.var(axis=0), window.variance**2 * 2 / count, rtol=4 * 0.14)
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.8])
+@pytest.mark.parametrize(("ratio", "angle"), [(2.0, 0.0), (4.0, 0.4)])
+def test_realised_spectrum_keeps_the_ratio_of_correlation_lengths(hurst, ratio, angle):
+    ground = SelfAffine(hurst=hurst, q0=4.0, q1=32.0, h_rms=1.0, anisotropy=ratio, angle=angle)
+    ratios = []
+    for seed in range(10):
+        realised = surface.realised_spectrum(surface.synthesise(ground, 140, L, seed), L)
+        ratios.append(realised.anisotropy)
+    np.testing.assert_allclose(ratios, ratio, rtol=0.15)
+    assert np.mean(ratios) == pytest.approx(ratio, rel=0.03)
+    assert surface.lattice_spectrum(ground, L).anisotropy == ratio
+    both = combine(realised, Shells([5.0], [0.1]))
+    assert 1 < both.truncated(20.0).anisotropy < realised.anisotropy
+    factor = predict(realised, 0.1, 0.1).anisotropy_error_factor
+    assert factor == pytest.approx(find_anisotropy_error_factor(ratios[-1]))
+
+
+@pytest.mark.parametrize("q1", [2.0, 4.0, 8.0])
+def test_few_isotropic_waves_have_no_direction_by_chance(q1):
+    ratios = []
+    for seed in range(300):
+        heights = surface.synthesise(power_law(q1), 18, L, seed)
+        ratios.append(surface.realised_spectrum(heights, L).anisotropy)
+    assert np.count_nonzero(np.array(ratios) != 1) <= 1  # one in a thousand, of 300
+    one_wave = np.cos(np.arange(16) * 2 * np.pi / 16)[:, None] * np.ones(16)
+    assert surface.realised_spectrum(one_wave, L).anisotropy == 1
 
 
 @pytest.mark.parametrize("n", [33, 40, 64])

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import finite, nonnegative, number
 
 MOST = 1e4  #: ratios up to which averages were checked
+MOST_FOUND = 20.0  #: the largest ratio that heights are said to have
 _ALIKE = 1e-4  # ratios nearer to 1 change no average by more than 1e-8
 # Nodes and weights on 0 to 1, of a cell, for functions that are like a square root at both ends.
 _TURN, _GAUSS = np.polynomial.legendre.leggauss(16)
@@ -147,6 +148,32 @@ class Ellipse:
 CIRCLE = Ellipse()
 
 
+def find_ratio_of_modes(i: NDArray, j: NDArray, power: NDArray) -> float:
+    """Ratio of the correlation lengths, at most 20, of heights with these modes.
+
+    On an ellipse the gradient along the short correlation length is a times that along the long
+    one, in the root mean square, whatever C(Q) is. Isotropic random heights have such a ratio by
+    chance: if more than one in a thousand of them have it, it is taken for 1.
+
+    Parameters
+    ----------
+    i, j, power : (n, n) arrays
+        Integer components of the wave vectors and the height variance of each mode.
+    """
+    square = power * (i**2 + j**2)
+    total = square.sum()
+    difference = float(np.hypot(np.sum(power * (i**2 - j**2)), 2 * np.sum(power * i * j)) / total)
+
+    # By chance squared differences are exponential with this mean, as the powers of random modes
+    # are.
+    by_chance = np.sum(square**2) / total**2
+    if difference**2 < np.log(1000) * by_chance:
+        return 1.0
+    # The difference of both gradient variances over their sum is (a^2 - 1)/(a^2 + 1).
+    squared_ratio = (1 + difference) / max(1 - difference, 1e-9)
+    return min(float(np.sqrt(squared_ratio)), MOST_FOUND)
+
+
 def find_ratio(amplitude: float, hurst: float) -> float:
     """Ratio of the correlation lengths, at most 20, of a self-affine spectrum.
 
@@ -155,7 +182,7 @@ def find_ratio(amplitude: float, hurst: float) -> float:
     """
     hurst = min(max(hurst, 0.1), 1.0)
     phi = np.pi * (np.arange(2000) + 0.5) / 2000
-    log_largest = np.log(20.0)
+    log_largest = np.log(MOST_FOUND)
 
     def excess(log_ratio: float) -> float:
         ratio = np.exp(log_ratio)
@@ -163,7 +190,7 @@ def find_ratio(amplitude: float, hurst: float) -> float:
         return float(-2 * np.mean(np.cos(2 * phi) * density) / np.mean(density)) - amplitude
 
     if excess(log_largest) <= 0:
-        return 20.0
+        return MOST_FOUND
     if amplitude <= 0:
         return 1.0
     return float(np.exp(scipy.optimize.brentq(excess, 0, log_largest)))

@@ -259,12 +259,15 @@ class Shells(Spectrum):
         Increasing wave numbers of the shells [1/length].
     variance : (m,) array
         Height variance on each shell [length^2], non-negative.
+    anisotropy : float
+        Ratio of the correlation lengths of the heights whose shells these are. It widens limits of
+        predictions; shells themselves have no direction.
     """
 
     prescribed = "variance"
     is_discrete = True
 
-    def __init__(self, q: ArrayLike, variance: ArrayLike):
+    def __init__(self, q: ArrayLike, variance: ArrayLike, anisotropy: float = 1.0):
         q, variance = _check_points(q, variance, "variance", least=1)
         if not (np.all(np.isfinite(variance)) and np.all(variance >= 0) and variance.any()):
             raise ValueError("variance must be finite, non-negative and not all zero")
@@ -273,6 +276,12 @@ class Shells(Spectrum):
         self.variance = variance[keep]
         self.q0 = float(self.q[0])
         self.q1 = float(self.q[-1])
+        self._anisotropy = Ellipse(anisotropy).ratio
+
+    @property
+    def anisotropy(self) -> float:
+        """Ratio of the correlation lengths of the heights."""
+        return self._anisotropy
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C averaged over the ring between the midpoints to the neighbouring shells."""
@@ -307,7 +316,7 @@ class Shells(Spectrum):
 
     def _cut(self, q1: float) -> Shells:
         keep = self.q <= q1 * (1 + _ROUNDING)
-        return Shells(self.q[keep], self.variance[keep])
+        return Shells(self.q[keep], self.variance[keep], self.anisotropy)
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
         inside = (self.q >= low) & (self.q <= high)
@@ -438,7 +447,8 @@ def combine(first: Spectrum, *others: Spectrum) -> Spectrum:
         order = np.argsort(q, kind="stable")
         q = q[order]
         start = _find_first(q)  # shells at one wave number hold the sum
-        return Shells(q[start], np.add.reduceat(variance[order], start))
+        anisotropy = Sum(*spectra).anisotropy
+        return Shells(q[start], np.add.reduceat(variance[order], start), anisotropy)
     if any(is_shells):
         raise ValueError(
             "combine: shells and a density have no common form; take surface.lattice_spectrum of "
