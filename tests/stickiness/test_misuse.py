@@ -22,7 +22,7 @@ from stickiness.criteria import a_v_table, equivalent_sphere, formulas
 from stickiness.measured import instrument_spectrum, levelling, periodic, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.remaining import measure, predict, share
+from stickiness.remaining import Roughness, measure, predict, share
 from stickiness.repulsive import richardson, subpixel
 from stickiness.solids import Film, HalfSpace, Layer
 from stickiness.solids.moduli import Constant, Prony, Table
@@ -54,6 +54,7 @@ def average(fine, coarse, many):
     return multilevel.multilevel_mean(fine, coarse, many, ONES, ONES)
 
 
+ROUGH = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.3)
 GEL = Material(modulus=1e5, work_of_adhesion=0.05, range=3e-10)
 
 
@@ -191,6 +192,12 @@ MISUSES = [
     (lambda: predict(BAND, 1e300, 1e-3), "give the work of adhesion over"),
     (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
     (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
+    (lambda: ROUGH.share(0.1, 0.1, 1, 0.5), "separation_factor must be at least 1, .* got 0.5"),
+    (lambda: ROUGH.tension(0.1, 0.1, 0, 0.0, [1.0, 0.9]), "separation_factor must be .* got 0.9"),
+    (
+        lambda: ROUGH.threshold(0.1, separation_factor=np.nan),
+        "separation_factor must be at least 1, .* got nan",
+    ),
     (lambda: share.tough_share(0.0), "energy_ratio must"),
     (lambda: judge(modulus=-1.0), "modulus must"),
     (lambda: judge(poisson=0.7), "poisson must be above -1 and at most 0.5, got 0.7"),

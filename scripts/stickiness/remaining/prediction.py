@@ -138,14 +138,16 @@ class Roughness:
     ) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
 
-        A factor on the work of separation multiplies the share where the edge of the whole contact
-        dissipates. At the high limit all edges of contact do, so that it multiplies the area.
+        A factor on the work of separation, at least 1, multiplies the share where the edge of the
+        whole contact dissipates. At the high limit all edges of contact do, so that it multiplies
+        the area.
         """
         if np.any(np.asarray(separation_factor) != 1):
+            factor = _check_separation_factor(separation_factor)
             value = self.share(adhesion_length, range)
             beyond_value = np.maximum(self.area(adhesion_length, range) - value, 0)
             all_edges = np.clip(sign, 0, 1) * beyond_value
-            dissipated = (np.asarray(separation_factor) - 1) * (value + all_edges)
+            dissipated = (factor - 1) * (value + all_edges)
             return plain(self.share(adhesion_length, range, sign) + dissipated)
 
         # What remains by the theory, with the onset of contact at its own limit.
@@ -363,6 +365,21 @@ class Roughness:
         holds_always = find_excess(bracket[0], row) >= 0
         lengths = np.where(holds_always, LEAST_LENGTH * energy, np.exp(root.x))
         return plain(lengths.reshape(shape))
+
+
+def _check_separation_factor(factor: ArrayLike) -> NDArray:
+    """Return factors on the work of separation; ValueError if one is below 1 by more than rounding.
+
+    Dissipation adds to the work of separation.
+    """
+    factor = np.asarray(factor, dtype=float)
+    least = np.min(factor)
+    if not least > 1 - 1e-9:
+        raise ValueError(
+            "separation_factor must be at least 1, since dissipation adds to the work of "
+            f"separation, got {least:.6g}"
+        )
+    return np.maximum(factor, 1.0)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -148,3 +148,11 @@ def test_limits_hold_the_value(q1):
 def test_bad_arguments_are_named(name, bad):
     with pytest.raises(ValueError, match=name):
         predict(rough(), **(TOUGH | {name: bad}))
+
+
+def test_a_factor_of_one_within_rounding_leaves_the_share():
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
+    just_below = 1 - 1e-16
+    for sign in (-1, 0, 1):
+        plain_share = rough.share(1e-3, 1e-4, sign)
+        assert rough.share(1e-3, 1e-4, sign, just_below) == plain_share >= 0
