@@ -388,4 +388,5 @@ def _describe_shells(spectrum: Spectrum) -> xr.Dataset:
     data["psd"] = (("end", "wave_number"), np.ones((2, spectrum.q.size)))
     data["q0"] = spectrum.q_longest
     data["q1"] = spectrum.q1
+    data["axis_ratio"] = spectrum.anisotropy
     return xr.Dataset(data, coords={"end": list(ENDS), "wave_number": spectrum.q})

@@ -8,7 +8,7 @@ from stickiness import Material, Surface, judge, thresholds, verdict
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
-from stickiness.surface import synthesise
+from stickiness.surface import lattice_spectrum, synthesise
 
 BAND = {"hurst": 0.8, "q0": 6e5, "q1": 6e7}
 TAPE = {"modulus": 2e6, "poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
@@ -89,3 +89,26 @@ def test_strain_of_a_thin_incompressible_layer_is_finite(q0):
     """It tends to 3 h_rms/(q0 d^2) of a plate that is sheared between parallel walls."""
     layer = Layer(thickness=5e-5, poisson=0.5)
     assert layer.strain(1e-6, q0) == pytest.approx(3 * 1e-6 / (q0 * 5e-5**2), rel=1e-9)
+
+
+def test_a_periodic_cell_keeps_the_direction_of_its_heights():
+    ground = SelfAffine(**BAND, h_rms=1e-7, anisotropy=4.0)
+    shells = lattice_spectrum(ground, length=2 * SIDE)
+    ends = Surface.from_spectrum(shells).ends
+    assert ends.anisotropy_error_factor == pytest.approx([2.0, 2.0])
+
+
+@pytest.mark.slow
+def test_masked_points_of_heights_count_as_missing():
+    band = SelfAffine(hurst=0.8, q0=6e5, q1=3e7, h_rms=1e-7)
+    heights = synthesise(band, n=128, length=SIDE, seed=1)
+    missing = np.zeros(heights.shape, dtype=bool)
+    missing[30, 60:64] = True
+    missing[20, 5] = True
+    of_masked = np.ma.array(np.where(missing, 1e300, heights), mask=missing)
+    of_missing = np.where(missing, np.nan, heights)
+    for answer in (verdict, thresholds):
+        masked = answer(of_masked, length=SIDE, **TAPE)
+        assert repr(masked) == repr(answer(of_missing, length=SIDE, **TAPE))
+    complete = thresholds(heights, length=SIDE, **TAPE)
+    assert masked.modulus.value == pytest.approx(complete.modulus.value, rel=0.02)
