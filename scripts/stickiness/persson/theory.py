@@ -19,7 +19,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
-from scipy.special import erf, erfinv
+from scipy.special import erf, erfinv, xlogy
 
 from stickiness.arguments import finite, nonnegative, number, positive
 from stickiness.persson import gaps
@@ -170,9 +170,16 @@ class Persson:
         return 0.5 * np.sum(weight * m * universal.energy_kept(p[..., None], m)[1], axis=-1)
 
     def elastic_energy_error(self, p: ArrayLike) -> NDArray:
-        """Relative error of `elastic_energy`; covers 90 % of the simulations, on half-spaces."""
+        """Relative error of `elastic_energy`, on half-spaces.
+
+        It covers 90 % of the simulations of H = 0.3 to 0.9, magnifications of 4 to 32 and loads of
+        0.01 to 5 E* q0 h_rms in cells of four longest waves and, from 0.1 on, of two. At loads above
+        1 what is left to full contact falls so steeply that a cell may have none or twice as much.
+        """
         share = self.elastic_energy(p) / self.spectrum.elastic_energy(self.solid)
-        return 0.13 * (1 - share) * np.maximum(1.0, np.sqrt(0.02 / share))
+        left = np.maximum(1 - share, 0.0)
+        steepness = left - 1.25 * xlogy(left, left)
+        return 0.13 * steepness * np.maximum(1.0, np.sqrt(0.02 / share))
 
     def pressure_at(self, mean_gap: ArrayLike) -> NDArray:
         """Mean pressure over E* at which the mean gap is `mean_gap` > 0 [length].

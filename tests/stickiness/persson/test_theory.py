@@ -187,6 +187,24 @@ def test_elastic_energy_is_the_work_of_the_pressure(rough, solid):
     assert theory.elastic_energy_error(100 * scale) < 1e-9
 
 
+@pytest.mark.parametrize("seed", [1, 2])
+def test_error_of_the_elastic_energy_towards_full_contact(seed):
+    """The grid changes energies by less than a tenth of what theory and simulation differ by."""
+    side = 4 * np.pi
+    loads = np.array([0.1, 0.3, 1.0, 2.0, 3.0, 5.0])
+    energies = []
+    for points in (64, 128):
+        heights = synthesise(power_law(8.0), points, side, seed)
+        solved = load_path(heights, side, loads, tol=1e-6)
+        energies.append([np.mean(s.pressure * (s.gap + heights - s.shift)) / 2 for s in solved])
+    coarse, fine = np.array(energies)
+    theory = Persson(realised_spectrum(heights, side))
+    known = theory.elastic_energy(loads)
+    error = theory.elastic_energy_error(loads) * known
+    assert np.all(abs(fine - coarse) < 0.1 * error)
+    assert np.all(abs(fine - known) < error)
+
+
 @pytest.mark.parametrize("hurst", [0.5, pytest.param(0.8, marks=pytest.mark.slow)])
 def test_elastic_energy_against_simulation(hurst):
     """Four longest waves a side: within the error, and closer than the correction of areas."""
