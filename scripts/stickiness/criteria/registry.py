@@ -49,7 +49,8 @@ class Criterion:
         """Plane-strain modulus [Pa] below which the pair sticks."""
         if self.modulus is not None:
             return np.full_like(pair.work_of_adhesion, self.modulus, dtype=float)
-        return pair.work_of_adhesion / self.adhesion_length_threshold(pair)
+        with np.errstate(divide="ignore"):  # infinite, if any adhesion makes the pair stick
+            return pair.work_of_adhesion / self.adhesion_length_threshold(pair)
 
 
 def _margin_of(formula: Callable, *names: str) -> Callable[[Pair], NDArray]:

@@ -109,7 +109,10 @@ def fill_missing(
     hole = ~np.isfinite(heights)
     missing = int(np.count_nonzero(hole))
     if missing == hole.size:
-        raise ValueError(f"{source}: {missing} of {hole.size} points, which are all, are missing")
+        raise ValueError(
+            f"{source}: {missing} of {hole.size} points, which are all, are missing: give a map or "
+            "profile of which some points were measured"
+        )
     if missing / hole.size > max_missing:
         raise ValueError(
             f"{source}: {missing} of {hole.size} points ({100 * missing / hole.size:.1f} %) are "

@@ -173,8 +173,9 @@ class Persson:
         """Relative error of `elastic_energy`, on half-spaces.
 
         It covers 90 % of the simulations of H = 0.3 to 0.9, magnifications of 4 to 32 and loads of
-        0.01 to 5 E* q0 h_rms in cells of four longest waves and, from 0.1 on, of two. At loads above
-        1 what is left to full contact falls so steeply that a cell may have none or twice as much.
+        0.01 to 5 E* q0 h_rms in cells of four longest waves and, from 0.1 on, of two. At loads
+        above 1 what is left to full contact falls so steeply that a cell may have none of it or
+        twice as much.
         """
         share = self.elastic_energy(p) / self.spectrum.elastic_energy(self.solid)
         left = np.maximum(1 - share, 0.0)

@@ -463,8 +463,8 @@ def predict(
 
     The limits are for surfaces with many of the longest waves. In a periodic cell of one wave,
     realisations scatter by a factor of two and keep more, far below the onset up to 24 times as
-    much (van der Waals attraction, magnifications from 16 on). Compare with simulations in cells of four
-    by four waves, and use the spectrum of those heights (`surface.realised_spectrum`).
+    much (van der Waals attraction, magnifications from 16 on). Compare with simulations in cells of
+    four by four waves, and use the spectrum of those heights (`surface.realised_spectrum`).
 
     Parameters
     ----------
@@ -500,6 +500,12 @@ def predict(
     range = number("range", range)
     pressed = number("pressed", pressed, zero=True)
     q0 = number("q0", spectrum.q_longest if q0 is None else q0)
+    lowest, highest = spectrum.band
+    if not 0.1 * lowest <= q0 <= 10 * highest:  # heights of a cell may lack their longest waves
+        raise ValueError(
+            f"q0 = {q0:.3g} is far outside the wave numbers of the spectrum, {lowest:.3g} to "
+            f"{highest:.3g}: give that of its longest waves"
+        )
     rough = Roughness(
         h_rms=spectrum.h_rms,
         q0=q0,

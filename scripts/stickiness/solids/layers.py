@@ -24,6 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import number, plain, positive
 
+LEAST_SCALE = 1e-30  #: thickness times wave number of layers that floats can carry
+
 
 class _Compliant(ABC):
     """What follows from the compliance over that of a half-space."""
@@ -136,7 +138,7 @@ class Layer(_Compliant):
 
     def factor(self, q: ArrayLike) -> float | NDArray:
         """Compliance over that of a half-space, S, of waves `q` >= 0 [1/length]."""
-        k = np.asarray(q, dtype=float) * self.thickness
+        k = self._scale(q)
         factor = np.ones(k.shape)
         is_long = k < 25.0  # beyond, S is 1 to rounding
         on_base = self._slipping if self.backing == "slip" else self._bonded
@@ -153,7 +155,7 @@ class Layer(_Compliant):
         flow along it: the flow between parallel plates shears it by 3/(q0 d) more. A film is taken
         for rigid, although its bending relieves the layer of long waves.
         """
-        k = np.asarray(q0) * self.thickness
+        k = self._scale(q0)
         least = np.divide(h_rms, self.thickness)
         if self.backing == "slip":
             return plain(least + 0 * k)
@@ -166,6 +168,18 @@ class Layer(_Compliant):
         if isinstance(backing, Film):
             backing = replace(backing, thickness=backing.thickness / length)
         return replace(self, thickness=self.thickness / length, backing=backing)
+
+    def _scale(self, q: ArrayLike) -> NDArray:
+        """Wave numbers `q` times the thickness; ValueError if floats cannot carry their cubes."""
+        q = np.asarray(q, dtype=float)
+        with np.errstate(over="ignore"):
+            k = np.minimum(q * self.thickness, 1 / LEAST_SCALE)  # beyond, a half-space
+        if np.any((k < LEAST_SCALE) & (q > 0)):
+            raise ValueError(
+                f"thickness = {self.thickness!r} is out of proportion to the waves, of wave number "
+                f"{np.min(q):.3g} to {np.max(q):.3g}: give both in one unit of length"
+            )
+        return k
 
     def _bending(self, film: Film, q: ArrayLike) -> NDArray:
         """What bending of the film adds to S: E*/(2 D q^3)."""

@@ -201,7 +201,8 @@ class SelfAffine(PowerLawSegments):
         with np.errstate(over="ignore", under="ignore", invalid="ignore", divide="ignore"):
             levels = np.full(len(exponents), np.float64(knots[-2]) ** slope)
             super().__init__(knots, levels, exponents, self.ellipse)
-            self.C0 = size if h_rms is None else float(size**2 / self.total_variance())
+            variance = np.float64(self.total_variance())  # vanishes without an error
+            self.C0 = size if h_rms is None else float(size**2 / variance)
             super().__init__(knots, self.C0 * levels, exponents, self.ellipse)
             variances = np.array([self.total_variance(power) for power in (0, 2, 4)])
         if not np.all(np.isfinite(variances) & (variances > 0)):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stickiness.arguments import number
-from stickiness.plausibility import warn_of_si
+from stickiness.plausibility import LIMITS, warn_of_si
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL, PREDICTED
@@ -78,9 +78,9 @@ class Material:
 
     def __post_init__(self):
         if not self.depends_on_rate:
-            number("modulus", self.modulus)
-        number("work_of_adhesion", self.work_of_adhesion)
-        number("range", self.range)
+            _check_size("modulus", self.modulus)
+        _check_size("work_of_adhesion", self.work_of_adhesion)
+        _check_size("range", self.range)
         number("pressed", self.pressed, zero=True)
         number("broken_at", self.broken_at)
         if self.poisson is not None and not -1 < self.poisson <= 0.5:
@@ -186,6 +186,15 @@ class Material:
         )
         if isinstance(self.solid, Layer):
             warn_of_si(thickness=self.solid.thickness)
+
+
+def _check_size(name: str, value: float) -> None:
+    """Raise a ValueError unless a value in SI units leaves products of it within floats."""
+    if not 1e-30 <= number(name, value) <= 1e30:
+        unit = LIMITS[name].unit
+        raise ValueError(
+            f"{name} must be between 1e-30 and 1e30 {unit}, got {value!r}: {LIMITS[name].reason}"
+        )
 
 
 def _find_surface(name: str | None, surfaces: Mapping[str, Surface] | None) -> Surface | None:

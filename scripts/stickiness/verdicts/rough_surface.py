@@ -121,6 +121,8 @@ class Surface:
         heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
         if heights.ndim != 2:
             raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
+        if min(heights.shape) < 4:
+            raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
         if np.ndim(length) == 0 and heights.shape[0] != heights.shape[1]:
             raise ValueError(
                 f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
@@ -149,6 +151,8 @@ class Surface:
         heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
         if heights.ndim != 1:
             raise ValueError(f"a profile must be an (n,) array, got the shape {heights.shape}")
+        if heights.size < 16:
+            raise ValueError(f"a profile must have at least 16 points, got {heights.size}")
         (side,) = positive(length=length)
         warn_of_si(length=float(side))
         return cls._from_array(heights, float(side) / heights.size, options)

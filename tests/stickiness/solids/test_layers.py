@@ -66,6 +66,9 @@ def test_short_waves_see_a_half_space(poisson, backing):
     layer = Layer(1.0, poisson, backing)
     np.testing.assert_allclose(layer.factor([60.0, 1e3, 1e6, 1e300]), 1.0, rtol=1e-13)
     assert layer.compliance(1e6) == pytest.approx(HalfSpace().compliance(1e6), rel=1e-13)
+    deep = Layer(1e300, poisson, backing)
+    assert deep.factor(1e9) == 1
+    assert deep.strain(h_rms=1.0, q0=1e9) == pytest.approx(1e-300)
 
 
 @BACKINGS
