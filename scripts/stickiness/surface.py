@@ -11,10 +11,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import scipy  # scipy.special is loaded when first used, a third of a second
 from numpy.typing import NDArray
 from scipy import fft
 
-from stickiness.arguments import grid, integer, number
+from stickiness.arguments import grid, integer, number, numbers
 from stickiness.spectrum.direction import find_ratio_of_modes
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_spectrum
 from stickiness.spectrum.kinds import Shells
@@ -60,9 +61,14 @@ class Moments:
 
 
 def synthesise(
-    spectrum: Spectrum, n: int, length: float, seed: int, amplitudes: Amplitudes = "gaussian"
+    spectrum: Spectrum,
+    n: int,
+    length: float,
+    seed: int,
+    amplitudes: Amplitudes = "gaussian",
+    skewness: float = 0.0,
 ) -> NDArray:
-    """Random periodic surface with a given spectrum, band limits exact.
+    """Random periodic surface with a given spectrum, band limits exact, and a given skewness.
 
     Parameters
     ----------
@@ -77,11 +83,18 @@ def synthesise(
         Side of the window [length].
     seed : int
         The surface depends on spectrum, length, seed and kind alone, not on `n`: grids of other
-        sizes sample the same surface, and a larger q1 adds modes to those already there.
+        sizes sample the same surface. Without a skewness, a larger q1 adds modes to those already
+        there; with one, it also turns the phases of these a little.
     amplitudes : {"gaussian", "fixed"}
         "gaussian": independent Gaussian modes, the samples of a Gaussian random field.
         "fixed": every amplitude at its rms value, only the phases random (the same as in the
         Gaussian surface of this seed). Its ensemble is narrower and is not the Gaussian one.
+    skewness : float
+        Mean cube of the heights over h_rms^3, from -4 to 4: positive for peaks on a plain, as after
+        blasting, negative for a plateau with valleys, as after honing or wear. Heights are
+        log-normal within what the spectrum allows, see `skew_modes`, which says how far the
+        skewness is off; spectrum, band and rms height are exact. 0 leaves the modes as they are:
+        the skewness is then zero in the mean over seeds.
 
     Returns
     -------
@@ -116,6 +129,7 @@ def synthesise(
         )
     i, j, variance = spectrum.modes(length)
     modes = sample_modes(variance, seed, amplitudes)
+    modes = skew_modes(i, j, modes, skewness)
     heights = sum_modes(i, j, modes, n)
     if spectrum.prescribed == "h_rms":
         heights *= spectrum.h_rms / np.sqrt(2 * np.sum(np.abs(modes) ** 2))
@@ -224,6 +238,77 @@ def sample_modes(variance: NDArray, seed: int, amplitudes: Amplitudes) -> NDArra
         modes *= np.sqrt(2) / np.abs(modes)
     modes *= np.sqrt(variance / 2)
     return modes
+
+
+def skew_modes(
+    i: NDArray, j: NDArray, modes: NDArray, skewness: float, rounds: int = 20
+) -> NDArray:
+    """Turn the phases of modes so that their heights have a given skewness; amplitudes stay.
+
+    Amplitude-adjusted Fourier transforms (Schreiber & Schmitz 1996,
+    doi:10.1103/PhysRevLett.77.635). Every round maps the heights, point by point and in their
+    order, to a shifted log-normal distribution, and then restores the amplitude of every mode. It
+    ends with the amplitudes: otherwise the map adds waves above the band, which no grid resolves.
+
+    After 20 rounds, cells of 4 by 4 of the longest waves (H = 0.5 and 0.8, q1/q0 = 8 and 32) have
+    99 to 100 % of a skewness of 1 (scatter over seeds: up to 0.003), 93 to 98 % of 2 (0.04), 82 to
+    91 % of 3 (0.12) and 73 to 84 % of 4 (0.18). Cells of one longest wave have 92 to 99 % of 1
+    (0.06) and 66 to 83 % of 3 (0.5): their few waves cannot be arranged to more.
+
+    Parameters
+    ----------
+    i, j : (N,) arrays of int
+        Lattice indices of the wave vectors, one of each pair.
+    modes : (N,) array of complex
+        Their amplitudes [length].
+    skewness : float
+        From -4 to 4; 0 returns the modes as they are.
+    rounds : int
+        Number of rounds.
+
+    Returns
+    -------
+    modes : (N,) array of complex
+        With the absolute values of those given.
+
+    Raises
+    ------
+    ValueError
+        If the skewness is not a number from -4 to 4.
+    """
+    if skewness == 0:
+        return modes
+    shape = log_normal_shape(skewness)
+    amplitudes = np.abs(modes)
+    # Products of three waves do not alias to the mean: finer grids have the same skewness.
+    n = fft.next_fast_len(max(16, 4 * int(np.abs([i, j]).max())), real=True)
+    # The map goes through quantiles, from the lowest to the highest point. Unlike ranks of single
+    # points these move continuously with the heights, so that rounding decides nothing.
+    normal = np.linspace(-1, 1, 201) * scipy.special.ndtri(1 - 0.5 / n**2)
+    levels = scipy.special.ndtr(normal)
+    # Phases depend neither on the mean nor on the scale.
+    wanted = np.expm1(shape * normal) / shape
+    for _ in range(rounds):
+        heights = sum_modes(i, j, modes, n)
+        quantiles = np.quantile(heights, levels, method="hazen")
+        skewed = np.interp(heights, quantiles, wanted)
+        phases = np.angle(fft.fft2(skewed)[i % n, j % n])
+        modes = amplitudes * np.exp(1j * phases)
+    return modes
+
+
+def log_normal_shape(skewness: float) -> float:
+    """Return s for which exp(s z)/s, with z standard normal, has a skewness from -4 to 4.
+
+    Skewness and s have one sign. The skewness is (w + 2) sqrt(w - 1) with w = exp(s^2), which is
+    2 sinh(3 t) if sqrt(w - 1) = 2 sinh(t). ValueError if the skewness is no such number.
+    """
+    most = 4.0  # of which the amplitudes of a spectrum leave about three quarters
+    wanted = numbers("skewness", skewness)
+    if wanted.ndim > 0 or not abs(wanted) <= most:
+        raise ValueError(f"skewness must be a number from {-most:g} to {most:g}, got {skewness!r}")
+    root = 2 * np.sinh(np.arcsinh(wanted / 2) / 3)
+    return float(np.copysign(np.sqrt(np.log1p(root**2)), wanted))
 
 
 def sum_modes(i: NDArray, j: NDArray, modes: NDArray, n: int) -> NDArray:

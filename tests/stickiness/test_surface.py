@@ -2,9 +2,11 @@
 
 import numpy as np
 import pytest
+from scipy import stats
 
 from stickiness import surface
 from stickiness.remaining.prediction import find_anisotropy_error_factor, predict
+from stickiness.repulsive import solve
 from stickiness.spectrum import SelfAffine, Shells, combine
 
 L = 2 * np.pi  # so that wave numbers are lattice indices
@@ -59,10 +61,11 @@ def test_moments_of_one_wave():
     assert surface.moments(product, length).m22 == pytest.approx(4 * k**4 * a**2 / 4)
 
 
+@pytest.mark.parametrize("skewness", [0.0, -2.0])
 @pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
-def test_grids_sample_one_surface(amplitudes):
+def test_grids_sample_one_surface(amplitudes, skewness):
     s = power_law(10.0)
-    coarse, fine, odd = (surface.synthesise(s, n, L, 3, amplitudes) for n in (24, 96, 72))
+    coarse, fine, odd = (surface.synthesise(s, n, L, 3, amplitudes, skewness) for n in (24, 96, 72))
     np.testing.assert_allclose(fine[::4, ::4], coarse, atol=1e-13)
     np.testing.assert_allclose(odd[::3, ::3], coarse, atol=1e-13)
 
@@ -160,3 +163,115 @@ def test_surface_of_shells(amplitudes):
     np.testing.assert_allclose(again.variance, window.variance, rtol=1e-12)
     with pytest.raises(ValueError, match=r"shell at q = 2\.5"):
         surface.synthesise(Shells([1.0, 2.5], [1.0, 1.0]), 24, L, 6)
+
+
+def wide(seed, skewness, hurst=0.8, magnification=8.0):
+    """Heights of 4 by 4 longest waves, on four points per shortest wave."""
+    s = SelfAffine(hurst=hurst, q0=4.0, q1=4 * magnification, h_rms=0.3)
+    return surface.synthesise(s, int(16 * magnification), L, seed, skewness=skewness)
+
+
+@pytest.mark.parametrize("skewness", [-4.0, -1.0, 1e-3, 0.5, 3.0])
+def test_shape_of_the_log_normal_distribution(skewness):
+    shape = surface.log_normal_shape(skewness)
+    assert np.sign(shape) == np.sign(skewness)
+    found = stats.lognorm.stats(abs(shape), moments="s")
+    # Far below 1, scipy rounds exp(s^2) - 1.
+    assert found == pytest.approx(abs(skewness), rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("hurst", "magnification", "skewness", "least", "most", "scatter"),
+    [
+        (0.5, 8, 1.0, 0.98, 1.0, 0.005),
+        (0.8, 8, 1.0, 0.98, 1.0, 0.01),
+        (0.8, 8, -1.0, 0.98, 1.0, 0.01),
+        (0.8, 8, -2.0, 0.90, 0.97, 0.05),
+        (0.8, 8, 3.0, 0.78, 0.88, 0.08),
+        (0.8, 8, -4.0, 0.68, 0.80, 0.10),
+        pytest.param(0.5, 32, 1.0, 0.995, 1.001, 0.002, marks=pytest.mark.slow),
+        pytest.param(0.8, 32, -3.0, 0.82, 0.92, 0.08, marks=pytest.mark.slow),
+    ],
+)
+def test_skewness_is_the_one_asked_for_as_far_as_is_said(
+    hurst, magnification, skewness, least, most, scatter
+):
+    reached = [
+        stats.skew(wide(seed, skewness, hurst, magnification), axis=None) / skewness
+        for seed in range(8)
+    ]
+    assert least < np.mean(reached) < most
+    assert np.std(reached) < scatter
+
+
+@pytest.mark.parametrize("sign", [-1, 1])
+def test_skewed_heights_are_log_normal(sign):
+    shape = abs(surface.log_normal_shape(1.0))
+    wanted = stats.lognorm(shape)
+    heights = np.sort(sign * wide(2, sign * 1.0).ravel())
+    shares = (np.arange(heights.size) + 0.5) / heights.size
+    expected = (wanted.ppf(shares) - wanted.mean()) / wanted.std()
+    error = heights / 0.3 - expected
+    assert np.sqrt(np.mean(error**2)) < 0.01
+    gaussian = np.sort(wide(2, 0.0).ravel()) / 0.3
+    assert np.sqrt(np.mean((gaussian - expected) ** 2)) > 0.1
+    kurtosis = stats.kurtosis(heights, fisher=False)
+    assert kurtosis == pytest.approx(3 + wanted.stats(moments="k"), rel=0.03)
+
+
+@pytest.mark.parametrize("amplitudes", ["gaussian", "fixed"])
+@pytest.mark.parametrize("size", [{"h_rms": 0.3}, {"C0": 0.05}])
+def test_a_skewed_surface_has_the_spectrum_of_the_gaussian_one(amplitudes, size):
+    s = power_law(12.0, 2.0, **size)
+    plain, skewed = (
+        surface.synthesise(s, 64, L, 5, amplitudes, skewness) for skewness in (0.0, -3.0)
+    )
+    expected = surface.realised_spectrum(plain, L)
+    found = surface.realised_spectrum(skewed, L)
+    np.testing.assert_allclose(found.q, expected.q, rtol=1e-14)
+    np.testing.assert_allclose(found.variance, expected.variance, rtol=1e-10)
+    assert surface.moments(skewed, L).rms_slope == pytest.approx(
+        surface.moments(plain, L).rms_slope, rel=1e-12
+    )
+    assert np.abs(skewed - plain).max() > 0.1 * plain.std()
+
+
+def make_modes(seed=4):
+    i, j, variance = SelfAffine(hurst=0.8, q0=4.0, q1=24.0, h_rms=1.0).modes(L)
+    return i, j, surface.sample_modes(variance, seed, "gaussian")
+
+
+def test_more_rounds_come_closer_to_the_skewness():
+    i, j, modes = make_modes()
+    off = []
+    for rounds in (1, 5, 20):
+        skewed = surface.skew_modes(i, j, modes, 1.0, rounds)
+        np.testing.assert_allclose(np.abs(skewed), np.abs(modes), rtol=1e-12)
+        off.append(1 - stats.skew(surface.sum_modes(i, j, skewed, 96), axis=None))
+    assert 0.3 < off[0] < 0.7
+    assert off[1] < off[0] / 3
+    assert 0 < off[2] < off[1] / 5
+
+
+def test_peaks_turned_over_are_valleys():
+    i, j, modes = make_modes()
+    peaks = surface.skew_modes(i, j, modes, 2.0)
+    valleys = surface.skew_modes(i, j, -modes, -2.0)
+    np.testing.assert_allclose(valleys, -peaks, rtol=1e-9)
+
+
+def test_rounding_does_not_decide_on_skewed_surfaces():
+    i, j, modes = make_modes()
+    noise = np.random.default_rng(1).standard_normal(len(modes))
+    change = surface.skew_modes(i, j, modes * (1 + 1e-15 * noise), 3.0)
+    change -= surface.skew_modes(i, j, modes, 3.0)
+    assert np.abs(change).max() < 1e-12
+
+
+def test_a_plateau_carries_on_more_area_than_peaks():
+    area = {
+        skewness: solve(wide(1, skewness), L, 0.03 * 4 * 0.3, tol=1e-4).area_fraction
+        for skewness in (-1.0, 0.0, 1.0)
+    }
+    assert area[-1.0] > 1.5 * area[0.0]
+    assert area[0.0] > 1.5 * area[1.0]
