@@ -59,8 +59,13 @@ COMPARISONS = {
 }
 LABELS = {name: entry["label"] for name, entry in REAL_SURFACES.items()}
 MEASURED_SURFACES = [name for name, entry in REAL_SURFACES.items() if entry["kind"] == "measured"]
-# Figures and report show the cases that are simulated for every quantity.
-COMPLETE = [case for case, planned in PLANS.items() if planned.complete]
+# Figures and report show the cases that are simulated for every quantity. Theory is compared with
+# these, and takes heights as Gaussian.
+COMPLETE = [
+    case
+    for case, planned in PLANS.items()
+    if planned.complete and "heights" not in MODEL_SURFACES[planned.surface]
+]
 
 RESULTS = f"{config['results']}/{config['fidelity']}"
 TRADEOFF = f"{config['results']}/tradeoff"

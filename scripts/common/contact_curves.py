@@ -113,6 +113,8 @@ def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance,
         surface, seeds, 2 * COARSE, [2], pressures, ranges, tolerance, names
     ).isel(resolution=0, drop=True)
     dataset = dataset[kept].assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
+    # Of skewed surfaces, too, the Gaussian long waves of a seed are described. They explain more of
+    # the scatter of areas and gaps than long waves whose phases are turned.
     for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
         rows = multilevel.descriptors(spectrum, length, dataset[dim].values, surface["amplitudes"])
         dataset[name] = (dim, "descriptor"), rows

@@ -43,8 +43,19 @@ def waves_across(surface):
 
 def make_heights(surface, points, seed):
     """Heights over h_rms of one realisation of a model surface on a grid of `points` a side."""
-    spectrum = model_spectrum(surface)
-    return synthesise(spectrum, points, cell_size(surface), int(seed), surface["amplitudes"])
+    return synthesise(
+        model_spectrum(surface),
+        points,
+        cell_size(surface),
+        int(seed),
+        surface["amplitudes"],
+        skewness_of(surface),
+    )
+
+
+def skewness_of(surface):
+    """Skewness of the heights of a model surface; 0 if they are Gaussian."""
+    return surface["heights"]["skewness"] if "heights" in surface else 0.0
 
 
 def grid_points(surface, pixels_per_wavelength):

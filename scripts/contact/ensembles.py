@@ -14,7 +14,7 @@ from common.derived_quantities import fit_kappa, gap_density
 from common.ensemble_means import PREFIX, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
-from common.model_surfaces import read_all
+from common.model_surfaces import read_all, skewness_of
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import MEASURED, means_of
@@ -112,6 +112,8 @@ def write_means(realisations, others, parameters, laws, output, averaged=AVERAGE
     )
     surface_texts = {"gaussian": "Gaussian surfaces", "fixed": "surfaces of fixed amplitudes"}
     surfaces = surface_texts[parameters["amplitudes"]]
+    if "heights" in parameters:
+        surfaces = f"surfaces of a skewness of {skewness_of(parameters):g}"
     window = parameters["window"]
     parameters = parameters | {
         "estimates": f"mean over {surfaces} on a window of {window:g} longest wavelengths",

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from helpers.entries import model_surface
 from helpers.jobs import make_job
+from scipy import stats
 
 from stickiness import datasets
 from surfaces import synthesise_surface
@@ -34,6 +35,15 @@ def test_moments_are_those_of_the_heights(tmp_path):
     assert 0.6 < seen < 1
     assert np.array_equal(made(tmp_path, 3).height, heights)
     assert not np.array_equal(made(tmp_path, 4).height, heights)
+
+
+def test_skewed_heights_have_the_spectrum_of_the_gaussian_ones(tmp_path):
+    plain = made(tmp_path / "plain", 3, window=4)
+    skewed = made(tmp_path / "skewed", 3, window=4, heights={"skewness": -1.0})
+    np.testing.assert_allclose(skewed.realised_variance, plain.realised_variance, rtol=1e-9)
+    assert stats.skew(skewed.height, axis=None) == pytest.approx(-1, abs=0.02)
+    assert datasets.parameters(skewed)["heights"] == {"skewness": -1.0}
+    assert "heights" not in datasets.parameters(plain)
 
 
 def test_fixed_amplitudes_hold_the_variance_of_the_lattice(tmp_path):

@@ -38,6 +38,24 @@ def test_quantities_bring_what_they_need(fresh, keys, jobs):
     assert plan_cases(fresh, mine=("0.05", keys)) == jobs
 
 
+def test_theory_is_not_compared_with_skewed_heights(fresh):
+    """A case for every quantity, which is compared on Gaussian heights, needs no theory."""
+    before = fresh.planned("results/tiny/fits/gamma.nc")
+    surface = "  {}: {{hurst: 0.7, magnification: 8{}}}\n"
+    case = "  {}: {{surface: {}, pressures: [0.05]}}\n"
+    fresh.edit(
+        "config/tiny.yaml",
+        "model_surfaces:\n",
+        "model_surfaces:\n"
+        + surface.format("plain", "")
+        + surface.format("honed", ", heights: {skewness: -1.0}"),
+    )
+    fresh.add("cases:\n" + case.format("honed", "honed") + case.format("plain", "plain"))
+    planned = fresh.planned("results/tiny/fits/gamma.nc")
+    assert planned["answer_case"] == before["answer_case"] + 1  # of the plain one
+    assert fresh.planned("results/tiny/cases/honed.nc") == SIMULATION | {"answer_case": 1}
+
+
 def test_cases_on_the_same_realisations_share_them(fresh):
     """The loads of the second case are among those of the first, which is another one's whole."""
     also = ("0.1", "quantities: [area, a_v]")

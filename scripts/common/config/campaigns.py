@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
-from common.config.simulations import Loads, ModelSurface, Pixels, Values
+from common.config.simulations import GaussianSurface, Loads, ModelSurface, Pixels, Values
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.entries.fields import Section, optional
@@ -51,7 +51,7 @@ class PullOff(Section):
 class FullAdhesion(Settings):
     """Full adhesion with various settings."""
 
-    surfaces: f.Names[ModelSurface]
+    surfaces: f.Names[GaussianSurface]
     q0_h_rms: f.Positive
     law: f.Law
     pressures: Loads
@@ -79,7 +79,7 @@ class MeasuredSurfaces(Section):
     counts: Counts
     pixels: EvenNumbers
     pressures: Values = optional("loads, if not those of the campaign")
-    surfaces: f.Names[ModelSurface]
+    surfaces: f.Names[GaussianSurface]
 
 
 class Validation(MeasuredSurfaces):

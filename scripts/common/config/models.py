@@ -205,6 +205,22 @@ class Configuration(Section):
         return self
 
     @model_validator(mode="after")
+    def check_heights(self) -> Self:
+        """Check that heights are Gaussian where theory stands for them."""
+        cases = [*PAPER["cases"], self.criteria.a_v.case]
+        cases += [self.adhesion[name].case for name in PAPER["adhesion"]]
+        for case in cases:
+            surface = self.cases[case].surface
+            if self.model_surfaces[surface].heights is not None:
+                text = f"must be left out, since cases.{case} needs Gaussian heights; add a surface"
+                raise EntryError(f"model_surfaces.{surface}.heights", None, text)
+        for case, entry in self.cases.items():
+            if entry.model == "theory" and self.model_surfaces[entry.surface].heights is not None:
+                text = f"takes heights as Gaussian, and model_surfaces.{entry.surface} has others"
+                raise EntryError(f"cases.{case}.model", entry.model, f"{text}: simulate it")
+        return self
+
+    @model_validator(mode="after")
     def check_limits(self) -> Self:
         """Check that values lie within the grids on which they are looked up."""
         for key, value, axis, low, high in self._limits():

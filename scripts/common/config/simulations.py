@@ -79,11 +79,8 @@ class Band(Section):
     )
 
 
-class ModelSurface(Band, f.Direction):
-    """A random periodic surface.
-
-    Error models were measured with gaussian amplitudes (the default) and without a roll-off.
-    """
+class GaussianSurface(Band, f.Direction):
+    """A random periodic surface whose phases are random."""
 
     rolloff: Magnification = optional("q_rolloff/q0, below which the spectrum is flat")
     amplitudes: Literal["gaussian", "fixed"] = optional("amplitudes of the modes", "gaussian")
@@ -95,6 +92,29 @@ class ModelSurface(Band, f.Direction):
             text = f"must be below magnification = {self.magnification:g}"
             raise EntryError("rolloff", self.rolloff, text)
         return self
+
+
+class Heights(Section):
+    """Distribution of the heights: log-normal, as far as the spectrum allows."""
+
+    skewness: Annotated[float, Field(ge=-4, le=4)] = needed(
+        "positive for peaks on a plain, negative for a plateau with valleys"
+    )
+
+
+class ModelSurface(GaussianSurface):
+    """A random periodic surface.
+
+    Error models were measured with gaussian amplitudes (the default), without a roll-off and
+    without `heights`.
+    """
+
+    # Without it the surface is to scripts what it was before there was this key.
+    heights: Heights = Field(
+        None,
+        exclude_if=lambda heights: heights is None,
+        description="distribution of the heights; default Gaussian",
+    )
 
 
 class Case(Section):

@@ -44,7 +44,8 @@ class Surface:
     """Surface as the error models see it.
 
     `window` is the side of the cell over the longest wavelength. Only isotropic surfaces of
-    Gaussian amplitudes without a roll-off were measured: ``kind_measured`` is false for others.
+    Gaussian amplitudes and heights without a roll-off were measured: ``kind_measured`` is false for
+    others.
     """
 
     hurst: float
@@ -56,7 +57,7 @@ class Surface:
     def of(cls, entry: Mapping[str, Any]) -> Surface:
         """From a model surface of the configuration, or the parameters of a file."""
         isotropic = entry["anisotropy"] == 1
-        gaussian = entry["amplitudes"] == "gaussian"
+        gaussian = entry["amplitudes"] == "gaussian" and "heights" not in entry
         return cls(
             hurst=entry["hurst"],
             magnification=entry["magnification"],

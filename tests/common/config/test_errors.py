@@ -100,6 +100,8 @@ KNOWN = {"value": "1 um", "known": "read"}
                 | {"level": 0.03, "silent": ["dahlquist"]}
             },
         ),
+        ("config", {"model_surfaces/H0.7_zeta64/heights": {"skewness": -1.0}}),
+        ("remaining", {"sets/H0.8_zeta32_4x4/heights": {"skewness": 1}}),
         ("config", {"cases/mine": {"surface": "H0.7_zeta64", "pressures": [0.1], "accuracy": 0.1}}),
     ],
 )

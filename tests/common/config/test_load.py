@@ -92,7 +92,11 @@ def test_checked_values_are_numbers_in_si_units_with_defaults(folder):
     assert psa["youngs_modulus"] == 1e5
     assert str(psa["youngs_modulus"]) == "0.1 MPa"
     assert (psa["law"], psa["dwell"]) == ("exponential", None)
-    assert checked["config"]["model_surfaces"]["H0.8_zeta64"]["window"] == 1.0
+    surface = checked["config"]["model_surfaces"]["H0.8_zeta64"]
+    assert surface["window"] == 1.0
+    # A key that came later must not run simulations of surfaces without it again.
+    assert "heights" not in surface
+    assert "heights" not in checked["remaining"]["sets"]["H0.8_zeta4_4x4"]
 
 
 @pytest.mark.parametrize("other", ["youngs_modulus", "plane_strain_modulus"])

@@ -234,9 +234,15 @@ def test_settings_outside_the_measurement(part, knob, error):
 
 
 SAME = model_surface()
+OTHERS = [
+    {"rolloff": 3.0},
+    {"amplitudes": "fixed"},
+    {"anisotropy": 4.0},
+    {"heights": {"skewness": 1.0}},
+]
 
 
-@pytest.mark.parametrize("other", [{"rolloff": 3.0}, {"amplitudes": "fixed"}, {"anisotropy": 4.0}])
+@pytest.mark.parametrize("other", OTHERS)
 def test_kinds_of_surfaces_that_were_not_measured_have_wider_errors(other):
     asked, settings = Surface.of(SAME | other), Settings(8, 1e-4, 4, 0)
     usual = error_parts(problem(), settings, 0.1, "area")
