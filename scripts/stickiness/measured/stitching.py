@@ -153,6 +153,8 @@ class Draws:
     q0: NDArray  #: (n,), end of the plateau [1/length]; if there is none, lowest of the scan
     #: (n,), energy of all waves from the cutoff to `continue_to` over the measured energy
     unresolved: NDArray
+    #: (n,), energy of all waves beyond `simulated_to` over that of the others; 0 without it
+    lacking: NDArray
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -166,6 +168,7 @@ def draw(
     *,
     extend_to: float | None = None,
     continue_to: float | None = None,
+    simulated_to: float | None = None,
 ) -> Draws:
     """Draw moments of spectra that agree with a measured one.
 
@@ -182,6 +185,8 @@ def draw(
         Without `extend_to`: highest wave number at which the fitted law may end [1/length]. The
         energies drawn contain the waves up to an end between the cutoff and there, whose logarithm
         is spread evenly. Default: they end at the cutoff.
+    simulated_to : float, optional
+        Highest wave number that a simulation on the heights contains [1/length].
 
     Returns
     -------
@@ -228,13 +233,20 @@ def draw(
     # Waves that are not resolved, up to ends of the law that are spread over the magnitudes.
     furthest = cutoff if extend_to is not None else max(continue_to or 0.0, cutoff)
     unresolved = integrate_law(furthest, 1) / 4 / moments["elastic_energy"]
-    # A twelfth of the draws is at either end, so that limits of 90 % contain both.
-    ends = cutoff * (furthest / cutoff) ** np.clip(rng.uniform(-0.1, 1.1, count), 0.0, 1.0)
+    # A seventh of the draws is at either end: limits of 90 % contain both, whatever else errs.
+    ends = cutoff * (furthest / cutoff) ** np.clip(rng.uniform(-0.2, 1.2, count), 0.0, 1.0)
     moments["elastic_energy"] = moments["elastic_energy"] + integrate_law(ends, 1) / 4
+
+    # What a simulation lacks of that.
+    lacking = np.zeros(count)
+    if simulated_to is not None:
+        inside = rings.q <= simulated_to * (1 + 1e-9)
+        simulated = (levels * np.where(inside, spectrum.area * rings.q, 0.0)).sum(1) / 4
+        lacking = moments["elastic_energy"] / simulated - 1
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
         q0 = np.exp(law.log_q_rolloff)
-    return Draws(moments, q0, unresolved)
+    return Draws(moments, q0, unresolved, lacking)
 
 
 def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:

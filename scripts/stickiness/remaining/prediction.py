@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -53,6 +53,8 @@ DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to st
 # Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
 # of full contact is off by less than 1e-3 of itself.
 FILM_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
+#: Factors on an energy ratio, among which that is sought at which Gaussian heights keep a share.
+GAUSSIAN_FACTORS = np.geomspace(1e-3, 1e2, 81)
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
 UNLIKE = 2.0
 
@@ -97,6 +99,16 @@ class Roughness:
     #: How elastic energy and compliance depend on the modulus of a layer on a film, see
     #: `find_film_response`; zeros without a film, None: not varied
     film_response: ArrayLike | None = None
+    #: ln of the factor by which heights that are not Gaussian change the energy ratio at which a
+    #: share remains, and its error: see `height_shape`
+    shape: ArrayLike = 0.0
+    shape_error: ArrayLike = 0.0
+    #: `SimulatedHeights`, or an array of these, which replace the theory of the share and of the
+    #: area; None where there are none
+    simulated: Any = None
+    #: Energy of full contact of waves that are not simulated, over that of the others
+    lacking: ArrayLike = 0.0
+    height_factor: ArrayLike = 1.0  #: on the heights simulated
 
     def at_modulus(self, factor: ArrayLike) -> Self:
         """Return the same with E* times a factor: the film under a layer keeps its stiffness."""
@@ -124,6 +136,7 @@ class Roughness:
             "h_rms": self.h_rms * factor,
             "rms_slope": self.rms_slope * factor,
             "elastic_energy": self.elastic_energy * factor**2,
+            "height_factor": self.height_factor * factor,
         }
         if self.half_space_energy is not None:
             scaled["half_space_energy"] = self.half_space_energy * factor**2
@@ -150,9 +163,16 @@ class Roughness:
             dissipated = (factor - 1) * (value + all_edges)
             return plain(self.share(adhesion_length, range, sign) + dissipated)
 
+        by_theory = self._share_by_theory(adhesion_length, range, sign)
+        return self._replace_simulated("share", by_theory, adhesion_length, range, sign)
+
+    def _share_by_theory(self, adhesion_length, range, sign) -> NDArray:
+        """Share by the spectrum; arguments as of `share`."""
         # What remains by the theory, with the onset of contact at its own limit.
         sign = np.asarray(sign * self.anisotropy_error_factor)
         energy_ratio = self._energy_ratio(adhesion_length)
+        full_contact_share = 1 - 1 / energy_ratio
+        energy_ratio = energy_ratio * np.exp(self.shape + sign * self.shape_error)
         range_ratio = np.asarray(range) / self.h_rms
         zone = self.zone(adhesion_length, range)
         share = remaining_share(
@@ -186,7 +206,38 @@ class Roughness:
             share = self._bound_by_half_space(share, adhesion_length, range, sign)
 
         # Full contact is a state that the surfaces may take.
-        return plain(np.clip(share, np.maximum(1 - 1 / energy_ratio, 0.0), 1.0))
+        return np.clip(share, np.maximum(full_contact_share, 0.0), 1.0)
+
+    def _replace_simulated(
+        self, quantity: str, by_theory, adhesion_length, range, *others
+    ) -> float | NDArray:
+        """Values by theory, replaced where there are simulated heights; `others` as of these."""
+        if not np.any(np.not_equal(self.simulated, None)):
+            return plain(by_theory)
+        # One row per pair. Heights times a factor take the factor squared of all energies.
+        values, simulated, law, lacking, length, row_range, *others = (
+            np.array(column)
+            for column in np.broadcast_arrays(
+                by_theory,
+                self.simulated,
+                self.law,
+                self.lacking,
+                adhesion_length / np.square(self.height_factor),
+                range / np.asarray(self.height_factor),
+                *others,
+            )
+        )
+        for name in np.unique(law):
+            for heights in set(simulated.ravel()) - {None}:
+                rows = (simulated == heights) & (law == name)
+                values[rows] = getattr(heights, quantity)(
+                    length[rows],
+                    row_range[rows],
+                    str(name),
+                    lacking[rows],
+                    *(x[rows] for x in others),
+                )
+        return plain(values)
 
     def _bound_by_half_space(self, share, adhesion_length, range, sign) -> NDArray:
         """Bound a share by that on a half-space; `sign` contains the factor on the errors.
@@ -196,7 +247,15 @@ class Roughness:
         """
         is_known = np.isfinite(self.half_space_energy)
         energy = np.where(is_known, self.half_space_energy, self.elastic_energy)
-        half_space = Roughness(self.h_rms, self.q0, energy, rms_slope=self.rms_slope, law=self.law)
+        half_space = Roughness(
+            self.h_rms,
+            self.q0,
+            energy,
+            rms_slope=self.rms_slope,
+            law=self.law,
+            shape=self.shape,
+            shape_error=self.shape_error,
+        )
         bound = half_space.share(adhesion_length, range, sign)
         is_stiffer = 1 - np.asarray(self.relative_compliance) >= 0
         bounded = np.where(is_stiffer, np.minimum(share, bound), np.maximum(share, bound))
@@ -220,19 +279,44 @@ class Roughness:
 
     def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Share of the nominal area that is in contact at zero load."""
-        return plain(self._deepest_state(adhesion_length, range).area)
+        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
+        by_theory = self._deepest_state(energy_ratio, adhesion_length, range).area
+        return self._replace_simulated("area", by_theory, adhesion_length, range)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts: its work over the largest tension [length]."""
-        state = self._deepest_state(adhesion_length, range)
+        energy_ratio = self._find_gaussian_ratio(adhesion_length, range)
+        state = self._deepest_state(energy_ratio, adhesion_length, range)
         acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
         tension = np.where(acts, state.tension, 1.0)
-        distance = self.h_rms * self._energy_ratio(adhesion_length) * state.share / tension
+        distance = self.h_rms * energy_ratio * state.share / tension
         return plain(np.where(acts, distance, np.asarray(range) + self.h_rms))
 
-    def _deepest_state(self, adhesion_length, range) -> DeepestState:
+    def _find_gaussian_ratio(self, adhesion_length, range) -> NDArray:
+        """Energy ratio at which Gaussian heights of the same spectrum would keep the same share."""
+        ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
+        if not np.any(np.not_equal(self.simulated, None)):
+            return ratio
+        # Interpolate the theory of the share over factors on the ratio; it rises with them.
+        factors = GAUSSIAN_FACTORS.reshape(-1, *(1,) * np.ndim(ratio))
+        shares = remaining_share(
+            ratio * factors,
+            range / np.asarray(self.h_rms),
+            self.zone(adhesion_length, range),
+            load_scale=self.load_scale,
+            law=self.law,
+        )
+        share = np.asarray(self.share(adhesion_length, range))
+        columns = np.reshape(shares, (factors.size, -1)).T
+        factor = [
+            np.exp(np.interp(wanted, column, np.log(GAUSSIAN_FACTORS)))
+            for wanted, column in zip(share.ravel(), columns, strict=True)
+        ]
+        return ratio * np.reshape(factor, share.shape)
+
+    def _deepest_state(self, energy_ratio, adhesion_length, range) -> DeepestState:
         return find_deepest_state(
-            energy_ratio=self._energy_ratio(adhesion_length),
+            energy_ratio=energy_ratio,
             range_ratio=range / self.h_rms,
             zone=self.zone(adhesion_length, range),
             load_scale=self.load_scale,

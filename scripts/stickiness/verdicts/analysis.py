@@ -28,6 +28,7 @@ from stickiness.verdicts.parametric import (
     REFERENCE_HURST,
     describe_variables,
 )
+from stickiness.verdicts.simulated_surface import simulate_surface
 
 DRAWS = 200  #: spectra that are drawn
 SEED = 1  #: of the draws
@@ -75,6 +76,9 @@ def analyse(
     doubts += [doubt for each in heights for doubt in each.doubts]
     not_judged = [] if ignore_doubts else doubts
 
+    # Contact on the heights themselves.
+    simulated = None if not_judged else simulate_surface(measurements, spectrum)
+
     # Spectra that agree with the measured one, with waves that the instrument does not resolve.
     draws = stitching.draw(
         spectrum,
@@ -82,6 +86,7 @@ def analyse(
         SEED,
         extend_to=q_extended,
         continue_to=2 * np.pi / stitching.SHORTEST_WAVE,
+        simulated_to=None if simulated is None else float(simulated.q_simulated),
     )
     dataset = xr.merge(
         [
@@ -94,6 +99,8 @@ def analyse(
     )
     if isinstance(spectrum, stitching.Stitched):
         dataset = dataset.merge(_compare_measurements(spectrum))
+    if simulated is not None:
+        dataset = dataset.merge(simulated)
     dataset = _add_budgets(describe_variables(dataset), fit)
     return dataset.assign_attrs(
         remarks="; ".join(f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged),
@@ -180,6 +187,7 @@ def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
             "mean_deviation": np.mean(np.abs(first.heights)),  # levelled heights have no mean
             "height_range": np.ptp(first.heights),
             "skewness": stats.skew(first.heights, axis=None),
+            "kurtosis": stats.kurtosis(first.heights, axis=None, fisher=False),
             "h_rms_as_read": first.h_rms_as_read(measurements[0].detrend),
             "missing_fraction": max(heights.missing_fraction for heights in every),
             "dropped_points": sum(heights.dropped for heights in every),
@@ -194,6 +202,8 @@ def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
     data = {
         "unresolved_energy": ("end", np.quantile(draws.unresolved, END_QUANTILES)),
         "q0_draws": ("draw", draws.q0),
+        "lacking_energy": ("end", np.quantile(draws.lacking, END_QUANTILES)),
+        "lacking_energy_draws": ("draw", draws.lacking),
     }
     for name, values in draws.moments.items():
         data[name] = ("end", draws.quantiles(name, END_QUANTILES))

@@ -238,6 +238,8 @@ def _stack_ends(
         rms_slope=of_ends("rms_slope"),
         law=of_materials([material.law for material in materials]),
         film_response=of_ends("film_response"),
+        simulated=of_ends("simulated"),
+        lacking=of_ends("lacking"),
     )
     separation_factors = np.array([material.separation_factor for material in materials])
     value, low, high = separation_factors.T[..., None, None]

@@ -192,7 +192,14 @@ def _add(first: Roughness, second: Roughness, share: float) -> Roughness:
         anisotropy_error_factor=np.maximum(
             first.anisotropy_error_factor, second.anisotropy_error_factor
         ),
+        **_without_simulation(first),
     )
+
+
+def _without_simulation(rough: Roughness) -> dict[str, NDArray]:
+    """Fields of a roughness that is not simulated: heights are, alone and on a half-space."""
+    shape = np.shape(rough.lacking)
+    return {"simulated": np.full(shape, None), "lacking": np.zeros(shape)}
 
 
 def _repeat_draws(draws: Roughness, count: int, shuffled: bool) -> Roughness:
@@ -233,6 +240,7 @@ def _put_on_layer(
         ends,
         elastic_energy=ends.elastic_energy * stiffening,
         relative_compliance=np.full(2, compliance),
+        **_without_simulation(ends),
     )
     if draws is not None:
         # The spectra of the draws are not kept: the layer acts on them as on both ends.
@@ -240,6 +248,7 @@ def _put_on_layer(
             draws,
             elastic_energy=draws.elastic_energy * np.sqrt(np.prod(stiffening)),
             relative_compliance=np.float64(compliance),
+            **_without_simulation(draws),
         )
     if isinstance(solid.backing, Film):
         # The film makes the solid softer to long waves, the layer stiffer to others: energies on a

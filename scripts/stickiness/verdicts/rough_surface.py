@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness import datasets
 from stickiness.arguments import positive
@@ -25,10 +25,12 @@ from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import FILM_FACTORS, Roughness, find_anisotropy_error_factor
+from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.spectrum.interface import Spectrum
 from stickiness.spectrum.kinds import SelfAffine, Tabulated
 from stickiness.verdicts import parametric
 from stickiness.verdicts.parametric import ENDS, MOMENTS
+from stickiness.verdicts.simulated_surface import read_simulated
 
 #: What a verdict needs of the file of a surface.
 NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
@@ -324,6 +326,8 @@ class Surface:
             anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
             rms_slope=data.rms_slope.values,
             film_response=np.zeros((2, 2, FILM_FACTORS.size)),
+            simulated=np.full(2, self.simulated),
+            lacking=self._find_lacking("lacking_energy", 2),
         )
 
     @cached_property
@@ -342,7 +346,18 @@ class Surface:
             # Slopes of the draws are not kept; those of both ends hardly differ.
             rms_slope=self.ends.rms_slope.mean(),
             film_response=np.zeros((2, FILM_FACTORS.size)),
+            simulated=self.simulated,
+            lacking=self._find_lacking("lacking_energy_draws", energy.size),
         )
+
+    @cached_property
+    def simulated(self) -> SimulatedHeights | None:
+        """States of contact that were simulated on the heights; None if there are none."""
+        return read_simulated(self.data)
+
+    def _find_lacking(self, name: str, count: int) -> NDArray:
+        """Energy of waves that are not simulated over that of the others, ``(count,)``."""
+        return self.data[name].values if self.simulated is not None else np.zeros(count)
 
     @property
     def _anisotropy_error_factor(self) -> float:

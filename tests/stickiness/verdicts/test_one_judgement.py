@@ -126,7 +126,7 @@ MATERIAL = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-
 
 @pytest.fixture
 def map_file(tmp_path):
-    np.save(tmp_path / "wall.npy", MAP * 1e6)
+    np.save(tmp_path / "wall.npy", MAP.T * 1e6)  # rows of a file run along y
     return Surface.read(tmp_path / "wall.npy", length=f"{MAP_SIDE!r} m", height_unit="um")
 
 

@@ -1,0 +1,95 @@
+"""Contact simulated on the heights of a measured surface, and how its file keeps it."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from stickiness.measured.instrument_spectrum import MeasuredSpectrum
+from stickiness.measured.topography import Topography
+from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
+from stickiness.verdicts.measured_surface import Measurement
+
+#: Share of the elastic energy in waves longer than the map, up to which the map stands for the
+#: surface; of one measurement alone there are none.
+MOST_LONGER = 0.1
+#: Variables of a file by the fields of `TrialStates`, with their dimensions.
+STATE_VARIABLES = {
+    "elastic_energy": ("trial_energy", ("part", "trial")),
+    "gap_share": ("trial_gap_share", ("part", "trial", "gap_bin")),
+    "gap": ("trial_gap", ("part", "trial", "gap_bin")),
+    "full_contact_energy": ("simulated_full_contact", ("part",)),
+    "simulated_length": ("simulated_length", ("part", "simulation")),
+    "simulated_range": ("simulated_range", ("part", "simulation")),
+    "simulated_share": ("simulated_share", ("part", "simulation")),
+}
+
+
+def simulate_surface(
+    measurements: Sequence[Measurement], spectrum: MeasuredSpectrum
+) -> xr.Dataset | None:
+    """Simulate contact on the first of the measurements, if it can stand for the surface.
+
+    Returns
+    -------
+    Dataset or None
+        The variables of `STATE_VARIABLES`, for the whole map and its quarters, and `q_simulated`,
+        the highest wave number simulated [1/m]. None of a profile, of a map that lacks long waves
+        of another measurement, and if the simulation does not converge.
+    """
+    heights = measurements[0].heights
+    if not isinstance(heights, Topography) or not _has_long_waves(heights, spectrum):
+        return None
+    # The solvers are loaded with the first simulation.
+    from stickiness.remaining.height_simulation import simulate_heights
+    from stickiness.repulsive.solver import ConvergenceError
+
+    try:
+        simulated, q_simulated = simulate_heights(
+            heights.heights, heights.size, cutoff=spectrum.cutoff.q
+        )
+    except ConvergenceError as error:
+        logging.warning("heights are not simulated: %s", error)
+        return None
+    parts = (simulated.whole, *simulated.quarters)
+    dataset = xr.Dataset({"q_simulated": q_simulated})
+    for field, (name, dimensions) in STATE_VARIABLES.items():
+        dataset[name] = dimensions, _stack([getattr(part, field) for part in parts])
+        dataset[name].encoding = {"zlib": True}
+    return dataset
+
+
+def _has_long_waves(heights: Topography, spectrum: MeasuredSpectrum) -> bool:
+    """Whether the waves of a surface that store its energy fit into a map."""
+    rings = spectrum.rings
+    energy = spectrum.area * rings.q * rings.psd
+    longest = 2 * np.pi / max(heights.size)
+    return energy[rings.q < 0.7 * longest].sum() <= MOST_LONGER * energy.sum()
+
+
+def _stack(values: list) -> NDArray:
+    """One array of the values of all parts; the last state fills up those of a shorter part."""
+    most = max(np.shape(value)[:1] for value in values)
+    if not most:
+        return np.array(values)
+    return np.stack([value[np.minimum(np.arange(most[0]), len(value) - 1)] for value in values])
+
+
+def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
+    """Read what `simulate_surface` made from the dataset of a surface; None if it holds none."""
+    if "trial_energy" not in data:
+        return None
+    whole, *quarters = (
+        TrialStates(
+            **{
+                field: data[name].isel(part=part).values
+                for field, (name, _) in STATE_VARIABLES.items()
+            }
+        )
+        for part in range(data.sizes["part"])
+    )
+    return SimulatedHeights(whole, tuple(quarters))
