@@ -6,6 +6,7 @@ from common.conventions import logarithmic_grid
 from common.job import start
 from stickiness import Material, Surface, __version__, datasets, judge
 from stickiness.criteria.pair import WORDS
+from stickiness.verdicts.judgement import DECIDED_BY
 from stickiness.verdicts.verdict import describe_contact_law, find_limited
 
 
@@ -46,6 +47,7 @@ def write_contact_laws(verdicts, materials, label, output):
             pull_off=find_limited(cell, "pull_off"),
             modulus_threshold=find_limited(cell, "modulus_threshold"),
             energy_ratio=float(cell.energy_ratio.max()),
+            decided_by=DECIDED_BY[int(cell.decided_by)],
         )
         laws.append({"material": material.label, **contact_law})
     with datasets.whole_file(output.contact_laws) as path:

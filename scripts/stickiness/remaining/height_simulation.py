@@ -31,8 +31,10 @@ from stickiness.traction_laws import Exponential
 MOST_POINTS = 256  #: of the grid, along the longer side
 PIXELS_PER_WAVE = 4  #: of the shortest wave, at least
 MOST_PIXELS_PER_WAVE = 8  #: beyond which a finer grid changes little
-#: Works of adhesion that are simulated, over the elastic energy of full contact, falling.
-ENERGY_RATIOS = np.geomspace(2.0, 0.2, 8)
+#: Works of adhesion over the elastic energy of full contact, falling. They are simulated until
+#: hardly anything of them remains: broad tops hold with very little adhesion.
+ENERGY_RATIOS = np.append(np.geomspace(2.0, 0.2, 8), np.geomspace(0.1, 1e-4, 11))
+HARDLY_ANYTHING = 0.005
 #: Shares of the area in contact by theory, for the loads without adhesion.
 CONTACT_AREAS = np.geomspace(1e-3, 0.9, 12)
 CONTACT_TOLERANCE = 1e-4
@@ -136,7 +138,7 @@ def find_trial_states(
     h_rms = float(np.std(heights))
     counted = list(_press(heights, sides, solid, h_rms))
 
-    # Full contact has no gaps.
+    # Full contact has no gaps; it is the last state without adhesion.
     energy = full_contact_energy(heights, 1.0, sides, solid, edges="given")
     counted.append(_count_gaps(energy, np.zeros(heights.shape), h_rms))
 
@@ -155,6 +157,8 @@ def find_trial_states(
         share = max(-deepest.energy, 0.0) / adhesion_length
         simulated.append((adhesion_length, law.range, share))
         closed = states[0].gap
+        if share < HARDLY_ANYTHING:
+            break
     if not simulated:
         raise ConvergenceError("no state of contact with adhesion converged", None)
     lengths, ranges, shares = np.array(simulated[::-1]).T
@@ -162,6 +166,7 @@ def find_trial_states(
         elastic_energy=np.array([state.elastic_energy for state in counted]),
         gap_share=np.array([state.gap_share for state in counted]),
         gap=np.array([state.gap for state in counted]),
+        has_adhesion=np.arange(len(counted)) > CONTACT_AREAS.size,
         full_contact_energy=energy,
         simulated_length=lengths,
         simulated_range=ranges,

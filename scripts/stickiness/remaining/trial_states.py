@@ -51,6 +51,7 @@ class TrialStates:
     #: ``(state, bin)``; the first bin is contact.
     gap_share: NDArray
     gap: NDArray
+    has_adhesion: NDArray  #: whether a state was simulated with adhesion, ``(state,)``
     full_contact_energy: float  #: per nominal area [length]
     #: Adhesion lengths simulated, rising, their ranges [length], and the shares that remained,
     #: ``(length,)``.
@@ -71,6 +72,17 @@ class TrialStates:
             full_contact_energy=self.full_contact_energy * energy_unit,
             simulated_length=self.simulated_length * energy_unit,
             simulated_range=self.simulated_range * height_unit,
+        )
+
+    def without_adhesion(self) -> Self:
+        """Return the states that were simulated without adhesion, and full contact."""
+        kept = ~self.has_adhesion
+        return replace(
+            self,
+            elastic_energy=self.elastic_energy[kept],
+            gap_share=self.gap_share[kept],
+            gap=self.gap[kept],
+            has_adhesion=self.has_adhesion[kept],
         )
 
     def share(self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL) -> NDArray:
@@ -136,6 +148,11 @@ class SimulatedHeights:
 
     whole: TrialStates
     quarters: tuple[TrialStates, ...]
+
+    def without_adhesion(self) -> Self:
+        """Return the states that were simulated without adhesion, and full contact."""
+        quarters = tuple(quarter.without_adhesion() for quarter in self.quarters)
+        return replace(self, whole=self.whole.without_adhesion(), quarters=quarters)
 
     def share(
         self,

@@ -8,6 +8,7 @@ add; and the limits, from which the verdict follows. Results are codes and numbe
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -32,7 +33,13 @@ from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import REFERENCE_FREQUENCY
 from stickiness.verdicts.budgets import add_budgets
 from stickiness.verdicts.curves import AXES, PAIR_DIMENSIONS, follow_remaining
-from stickiness.verdicts.draws import DRAW_STATISTICS, DRAWN, QUANTILES, judge_draws
+from stickiness.verdicts.draws import (
+    DRAW_STATISTICS,
+    DRAWN,
+    QUANTILES,
+    find_share_quantiles,
+    judge_draws,
+)
 from stickiness.verdicts.limits import find_limits
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
@@ -46,6 +53,14 @@ from stickiness.verdicts.thresholds import (
     find_thresholds,
 )
 
+#: What decides a verdict, by code: theory of the spectrum, alone or with the skewness and the
+#: kurtosis of the heights, or contact simulated on the heights.
+DECIDED_BY = (
+    "theory for Gaussian heights",
+    "theory for the shape of the heights",
+    "contact simulated without adhesion",
+    "contact simulated with adhesion",
+)
 PER_PAIR = PAIR_DIMENSIONS[:2]  #: dimensions of what has one value for every pair
 
 
@@ -121,6 +136,7 @@ def judge(
     dataset["not_judged"] = PER_PAIR, np.array(reasons, "O")
     dataset["verdict"] = decide_pairs(dataset, wanted_share)
     dataset["disagrees"] = _find_disagreement(dataset)
+    dataset["decided_by"] = PER_PAIR, _find_deciders(materials, roughness, wanted_share)
     if thresholds:
         dataset = dataset.assign(
             _find_thresholds(materials, roughness, dataset, contact_area, wanted_share)
@@ -280,6 +296,30 @@ def decide_pairs(dataset: xr.Dataset, wanted_share: float) -> xr.DataArray:
     return low.copy(data=decide(low, high, grows, wanted_share))
 
 
+def _find_deciders(
+    materials: Mapping[str, Material], roughness: list[list[PairRoughness]], wanted_share: float
+) -> NDArray:
+    """Codes of what decides the verdicts, their places in `DECIDED_BY`; `roughness` as before."""
+    codes = [
+        [_find_decider(rough, rough.meet_draws(material, wanted_share)) for rough in row]
+        for material, row in zip(materials.values(), roughness, strict=True)
+    ]
+    return np.array(codes, "i1")
+
+
+def _find_decider(rough: PairRoughness, draws: Pair | None) -> int:
+    """Code of what decides the verdict on one pair."""
+    if draws is None:
+        return DECIDED_BY.index("theory for Gaussian heights")
+    simulated = rough.ends.simulated[0]
+    if simulated is None:
+        return DECIDED_BY.index("theory for the shape of the heights")
+    # Enough may remain without what attraction does to the contact.
+    pressed = replace(draws, simulated=np.full(draws.lacking.shape, simulated.without_adhesion()))
+    is_enough = find_share_quantiles(pressed)[0] >= draws.wanted_share
+    return DECIDED_BY.index(f"contact simulated {'without' if is_enough else 'with'} adhesion")
+
+
 def _find_disagreement(dataset: xr.Dataset) -> xr.DataArray:
     """Whether a criterion says the opposite of the verdict."""
     sticky = dataset.margin > 1
@@ -325,6 +365,7 @@ def _describe(dataset: xr.Dataset) -> xr.Dataset:
     dataset = datasets.annotate(dataset, **texts)
     dataset.verdict.attrs |= datasets.flags(WORDS)
     dataset.regime.attrs |= datasets.flags(REGIMES)
+    dataset.decided_by.attrs |= datasets.flags(DECIDED_BY)
     return dataset
 
 
@@ -370,6 +411,10 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "broken_at": ("Hz", "frequency of the modulus, or after a dwell the rate of breaking"),
         "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
         "verdict": ("1", "verdict: " + ", ".join(f"{i} {word}" for i, word in enumerate(WORDS))),
+        "decided_by": (
+            "1",
+            "decided by: " + ", ".join(f"{i} {x}" for i, x in enumerate(DECIDED_BY)),
+        ),
         "disagrees": ("1", "1 where a criterion says the opposite of the verdict"),
         "not_judged": ("1", "why a pair is not judged, a line each; empty if it is"),
     }

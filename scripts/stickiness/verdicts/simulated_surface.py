@@ -22,6 +22,7 @@ STATE_VARIABLES = {
     "elastic_energy": ("trial_energy", ("part", "trial")),
     "gap_share": ("trial_gap_share", ("part", "trial", "gap_bin")),
     "gap": ("trial_gap", ("part", "trial", "gap_bin")),
+    "has_adhesion": ("trial_has_adhesion", ("part", "trial")),
     "full_contact_energy": ("simulated_full_contact", ("part",)),
     "simulated_length": ("simulated_length", ("part", "simulation")),
     "simulated_range": ("simulated_range", ("part", "simulation")),
@@ -58,7 +59,8 @@ def simulate_surface(
     parts = (simulated.whole, *simulated.quarters)
     dataset = xr.Dataset({"q_simulated": q_simulated})
     for field, (name, dimensions) in STATE_VARIABLES.items():
-        dataset[name] = dimensions, _stack([getattr(part, field) for part in parts])
+        values = _stack([getattr(part, field) for part in parts])
+        dataset[name] = dimensions, values.astype("i1") if values.dtype == bool else values
         dataset[name].encoding = {"zlib": True}
     return dataset
 
@@ -89,6 +91,7 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
                 field: data[name].isel(part=part).values
                 for field, (name, _) in STATE_VARIABLES.items()
             }
+            | {"has_adhesion": data.trial_has_adhesion.isel(part=part).values == 1}
         )
         for part in range(data.sizes["part"])
     )

@@ -17,7 +17,7 @@ from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE, LEAST_LENGTH, PULL_OFF_UNKNOWN
 from stickiness.spectrum.interface import Spectrum
-from stickiness.verdicts.judgement import judge
+from stickiness.verdicts.judgement import DECIDED_BY, judge
 from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
@@ -65,6 +65,7 @@ class StickinessVerdict:
     margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
     energy_ratio: float  #: work of adhesion over the elastic energy of full contact
     wanted_share: float  #: of the work of adhesion, that must remain to stick
+    decided_by: str  #: one of `DECIDED_BY`: theory, or contact simulated on the heights
     material: Material = field(repr=False)  #: that was judged
     surface: Surface = field(repr=False)  #: on which it was judged
     doubts: tuple[str, ...]  #: why the answer is probably to another question
@@ -82,6 +83,7 @@ class StickinessVerdict:
             pull_off=Limited(self.pull_off, *self.pull_off_limits),
             modulus_threshold=Limited(self.modulus_threshold, *self.modulus_threshold_limits),
             energy_ratio=self.energy_ratio,
+            decided_by=self.decided_by,
         )
         return {"version": __version__, **contact_law, "warnings": list(self.doubts)}
 
@@ -94,6 +96,7 @@ class StickinessVerdict:
                 f"{self.word}: {self._describe_remaining()}",
                 f"pull-off stress: {self._describe_pull_off()}",
                 self._describe_threshold(),
+                f"decided by {self.decided_by}",
                 *self._describe_dwell(),
                 *doubts,
             ]
@@ -386,6 +389,7 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
         margins=margins,
         energy_ratio=float(cell.energy_ratio.max()),
         wanted_share=wanted_share,
+        decided_by=DECIDED_BY[int(cell.decided_by)],
         material=pair.material,
         surface=pair.surface,
         doubts=(*pair.doubts, *remarks, *reasons),
@@ -406,6 +410,7 @@ def describe_contact_law(
     pull_off: Limited,
     modulus_threshold: Limited,
     energy_ratio: float,
+    decided_by: str,
 ) -> dict[str, Any]:
     """Return a verdict and the effective attraction of a smooth surface, for DEM and FE models.
 
@@ -417,6 +422,7 @@ def describe_contact_law(
     work = material.work_of_adhesion
     contact_law = {
         "verdict": word,
+        "decided_by": None if word == WORDS[NOT_JUDGED] else decided_by,
         "law": material.law,
         "modulus": {"value": material.plane_strain_modulus, "unit": "Pa"},
         "work_of_adhesion": {"value": work, "unit": "J/m^2"},
