@@ -19,6 +19,7 @@ from stickiness.criteria.pair import (
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
+from stickiness.verdicts.judgement import DECIDED_BY
 from stickiness.verdicts.limits import find_limits, find_value
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
@@ -69,6 +70,7 @@ def describe_pair(pair, entry):
         "tone": TONES[code],
         "modulus": show_modulus(float(pair.modulus_quoted), entry, digits=3),
         "moment": texts.describe_moment(pair),
+        "decided_by": DECIDED_BY[int(pair.decided_by)],
         "threshold": NOTHING,
         "stiffening": "",
         "strain": "",

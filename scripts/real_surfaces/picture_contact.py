@@ -31,7 +31,9 @@ from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver
 from stickiness.repulsive.half_space import measure_slope
 from stickiness.repulsive.solver import ConvergenceError
+from stickiness.solids import HALF_SPACE
 from stickiness.traction_laws import LAWS, find_strength
+from stickiness.verdicts.simulated_surface import read_simulated
 
 PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
 MOST_PIXELS = 8  # per shortest wavelength
@@ -140,7 +142,15 @@ def pull(measured, surface, entry, squeeze):
         raise LeftOutError("the material has a roughness of its own, which the picture would lack")
     rough = prepare(measured, PULL_OFF_POINTS)
     material = Material.from_entry(entry)
-    return separate(rough, material, q0=float(surface.q0), q1=float(surface.q1), squeeze=squeeze)
+    simulated = read_simulated(surface) if material.solid == HALF_SPACE else None
+    return separate(
+        rough,
+        material,
+        q0=float(surface.q0),
+        q1=float(surface.q1),
+        squeeze=squeeze,
+        simulated=simulated,
+    )
 
 
 @dataclass(frozen=True)
@@ -218,16 +228,19 @@ def find_error(fine, coarse):
     return fine * maximum_filter1d(abs(coarse / fine - 1), 3, mode="nearest")
 
 
-def separate(rough, material, q0, q1, squeeze):
+def separate(rough, material, q0, q1, squeeze, simulated=None):
     """States of approach, squeeze and separation of `PeriodicHeights`.
 
-    `q0` and `q1` [1/m] are the ends of the spectrum judged; `squeeze` is over E* q0 h_rms.
+    `q0` and `q1` [1/m] are the ends of the spectrum judged; `squeeze` is over E* q0 h_rms;
+    `simulated` are the states on which the verdict rests, if any.
     """
     h_rms = float(np.std(rough.heights))
     modulus = material.plane_strain_modulus
     adhesion_length = material.work_of_adhesion / modulus
     simulated_range = find_resolved_range(rough, material, adhesion_length)
-    predicted = predict_resolved(rough, material, adhesion_length, simulated_range, q0)
+    predicted = predict_resolved(
+        rough, material, adhesion_length, simulated_range, q0, simulated=simulated
+    )
     law = LAWS[material.law](adhesion_length, simulated_range)
     squeeze_pressure = squeeze * q0 * h_rms
     measured = simulate(rough, law, material.solid, squeeze_pressure)
@@ -280,11 +293,17 @@ def find_resolved_range(rough, material, adhesion_length):
     return simulated_range
 
 
-def predict_resolved(rough, material, adhesion_length, simulated_range, q0):
+def predict_resolved(rough, material, adhesion_length, simulated_range, q0, simulated=None):
     """What the model predicts for the heights and the range that are simulated."""
     spectrum = periodic.shells(rough.heights, rough.sides)
     predicted = remaining.predict(
-        spectrum, adhesion_length, simulated_range, q0, material.solid, material.law
+        spectrum,
+        adhesion_length,
+        simulated_range,
+        q0,
+        material.solid,
+        material.law,
+        simulated=simulated,
     )
     if predicted.separation_limits[1] < LEAST_SHOWN:
         raise LeftOutError(

@@ -542,6 +542,7 @@ def predict(
     solid: Solid = HALF_SPACE,
     law: str = EXPONENTIAL,
     pressed: float = 0.0,
+    simulated: Any = None,
 ) -> Prediction:
     """Predict what remains of adhesion on a rough surface.
 
@@ -570,6 +571,9 @@ def predict(
     pressed : float
         Mean pressure [E*] before separation. Only a pressure that makes contact full matters, and
         only to the high limit of the pull-off.
+    simulated : SimulatedHeights, optional
+        States of contact of a half-space, simulated on heights of this spectrum, which replace the
+        theory of what remains; see `height_simulation.simulate_heights`.
 
     Examples
     --------
@@ -599,6 +603,7 @@ def predict(
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
         rms_slope=spectrum.rms_slope,
         law=law,
+        simulated=simulated,
     )
     most_ratio = 1e30
     if not 1 / most_ratio < range / rough.h_rms < most_ratio:

@@ -1,0 +1,202 @@
+"""What remains on given heights, by simulated states, against an independent minimiser."""
+
+import numpy as np
+import pytest
+from scipy import optimize
+
+from stickiness import adhesive, surface
+from stickiness.remaining.height_simulation import find_trial_states, simulate_heights
+from stickiness.spectrum import SelfAffine
+
+N = 64
+WAVES = 2
+ROUGH = SelfAffine(hurst=0.8, q0=2 * np.pi * WAVES, q1=2 * np.pi * 4 * WAVES, h_rms=0.01)
+TRANSFORMS = {
+    "Gaussian": lambda z: z,
+    "squared": lambda z: z**2,
+    "valleys cut": lambda z: np.maximum(z, -0.5),
+    "tops cut": lambda z: np.minimum(z, 0.5),
+}
+
+pytestmark = pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
+
+
+def make_heights(kind, n=N, seed=3):
+    heights = surface.synthesise(ROUGH, n=n, length=1.0, seed=seed)
+    heights = TRANSFORMS[kind](heights / heights.std())
+    return 0.01 * (heights - heights.mean()) / heights.std()
+
+
+def stiffness(n):
+    q = 2 * np.pi * np.fft.fftfreq(n, 1 / n)
+    return np.hypot(q[:, None], q) / 2
+
+
+def find_full_contact_energy(heights):
+    modes = np.fft.fft2(heights) / heights.size
+    return float(np.sum(stiffness(len(heights)) * np.abs(modes) ** 2)) / 2
+
+
+def minimise(heights, adhesion_length, range_, starts):
+    """Largest share that remains, by L-BFGS-B over the gaps, which are at least zero."""
+    q = stiffness(len(heights))
+
+    def find_energy(gap):
+        gap = gap.reshape(heights.shape)
+        pressure = np.fft.ifft2(q * np.fft.fft2(gap + heights)).real
+        attraction = adhesion_length * np.exp(-gap / range_)
+        energy = np.mean(pressure * (gap + heights)) / 2 - np.mean(attraction)
+        gradient = (pressure + attraction / range_) / gap.size
+        unit = adhesion_length * 1e-3  # of energies of order 1
+        return energy / unit, gradient.ravel() / unit
+
+    energies = [
+        optimize.minimize(
+            find_energy,
+            start.ravel(),
+            jac=True,
+            method="L-BFGS-B",
+            bounds=[(0, None)] * start.size,
+            options={"maxiter": 4000, "maxfun": 8000, "ftol": 1e-12, "gtol": 1e-9},
+        ).fun
+        for start in starts
+    ]
+    return max(-min(energies) * 1e-3, 0.0)
+
+
+@pytest.fixture(scope="module", params=TRANSFORMS)
+def simulated(request):
+    heights = make_heights(request.param)
+    return heights, find_trial_states(heights, 1.0)
+
+
+@pytest.mark.parametrize("energy_ratio", [0.25, 0.6, 1.1])
+@pytest.mark.parametrize("factor", [1.0, 3.0])
+def test_states_bound_the_share_of_an_independent_minimiser(simulated, energy_ratio, factor):
+    heights, states = simulated
+    length = energy_ratio * find_full_contact_energy(heights)
+    range_ = factor * np.sqrt(2 / N * length)
+    starts = [np.maximum(c * heights.std() - heights, 0) for c in (0.0, 0.6, 1.4, 2.5)]
+    share = minimise(heights, length, range_, [*starts, np.zeros_like(heights)])
+    (low,) = states.share(np.array([length]), np.array([range_]))
+    (high,) = states.high_limit(np.array([length]), np.array([range_]))
+    assert low <= share + 2e-4
+    assert low >= 0.85 * share - 0.01
+    assert high >= share - 2e-4
+
+
+@pytest.mark.parametrize("kind", ["Gaussian", "tops cut"])
+def test_limits_hold_at_a_range_that_the_grid_does_not_resolve(kind):
+    fine = surface.synthesise(ROUGH, n=4 * N, length=1.0, seed=3)
+    fine = TRANSFORMS[kind](fine / fine.std())
+    # The same waves on both grids.
+    modes = np.fft.fft2(fine)
+    index = np.abs(np.fft.fftfreq(4 * N, 1 / (4 * N)))
+    modes[np.maximum(index[:, None], index) >= N / 2] = 0.0
+    fine = 0.01 * np.fft.ifft2(modes).real / fine.std()
+    states = find_trial_states(fine[::4, ::4], 1.0)
+    length = 0.6 * states.full_contact_energy
+    range_ = np.sqrt(2 / (4 * N) * length)
+    law = adhesive.Exponential(length, range_)
+    energies = [
+        adhesive.solve(fine, 1.0, law, pressure=0.0, start=start, tol=1e-4).energy
+        for start in ("approach", "separation")
+    ]
+    share = -min(energies) / length
+    (low,) = states.share(np.array([length]), np.array([range_]))
+    (high,) = states.high_limit(np.array([length]), np.array([range_]))
+    assert range_ < 0.6 * states.simulated_range[np.searchsorted(states.simulated_length, length)]
+    assert 0.7 * share < low < share < high < 2 * share
+
+
+def test_full_contact_and_no_contact_are_exact():
+    states = find_trial_states(make_heights("Gaussian"), 1.0)
+    energy = find_full_contact_energy(make_heights("Gaussian"))
+    assert states.full_contact_energy == pytest.approx(energy, rel=1e-12)
+    strong = np.array([1e4 * energy])
+    (share,) = states.share(strong, np.array([1e-6]))
+    assert share == pytest.approx(1 - 1e-4, rel=1e-6)
+    assert states.area(strong, np.array([1e-6])) == 1.0
+    weak = np.array([1e-9 * energy])
+    (share,) = states.share(weak, np.array([1e-4]))
+    assert 0 <= share < 1e-3
+
+
+def test_shares_rise_with_the_work_and_the_range(simulated):
+    _, states = simulated
+    lengths = np.geomspace(0.01, 30, 60) * states.full_contact_energy
+    ranges = np.full(60, 0.002)
+    assert np.all(np.diff(states.share(lengths, ranges)) >= -1e-12)
+    wide = np.geomspace(1e-6, 1, 60)
+    length = np.full(60, 0.5 * states.full_contact_energy)
+    assert np.all(np.diff(states.share(length, wide)) >= -1e-12)
+
+
+def test_states_of_scaled_heights_are_scaled():
+    heights = make_heights("Gaussian")
+    states = find_trial_states(heights, 1.0)
+    scaled = find_trial_states(3e-6 * heights, 2e-4)
+    again = states.scaled(height_unit=3e-6, length_unit=2e-4)
+    for name in ("elastic_energy", "simulated_length", "simulated_range", "simulated_share"):
+        np.testing.assert_allclose(getattr(again, name), getattr(scaled, name), rtol=2e-3)
+
+
+@pytest.mark.parametrize("range_over_h_rms", [0.03, 0.3])
+@pytest.mark.parametrize("energy_ratio", [0.2, 0.8])
+def test_states_bound_a_law_with_a_tail(simulated, energy_ratio, range_over_h_rms):
+    heights, states = simulated
+    length = energy_ratio * states.full_contact_energy
+    range_ = range_over_h_rms * heights.std()
+    law = adhesive.VanDerWaals(length, range_)
+    energies = []
+    for start in ("approach", "separation"):
+        try:
+            state = adhesive.solve(heights, 1.0, law, pressure=0.0, start=start, tol=1e-3)
+        except (adhesive.ConvergenceError, ValueError):  # the grid does not resolve short ranges
+            continue
+        energies.append(state.energy)
+    share = max(-min(energies, default=0.0) / length, 0.0)
+    (low,) = states.share(np.array([length]), np.array([range_]), "van_der_waals")
+    (high,) = states.high_limit(np.array([length]), np.array([range_]), "van_der_waals")
+    assert low <= share + 2e-3 or not energies
+    assert high >= share - 2e-4
+    assert low < high
+
+
+def test_contact_without_adhesion_bounds_less():
+    simulated, _ = simulate_heights(make_heights("Gaussian"), (1.0, 1.0), cutoff=np.inf)
+    pressed = simulated.without_adhesion()
+    length = np.array([0.6 * simulated.whole.full_contact_energy])
+    arguments = (length, np.array([0.002]), "exponential", np.zeros(1))
+    assert 0 < pressed.share(*arguments, np.zeros(1)) < simulated.share(*arguments, np.zeros(1))
+    assert not pressed.whole.has_adhesion.any()
+
+
+def test_waves_that_are_not_simulated_take_adhesion_away_and_widen_the_limits():
+    simulated, q_max = simulate_heights(make_heights("Gaussian"), (1.0, 1.0), cutoff=np.inf)
+    assert q_max == pytest.approx(np.pi * N, rel=1e-6)
+    length = np.full(3, 0.8 * simulated.whole.full_contact_energy)
+    signs = np.array([-1.0, 0.0, 1.0])
+
+    def find_shares(lacking):
+        full = np.full(3, lacking)
+        return simulated.share(length, np.full(3, 0.002), "exponential", full, signs)
+
+    without = find_shares(0.0)
+    with_waves = find_shares(0.3)
+    assert np.all(np.diff(without) > 0)
+    assert np.all(np.diff(with_waves) > 0)
+    assert np.all(with_waves <= without)
+    assert with_waves[1] < 0.9 * without[1]
+
+
+def test_last_bits_of_the_heights_do_not_matter():
+    heights = make_heights("tops cut")
+    first, _ = simulate_heights(heights, (1.0, 1.0), cutoff=2 * np.pi * 16)
+    second, _ = simulate_heights(heights * (1 + 1e-15) + 1e-17, (1.0, 1.0), cutoff=2 * np.pi * 16)
+    for one_part, other in zip(
+        (first.whole, *first.quarters), (second.whole, *second.quarters), strict=True
+    ):
+        np.testing.assert_allclose(
+            one_part.simulated_share, other.simulated_share, rtol=1e-12, atol=1e-15
+        )
