@@ -122,9 +122,28 @@ def draw_points(ax, x, data, name, scale=1.0, **look):
 
 
 def find_rings(surface):
-    """Which wave numbers of a measured spectrum are measured: beyond the cutoff it may go on."""
+    """Which wave numbers of a measured spectrum are measured: it may go on, and have gaps."""
+    q = surface.wave_number.values
     cutoff = float(surface.q_cutoff) * (1 + 1e-9)
-    return (surface.wave_number.values <= cutoff) | (float(surface.q1) <= cutoff)
+    measured = (q <= cutoff) | (float(surface.q1) <= cutoff)
+    for low, high in surface.gap.values if "gap" in surface else ():
+        measured &= (q <= low) | (q >= high)
+    return measured
+
+
+def name_measurements(surface):
+    """Names of the measurements of a surface: variables or channels, else files."""
+    sources = surface.attrs["files"].split("; ")
+    return [source.rpartition(": ")[2].rpartition("/")[2] for source in sources]
+
+
+def draw_assumed(ax, surface, colour, power=0):
+    """Band, which covers 90 %, of a measured spectrum times q^power where it is not measured."""
+    q = surface.wave_number.values
+    low, high = surface.psd.where(~find_rings(surface)).values * q**power  # one standard error off
+    middle = np.sqrt(low * high)
+    factor = np.sqrt(high / low) ** COVERS
+    draw_band(ax, q, middle / factor, middle * factor, colour)
 
 
 def draw_spectrum(ax, surface, colour, label=None, power=0):

@@ -11,7 +11,6 @@ from common.plotting import BLACK, COLOURS, GREY, MARKERS
 from common.verdict_texts import MPA
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.remaining.prediction import DEFAULT_SHARE
-from stickiness.statistics import COVERS
 
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
@@ -67,21 +66,21 @@ def draw_spectrum(ax, surface):
         line = c0 * q ** (-2 * (HURST + 1))
         ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
     ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
-    ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / 1e3)  # room for the legend
+    room = 1e9 if "psd_measurement" in surface else 1e3  # for the legend
+    ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / room)
     ax.legend(loc="lower left" if surface.hurst > -1 else "center left")  # clear of the points
 
 
 def draw_measured(ax, surface, q):
     """Rings within the band of the instrument, the fit with its band beyond, and the cutoff."""
     beyond = ~plotting.find_rings(surface)
-    low, high = surface.psd.values[:, beyond]  # one standard error off
-    middle = np.sqrt(low * high)
-    factor = np.sqrt(high / low) ** COVERS
-    plotting.draw_band(ax, q[beyond], middle / factor, middle * factor, GREY)
+    plotting.draw_assumed(ax, surface, GREY)
     if "psd_measurement" in surface:  # those behind a stitched spectrum
+        names = plotting.name_measurements(surface)
         for index, levels in enumerate(surface.psd_measurement.values):
             look = {"color": COLOURS[1 + index % (len(COLOURS) - 1)], "linewidth": 0.8}
-            ax.plot(surface.wave_number_measured, levels, **look, label=f"measurement {index + 1}")
+            text = names[index] if surface.is_used[index] else f"{names[index]}, not used"
+            ax.plot(surface.wave_number_measured, levels, **look, label=text)
     plotting.draw_spectrum(ax, surface, COLOURS[0], "measured")
     fit = surface.psd_fit.where((surface.fitted == 1) | beyond)
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"

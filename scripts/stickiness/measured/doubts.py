@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from stickiness.measured import levelling
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.plausibility import LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
 from stickiness.statistics import COVERS
@@ -70,7 +71,8 @@ def doubt_sizes(heights: NDArray, steps: Sequence[float]) -> Iterator[str]:
             f"the side of {max(sides):.3g} m is shorter than {SHORTEST_SIDE:g} m, a few atoms: "
             "correct length or pixel_size"
         )
-    between = float(np.ptp(heights))
+    # A tilt, or the drift of a scan, may exceed the side.
+    between = float(np.ptp(levelling.detrend(heights, "plane")))
     if between > max(sides):
         yield (
             f"the heights range over {between:.3g} m, more than the side of {max(sides):.3g} m: "

@@ -52,6 +52,7 @@ class MeasuredSpectrum:
     cutoff: Cutoff  #: highest wave number that the instrument resolves, as the fit found data
     lowest: float  #: wave number of the scan [1/length]
     anisotropy: float = np.nan  #: amplitude of the dependence on direction; NaN for profiles
+    trusted: bool = True  #: False if no waves are left within the limits of the instrument
 
     def spectrum(self) -> Tabulated:
         """Return the spectrum as measured, up to the cutoff, as theories and `verdict` take it."""
@@ -80,6 +81,7 @@ def analyse(
     taper: Taper = "hann",
     limits: Limits | None = None,
     demand: bool = True,
+    alone: bool = True,
 ) -> MeasuredSpectrum:
     """Isotropic spectrum of one levelled measurement, with its limits and its self-affine fit.
 
@@ -93,6 +95,9 @@ def analyse(
         Default: the cutoff is detected, and at most half the Nyquist wave number.
     demand : bool
         False: fit all waves of the grid, few or noise as they may be, to show what was measured.
+    alone : bool
+        False: few waves within the limits are enough, because other measurements of the surface
+        complete them (`stitching.stitch`).
 
     Returns
     -------
@@ -134,13 +139,14 @@ def analyse(
         cutoff = Cutoff(nyquist, "two steps of the grid")
 
     # The fit, and the rings that are shown and integrated.
+    enough = demand and alone
     if is_map:
-        fit = fit_rings(narrow, q_min, cutoff.q, demand=demand)
+        fit = fit_rings(narrow, q_min, cutoff.q, demand=enough)
         rings = radial_average(modes, RINGS)
         area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
         anisotropy, _ = modes.anisotropy(fit.q_min, fit.q_max)
     else:
-        narrow, fit = isotropic(line, q_min, cutoff.q, demand=demand)
+        narrow, fit = _fit_profile(line, q_min, cutoff.q, NYQUIST_SHARE * nyquist, enough)
         q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
         rings = RadialPSD(q, mean, dof)
         area = ring_areas(q, lowest)
@@ -163,6 +169,19 @@ def ring_areas(q: NDArray, lowest: float) -> NDArray:
     middle = np.sqrt(q[1:] * q[:-1])
     edges = np.concatenate([[max(q[0] - lowest / 2, 0.0)], middle, [q[-1] ** 2 / middle[-1]]])
     return np.pi * np.diff(edges**2)
+
+
+def _fit_profile(
+    line: RadialPSD, q_min: float, q_max: float, q_recorded: float, demand: bool
+) -> tuple[RadialPSD, SelfAffineFit]:
+    """Rings of C of a profile that records more waves than it resolves, and the fit."""
+    falls = fit_rings(replace(line, psd=line.psd / line.q), q_min, q_max, demand=demand).hurst > 0
+    if falls or q_max >= q_recorded:
+        return isotropic(line, q_min, q_max, demand=demand)
+    # C1 of a plateau contains waves across the profile, up to where C falls by a roll-off or by
+    # blur. That is beyond q_max, but recorded.
+    rings, _ = isotropic(line, q_min, q_recorded, rolloff=True, demand=demand)
+    return rings, fit_rings(rings, q_min, q_max, demand=demand)
 
 
 def isotropic(

@@ -87,6 +87,15 @@ class SelfAffineFit:
         q = np.asarray(q, dtype=float)
         return self.c0 * np.maximum(q, self.q_rolloff or 0.0) ** (-2 * (self.hurst + 1))
 
+    def log_psd_se(self, q: ArrayLike) -> NDArray:
+        """Standard error of the logarithm of the fitted C(q), at any `q` [1/length] (m,)."""
+        q = np.asarray(q, dtype=float)
+        corner = self.q_rolloff or 0.0
+        gradient = [np.ones_like(q), -2 * np.log(np.maximum(q, corner))]
+        if corner:
+            gradient.append(np.where(q < corner, -2 * (self.hurst + 1), 0.0))
+        return np.sqrt(np.einsum("im,ij,jm->m", gradient, self.log_covariance, gradient))
+
     def c0_at_hurst(self, hurst: float) -> tuple[float, float, float]:
         """C0 at an imposed exponent, its standard error, and the largest C q^(2(H+1)) of a ring."""
         level = self.rings.psd * self.rings.q ** (2 * (hurst + 1))

@@ -6,6 +6,10 @@ tau is the scatter between measurements: place, calibration, instrument (Jacobs,
 from drawing spectra that agree with the measured one: rings vary by their sampling error,
 measurements by their scatter, extrapolation and plateau by the covariance of the fit.
 
+Between the bands of two measurements there may be a gap. There C is taken to stay level up to a
+corner and to fall as a power law from there to the next band, no faster than q^-4 (H = 1). Where
+the corner lies is not known: it is spread evenly over the orders of magnitude.
+
 Waves that the instrument does not resolve store elastic energy, most of it for H < 1/2, where the
 integral of q^2 C grows without end. Where the fitted law ends is not known: spectra are drawn whose
 ends are spread evenly over the orders of magnitude between the cutoff and a wave number given.
@@ -31,8 +35,49 @@ RINGS = 20  #: per decade
 SHORTEST_WAVE = 0.3e-9  #: [m]; the distance of atoms, where any roughness ends
 #: Energy of unresolved waves over that of the others, above which they decide.
 MOST_UNRESOLVED = 0.5
+STEEPEST_EXPONENT = 4.0  #: of C ~ q^-s in a gap: H = 1
 REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Wave numbers between the bands of two measurements, and ln C at both ends, `(2,)` each."""
+
+    q: NDArray  #: [1/length]
+    log_psd: NDArray
+    log_psd_se: NDArray
+
+    def contains(self, q: NDArray) -> NDArray:
+        """Which rings lie within; those at the ends belong to the measurements."""
+        low, high = self.inside
+        return (q > low) & (q < high)
+
+    @property
+    def inside(self) -> NDArray:
+        """Ends, half a ring from the bands."""
+        half = 10 ** (0.5 / RINGS)
+        return self.q * [half, 1 / half]
+
+    def bridge(self, q: NDArray, corner: ArrayLike, log_psd: NDArray) -> NDArray:
+        """Return ln C at q (m,) by its values at both ends and the place of the corner.
+
+        `corner` goes from 0, at the first end, to 1, at the last place possible. It may be (n,) and
+        `log_psd` (n, 2); the result is then (n, m).
+        """
+        low, high = np.log(self.q)
+        start, end = np.moveaxis(np.asarray(log_psd)[..., None], -2, 0)
+        # The last corner is that from which the steepest law meets the next band.
+        last = high - np.clip((start - end) / STEEPEST_EXPONENT, 0.0, high - low)
+        last = np.where(start > end, last, low)
+        place = low + np.asarray(corner)[..., None] * (last - low)
+        return start + (end - start) * np.maximum(np.log(q) - place, 0.0) / (high - place)
+
+    def variance(self, q: NDArray) -> NDArray:
+        """Variance of ln C at q (m,), of the ends and of the corner."""
+        first, last = self.bridge(q, np.array([0.0, 1.0]), np.array([self.log_psd] * 2))
+        ends = np.interp(np.log(q), np.log(self.q), self.log_psd_se**2)
+        return ends + (last - first) ** 2 / 12
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,57 +87,114 @@ class Stitched(MeasuredSpectrum):
     levels: NDArray  #: (k, m), C of each measurement in the rings, NaN outside its band
     #: (k,), mean of ln C less the stitched one where measurements overlap, else NaN
     offsets: NDArray
-    shares: NDArray  #: (k, m), weight of each measurement in each ring; they add up to 1
+    #: (k, m), weight of each measurement in each ring; they add up to 1, in a gap to 0
+    shares: NDArray
     scatter: float  #: tau, standard deviation of their ln C; NaN if no two overlap
+    gaps: tuple[Gap, ...]  #: between the bands of the measurements
+
+    @property
+    def in_gap(self) -> NDArray:
+        """Which rings lie in a gap, (m,)."""
+        return np.any([gap.contains(self.rings.q) for gap in self.gaps], axis=0)
 
 
 def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
-    """Log-average measurements of one surface into one `Stitched` spectrum; a single one stays."""
+    """Log-average measurements of one surface into one `Stitched` spectrum; a single one stays.
+
+    Measurements that are not trusted have levels and offsets, but no weight, unless none is.
+    """
     if len(measurements) == 1:
         return measurements[0]
-    logs, variances, q = _on_common_rings(measurements)
+    if not any(m.trusted for m in measurements):
+        measurements = [replace(m, trusted=True) for m in measurements]
+    trusted = [m for m in measurements if m.trusted]
+    gaps = _find_gaps(trusted)
+    logs, variances, q = _on_common_rings(measurements, gaps)
     tau2 = _variance_between(logs, variances)
-    shares, rings = _average(q, logs, variances, tau2)
-    top = max(measurements, key=lambda m: m.cutoff.q)
-    q_min = min(m.fit.q_min for m in measurements)
-    fit = fit_rings(rings, q_min, top.cutoff.q)
+    shares, rings = _average(q, logs, variances, tau2, gaps)
+    narrow = _weigh_gaps(rings, gaps)
+    top = max(trusted, key=lambda m: m.cutoff.q)
+    band = (min(m.fit.q_min for m in trusted), top.cutoff.q)
+    fit = fit_rings(narrow, *band)
     tau = float(np.sqrt(tau2))
-    has_plateau = fit.q_rolloff is not None
     covariance = fit.log_covariance.copy()
     # Offsets tilt the spectrum: add what raising each measurement by tau changes.
     for offsets in tau * np.eye(len(logs)) if tau > 0 else ():
-        _, raised = _average(q, logs + offsets[:, None], variances, tau**2)
-        changed = fit_rings(raised, q_min, top.cutoff.q, rolloff=has_plateau)
-        change = [np.log(changed.c0 / fit.c0), changed.hurst - fit.hurst]
-        if has_plateau:
-            change.append(np.log(changed.q_rolloff / fit.q_rolloff))
+        _, raised = _average(q, logs + offsets[:, None], variances, tau**2, gaps)
+        change = _find_change(fit, _weigh_gaps(raised, gaps), band)
         covariance += np.outer(change, change)
-    lowest = min(m.lowest for m in measurements)
+    # So do corners in gaps: add a sixth of what both ends of their even distribution change.
+    for corner in (0.0, 1.0) if gaps else ():
+        _, bent = _average(q, logs, variances, tau2, gaps, corner)
+        change = _find_change(fit, _weigh_gaps(bent, gaps), band)
+        covariance += np.outer(change, change) / 6
+    lowest = min(m.lowest for m in trusted)
     # Where a measurement overlaps with others, how far it is off the mean.
-    excess = logs - np.nansum(shares * logs, axis=0)
-    present = np.isfinite(logs)
-    shared = present & (present.sum(axis=0) > 1)
+    excess = logs - np.log(rings.psd) + _log_bias(rings.dof)
+    shared = np.isfinite(logs) & (shares < 1)
     offsets = [e[s].mean() if s.any() else np.nan for e, s in zip(excess, shared, strict=True)]
     return Stitched(
         rings=rings,
         area=ring_areas(rings.q, lowest),
-        narrow=rings,
+        narrow=narrow,
         fit=replace(fit, log_covariance=covariance),
         cutoff=replace(top.cutoff, q=fit.q_max),
         lowest=lowest,
-        anisotropy=float(np.fmax.reduce([m.anisotropy for m in measurements])),
-        levels=np.exp(logs + special.digamma(rings.dof) - np.log(rings.dof)),
+        anisotropy=float(np.fmax.reduce([m.anisotropy for m in trusted])),
+        levels=np.exp(logs + _log_bias(rings.dof)),
         offsets=np.array(offsets),
         shares=shares,
         scatter=tau,
+        gaps=tuple(gaps),
     )
 
 
-def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray, NDArray, NDArray]:
-    """Logarithm of C and its variance (k, m), NaN where there are no data; wave numbers (m,)."""
-    broadest = min(measurements, key=lambda m: m.lowest)
+def _find_gaps(measurements: Sequence[MeasuredSpectrum]) -> list[Gap]:
+    """Gaps between the bands of measurements that span two rings or more."""
+    gaps = []
+    by_band = sorted(measurements, key=lambda m: m.fit.q_min)
+    below = by_band[0]
+    for above in by_band[1:]:
+        if above.fit.q_min > below.cutoff.q * 10 ** (2 / RINGS):
+            ends = [(below.fit, below.cutoff.q), (above.fit, above.fit.q_min)]
+            q = np.array([end for _, end in ends])
+            psd = np.array([fit.psd(end) for fit, end in ends])
+            errors = np.array([fit.log_psd_se([end])[0] for fit, end in ends])
+            gaps.append(Gap(q, np.log(psd), errors))
+        below = max(below, above, key=lambda m: m.cutoff.q)
+    return gaps
+
+
+def _weigh_gaps(rings: RadialPSD, gaps: Sequence[Gap]) -> RadialPSD:
+    """Rings for the fit: all those of a gap count as three, since three numbers describe them."""
+    dof = rings.dof.copy()
+    for gap in gaps:
+        inside = gap.contains(rings.q)
+        dof[inside] *= min(3 / max(np.count_nonzero(inside), 1), 1.0)
+    return replace(rings, dof=dof)
+
+
+def _find_change(fit: SelfAffineFit, rings: RadialPSD, band: tuple[float, float]) -> list[float]:
+    """Return what other rings change in the logarithms of the parameters of a fit, and in H."""
+    has_plateau = fit.q_rolloff is not None
+    changed = fit_rings(rings, *band, rolloff=has_plateau)
+    change = [np.log(changed.c0 / fit.c0), changed.hurst - fit.hurst]
+    if has_plateau:
+        change.append(np.log(changed.q_rolloff / fit.q_rolloff))
+    return change
+
+
+def _on_common_rings(
+    measurements: Sequence[MeasuredSpectrum], gaps: Sequence[Gap]
+) -> tuple[NDArray, NDArray, NDArray]:
+    """Logarithm of C and its variance (k, m), NaN where there are no data; wave numbers (m,).
+
+    The variance is infinite where a measurement is not trusted.
+    """
+    trusted = [m for m in measurements if m.trusted]
+    broadest = min(trusted, key=lambda m: m.lowest)
     q_low = broadest.lowest
-    top = max(m.cutoff.q for m in measurements)
+    top = max(m.cutoff.q for m in trusted)
     count = int(np.ceil(np.log10(top / q_low) * RINGS)) + 1
     centres = q_low * 10 ** (np.arange(count) / RINGS)
     logs = np.full((len(measurements), count), np.nan)
@@ -101,43 +203,52 @@ def _on_common_rings(measurements: Sequence[MeasuredSpectrum]) -> tuple[NDArray,
         # The broadest counts below the interval of its fit, too: most of the variance is there.
         low = measurement.lowest if measurement is broadest else measurement.fit.q_min
         slack = 1 + 1e-9
-        rings = measurement.narrow.between(low / slack, measurement.cutoff.q * slack)
+        high = min(measurement.cutoff.q, top)
+        rings = measurement.narrow.between(low / slack, high * slack)
         index = np.rint(np.log10(rings.q / q_low) * RINGS).astype(int)
         dof = np.bincount(index, weights=rings.dof, minlength=count)
         # The mean of C over a ring differs from C at its middle unless the slope is taken out.
         level = rings.dof * rings.psd * (rings.q / centres[index]) ** REFERENCE_EXPONENT
         sums = np.bincount(index, weights=level, minlength=count)
         here = (dof > 0) & (sums > 0)
-        # digamma: the mean logarithm of a Gamma law lies below the logarithm of its mean
-        bias = special.digamma(dof[here]) - np.log(dof[here])
-        logs[k, here] = np.log(sums[here] / dof[here]) - bias
-        variances[k, here] = special.polygamma(1, dof[here])
-    used = np.isfinite(logs).any(0)
+        logs[k, here] = np.log(sums[here] / dof[here]) - _log_bias(dof[here])
+        variances[k, here] = special.polygamma(1, dof[here]) if measurement.trusted else np.inf
+    used = np.isfinite(variances).any(0) | np.any([gap.contains(centres) for gap in gaps], axis=0)
     return logs[:, used], variances[:, used], centres[used]
 
 
-def _average(q, logs, variances, tau2) -> tuple[NDArray, RadialPSD]:
+def _log_bias(dof: NDArray) -> NDArray:
+    """Mean logarithm of a Gamma law, below the logarithm of its mean."""
+    return special.digamma(dof) - np.log(dof)
+
+
+def _average(q, logs, variances, tau2, gaps, corner=0.5) -> tuple[NDArray, RadialPSD]:
     """Weights of the mean of ln C (k, m), and rings whose ln C has this mean and its variance."""
     weight = np.nan_to_num(1 / (variances + np.nan_to_num(tau2)))
-    shares = weight / weight.sum(axis=0)
+    total = weight.sum(axis=0)
+    total[total == 0] = 1.0  # in gaps
+    shares = weight / total
     mean = np.nansum(shares * logs, axis=0)
-    error2 = 1 / weight.sum(axis=0)
-    # Solve polygamma(1, dof) = error2: Newton's method on its inverse, nearly linear in dof.
-    dof = 0.5 + 1 / error2
+    variance = 1 / total
+    for gap in gaps:
+        inside = gap.contains(q)
+        mean[inside] = gap.bridge(q[inside], corner, gap.log_psd)
+        variance[inside] = gap.variance(q[inside])
+    # Solve polygamma(1, dof) = variance: Newton's method on its inverse, nearly linear in dof.
+    dof = 0.5 + 1 / variance
     for _ in range(20):
         trigamma = special.polygamma(1, dof)
-        dof = dof + trigamma * (1 - trigamma / error2) / special.polygamma(2, dof)
-    level = np.exp(mean + special.digamma(dof) - np.log(dof))
-    return shares, RadialPSD(q, level, dof)
+        dof = dof + trigamma * (1 - trigamma / variance) / special.polygamma(2, dof)
+    return shares, RadialPSD(q, np.exp(mean + _log_bias(dof)), dof)
 
 
 def _variance_between(logs: NDArray, variances: NDArray) -> float:
     """Variance between measurements, from the mean offsets of all pairs that overlap."""
     squares = []
     for j, k in combinations(range(len(logs)), 2):
-        weight = 1 / (variances[j] + variances[k])
-        if np.isfinite(weight).any():
-            total = np.nansum(weight)
+        weight = np.nan_to_num(1 / (variances[j] + variances[k]))
+        if np.any(weight > 0):
+            total = weight.sum()
             offset = np.nansum(weight * (logs[j] - logs[k])) / total
             squares.append(max(offset**2, 1 / total))  # at least its sampling error
     return float(np.mean(squares)) / 2 if squares else np.nan
@@ -214,6 +325,10 @@ def draw(
     cutoff = spectrum.cutoff.q
     levels = _draw_levels(spectrum, count, rng)
     law = _draw_laws(spectrum.fit, count, rng)
+    for gap in spectrum.gaps if isinstance(spectrum, Stitched) else ():
+        inside = gap.contains(rings.q)
+        ends = rng.normal(gap.log_psd, gap.log_psd_se, size=(count, 2))
+        levels[:, inside] = np.exp(gap.bridge(rings.q[inside], _draw_places(count, rng), ends))
 
     def integrate_law(end: ArrayLike, order: int) -> NDArray:
         """2 pi * integral of q^(1 + order) C from the cutoff to `end`, by every law."""
@@ -233,8 +348,7 @@ def draw(
     # Waves that are not resolved, up to ends of the law that are spread over the magnitudes.
     furthest = cutoff if extend_to is not None else max(continue_to or 0.0, cutoff)
     unresolved = integrate_law(furthest, 1) / 4 / moments["elastic_energy"]
-    # A seventh of the draws is at either end: limits of 90 % contain both, whatever else errs.
-    ends = cutoff * (furthest / cutoff) ** np.clip(rng.uniform(-0.2, 1.2, count), 0.0, 1.0)
+    ends = cutoff * (furthest / cutoff) ** _draw_places(count, rng)
     moments["elastic_energy"] = moments["elastic_energy"] + integrate_law(ends, 1) / 4
 
     # What a simulation lacks of that.
@@ -266,6 +380,14 @@ def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generato
         sampling = np.maximum(variance - tau**2 * np.sum(shares**2, axis=0), 0.0)
     normal = rng.normal(size=(count, len(variance)))
     return rings.psd * np.exp(offsets + normal * np.sqrt(sampling) - variance / 2)
+
+
+def _draw_places(count: int, rng: np.random.Generator) -> NDArray:
+    """Places from 0 to 1, a seventh of them at either end.
+
+    So limits of 90 % contain both ends, whatever else errs.
+    """
+    return np.clip(rng.uniform(-0.2, 1.2, count), 0.0, 1.0)
 
 
 class _Laws(NamedTuple):

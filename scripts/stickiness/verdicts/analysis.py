@@ -21,7 +21,7 @@ from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
-from stickiness.verdicts.measured_surface import Measurement
+from stickiness.verdicts.measured_surface import Measurement, find_spectra
 from stickiness.verdicts.parametric import (
     ENDS,
     POINTS_PER_DECADE,
@@ -34,6 +34,7 @@ DRAWS = 200  #: spectra that are drawn
 SEED = 1  #: of the draws
 END_QUANTILES = (0.16, 0.84)  #: of the draws, one standard error either side: smooth and rough end
 PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
+LEFT_OUT = "left out of the spectrum"
 IGNORED = "judged all the same (plausibility: ignore)"
 
 
@@ -62,13 +63,14 @@ def analyse(
         each, why no verdict should rest on the data; it is empty if one may.
     """
     heights = [measurement.heights for measurement in measurements]
-    analysed = [measurement.find_spectrum() for measurement in measurements]
+    analysed = find_spectra(measurements)
     spectrum = stitching.stitch([each for each, _ in analysed])
     fit = spectrum.fit
-    unfitted = [doubt for _, doubt in analysed]
+    unfitted = [doubt for _, doubt in analysed if doubt]
+    is_fitted = len(unfitted) < len(analysed)
 
     # Doubts: no fit, a fit that no surface has, or heights that no instrument measures.
-    doubts = [doubt for doubt in unfitted if doubt] or [*doubt_fit(fit)]
+    doubts = [*doubt_fit(fit)] if is_fitted else unfitted.copy()
     q_extended = None if extend_to is None else 2 * np.pi / extend_to
     if q_extended is not None and not fit.is_self_affine:
         doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
@@ -102,8 +104,10 @@ def analyse(
     if simulated is not None:
         dataset = dataset.merge(simulated)
     dataset = _add_budgets(describe_variables(dataset), fit)
+    remarks = [f"{LEFT_OUT}: {doubt}" for doubt in unfitted if is_fitted]
+    remarks += [f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged]
     return dataset.assign_attrs(
-        remarks="; ".join(f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged),
+        remarks="\n".join(remarks),
         cutoff=spectrum.cutoff.reason,
         files="; ".join(each.source for each in heights),
         contradictions="\n".join(text for each in heights for text in each.contradictions),
@@ -119,17 +123,22 @@ def _tabulate_spectrum(spectrum: MeasuredSpectrum, q_extended: float | None) -> 
     q = rings.q
     error = rings.standard_error
     psd = [rings.psd, rings.psd]
+    if isinstance(spectrum, stitching.Stitched):
+        # In gaps between the measurements both ends are one standard error apart from the middle.
+        spread = np.where(spectrum.in_gap, 1 / np.sqrt(rings.dof), 0.0)
+        psd = [rings.psd * np.exp(sign * spread) for sign in (-1, 1)]
     if q_extended is not None:
         top = spectrum.cutoff.q
         inside = q <= top * (1 + 1e-9)
         count = int(np.ceil(np.log10(q_extended / top) * POINTS_PER_DECADE)) + 1
         beyond = np.geomspace(top, q_extended, count)[0 if q[inside][-1] < top * 0.99 else 1 :]
         q = np.append(q[inside], beyond)
-        # Standard error of the fitted ln C, beyond the plateau.
-        design = np.array([np.ones_like(beyond), -2 * np.log(beyond)])
-        spread = np.sqrt(np.einsum("in,ij,jn->n", design, fit.log_covariance[:2, :2], design))
+        spread = fit.log_psd_se(beyond)
         law = fit.psd(beyond)
-        psd = [np.append(rings.psd[inside], law * np.exp(sign * spread)) for sign in (-1, 1)]
+        psd = [
+            np.append(end[inside], law * np.exp(sign * spread))
+            for end, sign in zip(psd, (-1, 1), strict=True)
+        ]
         error = np.append(error[inside], law * spread)
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
     data = {
@@ -220,8 +229,11 @@ def _compare_measurements(spectrum: stitching.Stitched) -> xr.Dataset:
     data = {
         "psd_measurement": (tuple(places), spectrum.levels),
         "offset": ("measurement", spectrum.offsets),
+        "is_used": ("measurement", spectrum.shares.any(axis=1).astype("i1")),
         "scatter": spectrum.scatter,
     }
+    if spectrum.gaps:
+        data["gap"] = (("gap_between", "side"), [gap.inside for gap in spectrum.gaps])
     return xr.Dataset(data, coords=places)
 
 

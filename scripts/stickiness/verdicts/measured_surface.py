@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from inspect import signature
 from typing import Any
@@ -49,8 +49,10 @@ class Measurement:
             limits=Limits(**lengths, detect=entry["cutoff"] == "detect"),
         )
 
-    def find_spectrum(self) -> tuple[MeasuredSpectrum, str]:
+    def find_spectrum(self, alone: bool = True) -> tuple[MeasuredSpectrum, str]:
         """Spectrum of the heights, and why its fit cannot be relied on; empty if it can.
+
+        Fewer waves are enough if it is not `alone`, because other measurements complete it.
 
         Raises
         ------
@@ -58,11 +60,15 @@ class Measurement:
             If the heights have no spectrum at all.
         """
         try:
-            return instrument_spectrum.analyse(self.heights, self.window, self.limits), ""
+            spectrum = instrument_spectrum.analyse(
+                self.heights, self.window, self.limits, alone=alone
+            )
+            return spectrum, ""
         except ValueError as error:
             doubt = self._explain(error)
         try:
-            return instrument_spectrum.analyse(self.heights, self.window, demand=False), doubt
+            spectrum = instrument_spectrum.analyse(self.heights, self.window, demand=False)
+            return replace(spectrum, trusted=False), doubt
         except ValueError:
             raise ValueError(doubt) from None
 
@@ -77,6 +83,18 @@ class Measurement:
                 f"{FEWEST_POINTS[1]}"
             )
         return doubt
+
+
+def find_spectra(measurements: Sequence[Measurement]) -> list[tuple[MeasuredSpectrum, str]]:
+    """Spectrum of every measurement of a surface, and why it is not used; see `find_spectrum`."""
+    analysed = [measurement.find_spectrum() for measurement in measurements]
+    if not any(spectrum.trusted for spectrum, _ in analysed):
+        return analysed
+    # One that stands alone completes those that are short.
+    return [
+        (spectrum, doubt) if spectrum.trusted else measurement.find_spectrum(alone=False)
+        for measurement, (spectrum, doubt) in zip(measurements, analysed, strict=True)
+    ]
 
 
 def _doubt_missing(heights: Topography | Profile, most: float) -> Topography | Profile:

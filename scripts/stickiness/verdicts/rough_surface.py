@@ -283,7 +283,7 @@ class Surface:
     @property
     def remarks(self) -> tuple[str, ...]:
         """Doubts that the user ignored, and where the user contradicts the file."""
-        ignored = self.data.attrs.get("remarks", "").split("; ")
+        ignored = self.data.attrs.get("remarks", "").split("\n")
         contradictions = self.data.attrs.get("contradictions", "").split("\n")
         return tuple(filter(None, (*ignored, *contradictions)))
 

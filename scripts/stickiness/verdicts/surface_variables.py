@@ -54,5 +54,7 @@ SURFACE_VARIABLES = {
     "wave_number_measured": ("1/m", "wave number of the rings of the measurements"),
     "psd_measurement": ("m^4", "power spectral density of each measurement", "outside its band"),
     "offset": ("1", "ln C of a measurement less the stitched one", "overlaps with no other"),
+    "is_used": ("1", "1 if the measurement has waves within the limits of its instrument"),
+    "gap": ("1/m", "ends of a range of wave numbers that no measurement resolves"),
     "scatter": ("1", "standard deviation between measurements in ln C", "no two overlap"),
 }

@@ -141,26 +141,21 @@ def test_states_of_scaled_heights_are_scaled():
         np.testing.assert_allclose(getattr(again, name), getattr(scaled, name), rtol=2e-3)
 
 
-@pytest.mark.parametrize("range_over_h_rms", [0.03, 0.3])
 @pytest.mark.parametrize("energy_ratio", [0.2, 0.8])
-def test_states_bound_a_law_with_a_tail(simulated, energy_ratio, range_over_h_rms):
+def test_states_bound_a_law_with_a_tail(simulated, energy_ratio):
     heights, states = simulated
     length = energy_ratio * states.full_contact_energy
-    range_ = range_over_h_rms * heights.std()
+    range_ = 0.6 * heights.std()
     law = adhesive.VanDerWaals(length, range_)
-    energies = []
-    for start in ("approach", "separation"):
-        try:
-            state = adhesive.solve(heights, 1.0, law, pressure=0.0, start=start, tol=1e-3)
-        except (adhesive.ConvergenceError, ValueError):  # the grid does not resolve short ranges
-            continue
-        energies.append(state.energy)
-    share = max(-min(energies, default=0.0) / length, 0.0)
+    energies = [
+        adhesive.solve(heights, 1.0, law, pressure=0.0, start=start, tol=1e-4).energy
+        for start in ("approach", "separation")
+    ]
+    share = max(-min(energies) / length, 0.0)
     (low,) = states.share(np.array([length]), np.array([range_]), "van_der_waals")
     (high,) = states.high_limit(np.array([length]), np.array([range_]), "van_der_waals")
-    assert low <= share + 2e-3 or not energies
+    assert 0.85 * share - 0.01 < low <= share + 2e-4
     assert high >= share - 2e-4
-    assert low < high
 
 
 def test_contact_without_adhesion_bounds_less():
