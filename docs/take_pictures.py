@@ -31,7 +31,7 @@ PAGES = {
         ".page { display: block !important }",
     ),
     "surface": (
-        "report/surfaces/jacksboro.html",
+        "report/surfaces/uncd_diamond.html",
         1300,
         "main > :not(h1, #contact, #contact + p, #contact + p + figure)"
         "{ display: none !important }",

@@ -7,12 +7,11 @@ PICTURED_MATERIAL = choose_pictured(MATERIALS)
 
 
 def topographies(wildcards):
-    """Files of a real surface's measurements; those that come with the project are left out."""
+    """Files of a real surface's measurements."""
     if wildcards.real_surface not in MEASURED_SURFACES:
         return []
     measurements = list_measurements(REAL_SURFACES[wildcards.real_surface])
-    files = [measurement["file"] for measurement in measurements]
-    return [local(file) for file in files if not file.startswith("builtin:")]
+    return [local(file) for file in dict.fromkeys(each["file"] for each in measurements)]
 
 
 def largest_contact(wildcards):

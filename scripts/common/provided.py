@@ -4,7 +4,7 @@ from stickiness import Material
 
 MATERIALS = ("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block")
 SURFACES = ("upper_line", "lower_line", "asphalt", "sandblasted_pmma", "ground_steel")
-SURFACES += ("polished_steel", "jacksboro")
+SURFACES += ("polished_steel", "uncd_diamond")
 
 
 def user_defined_first(names, provided):

@@ -291,7 +291,7 @@ def test_figure_6_fills_between_the_ends_of_a_parametric_surface(ax):
     plot_fig6.draw_spectra(ax, [("road", spectrum())], plot_fig6.EXPONENT)
     _, low, high = band_ends(ax)
     np.testing.assert_allclose([low, high], [[1e-5] * 4, [1e-3] * 4])
-    drawn(ax, [1e-4, 1e10], [1e-3, 1e-3], linestyle="--")
+    drawn(ax, [1e1, 1e10], [1e-3, 1e-3], linestyle="--")
     assert ax.get_legend_handles_labels()[1] == ["road"]
 
 
@@ -304,6 +304,31 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
     drawn(ax, q, [np.nan, 2e-5, 2e-5, np.nan], color=plotting.BLACK)
     ((_, halves),) = bar_lengths(ax)
     np.testing.assert_allclose(halves, 1.645 * 2e-6, rtol=1e-3)  # 90 %, not one standard error
+
+
+def test_figure_6_shows_every_measurement_and_a_band_between_them(ax):
+    q = WAVE_NUMBERS
+    more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
+    more |= {"fitted": np.ones(4, dtype="i1"), "q1": 1e6, "q_cutoff": 1e6}
+    levels = np.where([[1, 0, 0, 0], [0, 0, 0, 1]], q**-3.6, np.nan)
+    film = spectrum(**more).assign(
+        psd_measurement=(("measurement", "wave_number_measured"), levels),
+        is_used=("measurement", [1, 0]),
+        gap=(("gap_between", "side"), [[2e3, 5e5]]),
+        wave_number_measured=q,
+    )
+    film.attrs["files"] = "a.nc: stylus; data/b.spm"
+    plot_fig6.draw_spectra(ax, [("film", film)], plot_fig6.EXPONENT)
+    drawn(ax, q[[0, 3]], [1e-5] * 2, marker="o")
+    drawn(ax, q, [1, np.nan, np.nan, np.nan], marker="^")
+    drawn(ax, q, [np.nan, np.nan, np.nan, 1], marker="s")
+    # Both ends are one standard error off the middle, the band covers 90 %.
+    band = ax.collections[-1].get_paths()[0].vertices[:, 1]
+    np.testing.assert_allclose(
+        np.log([band.min(), band.max()]) - np.log(1e-4), [-3.788, 3.788], 1e-3
+    )
+    names = [text.strip() for text in ax.get_legend_handles_labels()[1]]
+    assert names == ["film", "stylus", "b.spm (not used)"]
 
 
 @pytest.fixture

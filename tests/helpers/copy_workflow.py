@@ -8,7 +8,7 @@ import yaml
 
 ROOT = Path(__file__).parents[2]
 # Real surfaces that claims need, one by its spectrum and one by its heights.
-SURFACES = ("asphalt", "polished_steel", "jacksboro")
+SURFACES = ("asphalt", "polished_steel", "uncd_diamond")
 PARTS = ("Snakefile", "rules", "scripts", "config", "envs", "profiles", "report")
 
 

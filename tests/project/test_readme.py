@@ -83,7 +83,7 @@ def count_failed_claims(results):
         ("underestimates it: 1.1 times", 1.1, 0.05, read_dmt_ratio),
         ("the ratio of simulation to sphere is 1.04", 1.04, 0.005, read_sphere),
         ("91 % of the predicted works", 91, 0.5, read_works),
-        ("49 pairs of material and surface, 7 stick", 7, 0, count_sticking),
+        ("49 pairs of material and surface, 11 stick", 11, 0, count_sticking),
         ("Of 22 graded claims, 7 are not reproduced", 7, 0, count_failed_claims),
     ],
 )

@@ -37,7 +37,7 @@ CHANGES = {
     ),
     "label of a surface": (
         "config/tiny_surfaces.yaml",
-        ("label: Jacksboro fault, Tennessee (terrain)", "label: terrain"),
+        ("label: ultrananocrystalline diamond", "label: diamond"),
         {"judge", "write_surface", "write_report", "plot_fig6", "check_claims"},
         {"analyse_surface", "picture_contact", *SOLUTIONS},
     ),

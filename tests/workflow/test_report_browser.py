@@ -126,7 +126,7 @@ def report(finished):
 
 @pytest.fixture(scope="module")
 def measured_page(finished):
-    return finished / "results/tiny/report/surfaces/jacksboro.html"
+    return finished / "results/tiny/report/surfaces/uncd_diamond.html"
 
 
 @pytest.fixture(scope="module")

@@ -109,12 +109,22 @@ def check_all(
         file = PAPER if top in config.keys() - given else name
         raise ConfigError(f"{file}: {problem}") from problem
     tables = {table: load(config[table]) for table in TABLES}
+    if "surfaces" not in given:  # those of the project
+        _locate_files(tables["surfaces"]["surfaces"], Path(config["surfaces"]).parents[1])
     surfaces = tables["surfaces"].get("surfaces", {})
     for table, content in tables.items():
         checked[table] = check(MODELS[table], content, config[table], surfaces=surfaces, made=made)
     for campaign, content in campaigns.items():
         checked[campaign] = check(MODELS[campaign], content, CAMPAIGNS[campaign], config=config)
     return checked
+
+
+def _locate_files(surfaces: dict[str, Any], project: Path) -> None:
+    """Turn the paths of measured files in the project into paths from the folder of the run."""
+    for entry in surfaces.values():
+        for reading in (entry, *entry.get("measurements", [])):
+            if "file" in reading:
+                reading["file"] = str(project / reading["file"])
 
 
 def check(model: Any, content: Mapping[str, Any], file: str, **context: Any) -> dict[str, Any]:

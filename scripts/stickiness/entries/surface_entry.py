@@ -25,8 +25,6 @@ from stickiness.measured.levelling import MAX_MISSING
 from stickiness.spectrum import kinds
 from stickiness.units import Quantity, si
 
-JACKSBORO = "builtin:jacksboro"  #: the topography that comes with the project
-
 
 def _as_list(value: Any) -> list[Any]:
     """Return a value, a list of values or None as a list."""
@@ -168,7 +166,7 @@ LengthUnit = Annotated[str, AfterValidator(_check_length_unit)]
 class Reading(Section):
     """How a measured file is read and analysed."""
 
-    file: f.Text = needed('file of any instrument, .nc, .npz, .npy, text or "builtin:jacksboro"')
+    file: f.Text = needed("file of any instrument, .nc, .npz, .npy or text")
     format: f.Text = optional(
         "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
     )
@@ -214,10 +212,6 @@ class Reading(Section):
         """
         context = info.context or {}
         if self.file is None or context.get("unread"):
-            return self
-        if self.file.startswith("builtin:"):
-            if self.file != JACKSBORO:
-                raise EntryError("file", self.file, f"unknown name; built in: {JACKSBORO}")
             return self
         path = Path(self.file)
         if not path.is_file():

@@ -419,26 +419,3 @@ def _scale(source: str, key: str, from_caller: str | None, in_file: str | None) 
             "or correct the file"
         )
     return scales[0]
-
-
-def jacksboro() -> Topography:
-    """Elevations about the Jacksboro fault, Tennessee: matplotlib's sample data set.
-
-    344 x 403 points (SRTM, 3 arc seconds); the steps in degrees are converted on the WGS 84
-    ellipsoid at the mean latitude, so that they differ along x (west to east) and y.
-    """
-    from matplotlib import cbook  # nothing else here needs it
-
-    with cbook.get_sample_data("jacksboro_fault_dem.npz") as data:
-        latitude = np.deg2rad((float(data["ymin"]) + float(data["ymax"])) / 2)
-        heights = np.ascontiguousarray(data["elevation"].T, dtype=float)
-        dx = float(data["dx"])
-        dy = float(data["dy"])
-    # Lengths of a degree, by the radii of curvature across and along the meridian.
-    semi_major_axis = 6378137.0  # of WGS 84 [m]
-    eccentricity2 = 6.69437999014e-3
-    w = 1 - eccentricity2 * np.sin(latitude) ** 2
-    east = float(np.deg2rad(semi_major_axis / np.sqrt(w) * np.cos(latitude)))
-    north = float(np.deg2rad(semi_major_axis * (1 - eccentricity2) / w**1.5))
-    source = "matplotlib sample data jacksboro_fault_dem.npz: elevation"
-    return Topography(heights, dx * east, dy * north, source)

@@ -12,7 +12,6 @@ from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
 from stickiness.measured.psd import Taper
 from stickiness.measured.topography import Profile, Topography
 
-JACKSBORO = "builtin:jacksboro"  #: name of the topography that comes with the project
 FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
 LIMIT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  #: lengths of `Limits`
@@ -35,12 +34,9 @@ class Measurement:
         A file with too many missing points is read all the same, with a doubt that forbids a
         verdict, so that its page can show what is wrong.
         """
-        if entry["file"] == JACKSBORO:
-            heights = topography.jacksboro()
-        else:
-            reading = {key: entry[key] for key in _READING if entry.get(key) is not None}
-            heights = topography.read(entry["file"], max_missing=_ALL_MISSING, **reading)
-            heights = _doubt_missing(heights, most=entry["max_missing"])
+        reading = {key: entry[key] for key in _READING if entry.get(key) is not None}
+        heights = topography.read(entry["file"], max_missing=_ALL_MISSING, **reading)
+        heights = _doubt_missing(heights, most=entry["max_missing"])
         lengths = {key: float(entry[key]) for key in LIMIT_KEYS if entry.get(key) is not None}
         return cls(
             heights=heights.detrended(entry["detrend"]),

@@ -9,17 +9,20 @@ from common.config import load
 from common.config.models import MODELS
 
 ROOT = Path(__file__).parents[3]
+MAP = {"kind": "measured", "label": "map", "source": "own", "file": "README.md", "detrend": "plane"}
 CASES = load.load(Path(__file__).with_name("errors.yaml"))
 
 
 @pytest.fixture(scope="module")
 def files():
-    """The committed configuration by its files."""
-    return {
+    """The committed configuration by its files, and a map in a file of its own."""
+    files = {
         "config": load.defaults(ROOT),
         **{table: load.load(ROOT / f"config/{table}.yaml") for table in load.TABLES},
         **{name: load.load(ROOT / path) for name, path in load.CAMPAIGNS.items()},
     }
+    files["surfaces"]["surfaces"]["map"] = dict(MAP)
+    return files
 
 
 @pytest.fixture
@@ -73,7 +76,7 @@ def test_an_error_says_what_would_be_right(check, wrong, hint):
 
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.3, "thickness": "25 um"}
 LAYER = {"materials/psa/thickness": "50 um"}
-TEXT = {"surfaces/jacksboro/file": "README.md"}
+TEXT = {"surfaces/map/file": "README.md"}
 LIMIT = "experiments/wafers/cases/limit"
 KNOWN = {"value": "1 um", "known": "read"}
 
@@ -88,10 +91,10 @@ KNOWN = {"value": "1 um", "known": "read"}
         (
             "surfaces",
             TEXT
-            | {"surfaces/jacksboro/length": ["160 m", "2 mm"]}
-            | {"surfaces/jacksboro/plausibility": "ignore"},
+            | {"surfaces/map/length": ["160 m", "2 mm"]}
+            | {"surfaces/map/plausibility": "ignore"},
         ),
-        ("surfaces", TEXT | {"surfaces/jacksboro/missing_rim": 2}),
+        ("surfaces", TEXT | {"surfaces/map/missing_rim": 2}),
         ("experiments", {f"{LIMIT}/rolloff_wavelength": {"value": "0.1 um", "known": "read"}}),
         (
             "experiments",

@@ -67,6 +67,14 @@ def test_a_module_and_files_that_another_workflow_makes(folder):
         check()
 
 
+def test_files_of_the_project_are_found_from_any_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    config = load.defaults(ROOT, lambda path: f"{ROOT}/{path}")
+    surfaces = load.check_all(config, {}, {})["surfaces"]["surfaces"]
+    files = [each["file"] for each in surfaces["uncd_diamond"]["measurements"]]
+    assert files == [str(ROOT / "config/topographies/uncd_diamond.nc")] * 3
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

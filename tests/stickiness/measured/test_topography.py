@@ -372,18 +372,6 @@ def test_levelling_equals_a_dense_least_squares_fit(kind, terms):
         levelling.detrend(heights, "cubic")
 
 
-def test_jacksboro_has_the_steps_of_the_ellipsoid():
-    t = topography.jacksboro()
-    assert t.heights.shape == (403, 344)
-    assert (t.heights.min(), t.heights.max()) == (236, 1076)
-    # The usual series for the length of a degree on WGS 84, independent of the radii of curvature
-    # used; its coefficients are rounded to 1 cm in 111 km.
-    phi = np.deg2rad((36.73291666666667 + 36.44625) / 2)
-    north = 111132.92 - 559.82 * np.cos(2 * phi) + 1.175 * np.cos(4 * phi)
-    east = 111412.84 * np.cos(phi) - 93.5 * np.cos(3 * phi) + 0.118 * np.cos(5 * phi)
-    np.testing.assert_allclose([t.dx, t.dy], np.array([east, north]) / 1200, rtol=1e-6)
-
-
 @pytest.mark.parametrize("options", [{}, {"missing": "crop"}, {"spikes": "keep", "missing_rim": 1}])
 def test_an_array_is_cleaned_as_a_file_is(tmp_path, options):
     heights = np.random.default_rng(2).normal(size=(30, 20)).cumsum(axis=0)
