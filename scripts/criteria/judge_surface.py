@@ -4,9 +4,11 @@ import json
 
 from common.conventions import logarithmic_grid
 from common.job import start
-from stickiness import Material, Surface, __version__, datasets, judge
+from stickiness import __version__, datasets
 from stickiness.criteria.pair import WORDS
-from stickiness.verdicts.judgement import DECIDED_BY
+from stickiness.verdicts.judgement import DECIDED_BY, judge
+from stickiness.verdicts.material import Material
+from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.verdict import describe_contact_law, find_limited
 
 

@@ -6,7 +6,7 @@ All kinds have the same variables, so that verdicts treat them alike, see `stick
 import logging
 
 from common.job import start
-from stickiness import Surface
+from stickiness.verdicts.rough_surface import Surface
 
 
 def main(job):

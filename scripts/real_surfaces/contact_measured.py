@@ -11,7 +11,7 @@ from common.contact_curves import load_curves
 from common.conventions import VARIANT, logarithmic_grid
 from common.job import start
 from real_surfaces.measured_maps import read_map
-from stickiness import Material, datasets
+from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive import solver as adhesive
 from stickiness.measured import periodic
@@ -20,6 +20,7 @@ from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive import solver as repulsive
 from stickiness.traction_laws import Exponential
 from stickiness.units import Quantity
+from stickiness.verdicts.material import Material
 
 WAYS = ("taper", "mirror")  # to make heights periodic that are not
 SOLVED_VARIABLES = ["area_fraction", "mean_gap", "edge_gap", "attractive_area"]

@@ -24,15 +24,17 @@ from common.formatting import amount, percent
 from common.job import start
 from common.verdict_texts import LEAST_SHOWN
 from real_surfaces.measured_maps import read_map
-from stickiness import Material, datasets, remaining
+from stickiness import datasets, remaining
 from stickiness.entries import list_measurements
 from stickiness.measured import periodic
 from stickiness.plausibility import PlausibilityWarning
+from stickiness.remaining.measurement import measure as measure_remaining
 from stickiness.repulsive import solver
 from stickiness.repulsive.half_space import measure_slope
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE
 from stickiness.traction_laws import LAWS, find_strength
+from stickiness.verdicts.material import Material
 from stickiness.verdicts.simulated_surface import read_simulated
 
 PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
@@ -320,7 +322,7 @@ def simulate(rough, law, solid, squeeze_pressure):
         with warnings.catch_warnings():
             # What a coarse grid does to the result is in the limits.
             warnings.simplefilter("ignore", PlausibilityWarning)
-            return remaining.measure(
+            return measure_remaining(
                 rough.heights,
                 rough.sides,
                 law,

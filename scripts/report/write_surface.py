@@ -10,12 +10,13 @@ from common.table_rows import describe_pair, describe_surface, explain
 from common.templates import write_page
 from common.verdict_texts import describe_moment
 from report import interactive, pages, surface_figures
-from stickiness import Material, datasets
+from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.criteria.pair import NOT_JUDGED, SIGNS
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
+from stickiness.verdicts.material import Material
 from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
 
 QUOTED_RANGE = 0.03  # over h_rms, at which a_V of the measured heights is quoted

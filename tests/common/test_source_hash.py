@@ -1,5 +1,8 @@
 """The hash of a job's code changes with the code that the job runs, and with nothing else."""
 
+import ast
+from pathlib import Path
+
 import pytest
 
 from common import source_hash as code
@@ -74,3 +77,25 @@ def test_a_cache_that_cannot_be_read_or_written_does_no_harm(hash_now, tmp_path)
     (tmp_path / "file").write_text("not a folder, and not JSON", encoding="utf-8")
     for cache in ("file", "file/below.json"):
         assert hash_now(cache=cache) == before
+
+
+def test_scripts_name_the_module_of_what_a_package_loads_lazily():
+    # The hash follows modules; `from stickiness import Surface` would hide that of `Surface`.
+    modules = code.SourceReader(code.SCRIPTS, Path("unused")).modules
+    trees = {name: ast.parse(path.read_bytes()) for name, path in modules.items()}
+    lazy_packages = {
+        name
+        for name, tree in trees.items()
+        if any(getattr(node, "name", "") == "__getattr__" for node in tree.body)
+    }
+    assert "stickiness" in lazy_packages
+    hidden = {
+        (name, f"{node.module}.{alias.name}")
+        for name, tree in trees.items()
+        if not name.startswith("stickiness")
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ImportFrom) and node.module in lazy_packages
+        for alias in node.names
+        if f"{node.module}.{alias.name}" not in modules and alias.name != "__version__"
+    }
+    assert hidden == set()
