@@ -131,6 +131,7 @@ def verdicts():
             "rate_threshold_low": (dims[:2], np.full((2, 2), np.nan)),
             "rate_threshold_high": (dims[:2], np.full((2, 2), np.nan)),
             "disagrees": ((*dims[:2], "criterion"), [[[0] * 3] * 2, [[0, 1, 0], [0, 0, 1]]]),
+            "decided_by": (dims[:2], [[0, 0], [0, 0]]),
         },
         coords={
             "material": ["jelly", "iron"],
