@@ -35,6 +35,7 @@ MOST_PIXELS_PER_WAVE = 8  #: beyond which a finer grid changes little
 #: hardly anything of them remains: broad tops hold with very little adhesion.
 ENERGY_RATIOS = np.append(np.geomspace(2.0, 0.2, 8), np.geomspace(0.1, 1e-4, 11))
 HARDLY_ANYTHING = 0.005
+LAST_STEP = 1.1  #: of the tension on separation, over the one before
 #: Shares of the area in contact by theory, for the loads without adhesion.
 CONTACT_AREAS = np.geomspace(1e-3, 0.9, 12)
 CONTACT_TOLERANCE = 1e-4
@@ -74,7 +75,7 @@ def simulate_heights(
     heights = np.asarray(heights, dtype=float)
     q_max, pixels = choose_grid(heights.shape, sides, cutoff)
 
-    def simulate(part: NDArray) -> TrialStates:
+    def simulate(part: NDArray, pull: bool = False) -> TrialStates:
         # The part, with its sides over the first side of the whole.
         shares = zip(sides, part.shape, heights.shape, strict=True)
         part_sides = tuple(side / sides[0] * n / of_whole for side, n, of_whole in shares)
@@ -82,7 +83,8 @@ def simulate_heights(
         limited = periodic.band_limited(level, part_sides, q_max * sides[0], pixels)
         # Heights of one size for every surface, rounded: last bits do not matter.
         height_unit = float(np.std(limited)) / STANDARD_HEIGHT
-        states = find_trial_states(np.round(limited / height_unit, DECIMALS), part_sides)
+        standard = np.round(limited / height_unit, DECIMALS)
+        states = find_trial_states(standard, part_sides, pull=pull)
         return states.scaled(height_unit=height_unit, length_unit=sides[0])
 
     half_x, half_y = (n // 2 for n in heights.shape)
@@ -91,7 +93,7 @@ def simulate_heights(
         for along_x in (slice(None, half_x), slice(half_x, None))
         for along_y in (slice(None, half_y), slice(half_y, None))
     ]
-    return SimulatedHeights(simulate(heights), tuple(quarters)), q_max
+    return SimulatedHeights(simulate(heights, pull=True), tuple(quarters)), q_max
 
 
 def choose_grid(
@@ -106,7 +108,10 @@ def choose_grid(
 
 
 def find_trial_states(
-    heights: ArrayLike, length: float | tuple[float, float], solid: Solid = HALF_SPACE
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    solid: Solid = HALF_SPACE,
+    pull: bool = True,
 ) -> TrialStates:
     """Simulate states of contact on periodic heights.
 
@@ -118,6 +123,8 @@ def find_trial_states(
         Sides of the cell [length].
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `length`.
+    pull : bool
+        Whether to pull the surfaces off, for `TrialStates.distance`.
 
     Raises
     ------
@@ -142,7 +149,8 @@ def find_trial_states(
     energy = full_contact_energy(heights, 1.0, sides, solid, edges="given")
     counted.append(_count_gaps(energy, np.zeros(heights.shape), h_rms))
 
-    # States at zero load, from strong to weak adhesion, and the share in the deepest of each.
+    # States at zero load, from strong to weak adhesion: the share in the deepest of each, and the
+    # distance over which that acts on separation.
     simulated = []
     closed: str | NDArray = adhesive.SEPARATION
     pixel = max(side / n for side, n in zip(sides, heights.shape, strict=True))
@@ -155,13 +163,15 @@ def find_trial_states(
         counted += [_count_gaps(state.elastic_energy, state.gap, h_rms) for state in states]
         deepest = min(states, key=lambda state: state.energy)
         share = max(-deepest.energy, 0.0) / adhesion_length
-        simulated.append((adhesion_length, law.range, share))
-        closed = states[0].gap
         if share < HARDLY_ANYTHING:
+            simulated.append((adhesion_length, law.range, share, h_rms))
             break
+        tension = _pull_off(heights, sides, deepest, share, solid) if pull else np.nan
+        simulated.append((adhesion_length, law.range, share, adhesion_length * share / tension))
+        closed = states[0].gap
     if not simulated:
         raise ConvergenceError("no state of contact with adhesion converged", None)
-    lengths, ranges, shares = np.array(simulated[::-1]).T
+    lengths, ranges, shares, distances = np.array(simulated[::-1]).T
     return TrialStates(
         elastic_energy=np.array([state.elastic_energy for state in counted]),
         gap_share=np.array([state.gap_share for state in counted]),
@@ -171,7 +181,40 @@ def find_trial_states(
         simulated_length=lengths,
         simulated_range=ranges,
         simulated_share=shares,
+        simulated_distance=distances,
     )
+
+
+def _pull_off(
+    heights: NDArray,
+    sides: tuple[float, float],
+    state: adhesive.Adhesion,
+    share: float,
+    solid: Solid,
+) -> float:
+    """Largest mean tension [E*] that a state of zero load withstands, within some 5 %."""
+
+    def pull(tension: float, start: adhesive.Adhesion) -> adhesive.Adhesion | None:
+        """State under a tension; None if that tears the surfaces apart."""
+        states = _adhere(heights, sides, state.law, solid, (start,), pressure=-tension)
+        return next(states, None)
+
+    # Halve a tension until the surfaces withstand it, and then raise it in steps, each half as
+    # large as the one before that they did not withstand.
+    tension = state.law.adhesion_length * share / state.rms_height
+    held = pull(tension, state)
+    while held is None and tension > 0:
+        tension /= 2
+        held = pull(tension, state)
+    step = 2.0
+    while step > LAST_STEP:
+        further = pull(tension * step, held)
+        if further is None:
+            step = np.sqrt(step)
+        else:
+            tension *= step
+            held = further
+    return tension * np.sqrt(step)
 
 
 class _CountedState(NamedTuple):
@@ -209,9 +252,10 @@ def _adhere(
     sides: tuple[float, float],
     law: Exponential,
     solid: Solid,
-    starts: tuple[str | NDArray, ...],
+    starts: tuple[str | NDArray | adhesive.Adhesion, ...],
+    pressure: float = 0.0,
 ) -> Iterator[adhesive.Adhesion]:
-    """States of contact at zero load, from several starts, but for those that do not converge."""
+    """States of contact at a load, from several starts, but for those that do not converge."""
     for start in starts:
         try:
             with warnings.catch_warnings():
@@ -221,7 +265,7 @@ def _adhere(
                     heights,
                     sides,
                     law,
-                    pressure=0.0,
+                    pressure=pressure,
                     start=start,
                     tol=ADHESION_TOLERANCE,
                     solid=solid,

@@ -53,8 +53,6 @@ DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to st
 # Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
 # of full contact is off by less than 1e-3 of itself.
 FILM_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
-#: Factors on an energy ratio, among which that is sought at which Gaussian heights keep a share.
-GAUSSIAN_FACTORS = np.geomspace(1e-3, 1e2, 81)
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
 UNLIKE = 2.0
 
@@ -103,8 +101,8 @@ class Roughness:
     #: share remains, and its error: see `height_shape`
     shape: ArrayLike = 0.0
     shape_error: ArrayLike = 0.0
-    #: `SimulatedHeights`, or an array of these, which replace the theory of the share and of the
-    #: area; None where there are none
+    #: `SimulatedHeights`, or an array of these, which replace the theory of share, area and
+    #: distance; None where there are none
     simulated: Any = None
     #: Energy of full contact of waves that are not simulated, over that of the others
     lacking: ArrayLike = 0.0
@@ -285,34 +283,17 @@ class Roughness:
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts: its work over the largest tension [length]."""
-        energy_ratio = self._find_gaussian_ratio(adhesion_length, range)
+        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
         state = self._deepest_state(energy_ratio, adhesion_length, range)
         acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
         tension = np.where(acts, state.tension, 1.0)
         distance = self.h_rms * energy_ratio * state.share / tension
-        return plain(np.where(acts, distance, np.asarray(range) + self.h_rms))
-
-    def _find_gaussian_ratio(self, adhesion_length, range) -> NDArray:
-        """Energy ratio at which Gaussian heights of the same spectrum would keep the same share."""
-        ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
-        if not np.any(np.not_equal(self.simulated, None)):
-            return ratio
-        # Interpolate the theory of the share over factors on the ratio; it rises with them.
-        factors = GAUSSIAN_FACTORS.reshape(-1, *(1,) * np.ndim(ratio))
-        shares = remaining_share(
-            ratio * factors,
-            range / np.asarray(self.h_rms),
-            self.zone(adhesion_length, range),
-            load_scale=self.load_scale,
-            law=self.law,
+        by_theory = np.where(acts, distance, np.asarray(range) + self.h_rms)
+        # Heights times a factor are simulated as they were, in a unit that is so much larger.
+        in_unit = self._replace_simulated(
+            "distance", by_theory / self.height_factor, adhesion_length, range
         )
-        share = np.asarray(self.share(adhesion_length, range))
-        columns = np.reshape(shares, (factors.size, -1)).T
-        factor = [
-            np.exp(np.interp(wanted, column, np.log(GAUSSIAN_FACTORS)))
-            for wanted, column in zip(share.ravel(), columns, strict=True)
-        ]
-        return ratio * np.reshape(factor, share.shape)
+        return plain(in_unit * self.height_factor)
 
     def _deepest_state(self, energy_ratio, adhesion_length, range) -> DeepestState:
         return find_deepest_state(

@@ -31,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
-from stickiness.traction_laws import EXPONENTIAL, LAWS
+from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 # At longer ranges than those simulated the states bound closely: what they miss is less than this,
 # over the product of what remains and what is lost, and absolute.
@@ -58,6 +58,8 @@ class TrialStates:
     simulated_length: NDArray
     simulated_range: NDArray
     simulated_share: NDArray
+    #: Work that remains over the largest tension on separation [length]; NaN where not simulated
+    simulated_distance: NDArray
 
     def scaled(self, height_unit: float, length_unit: float) -> Self:
         """Return the states in other units: of heights and gaps, and of lengths along the surface.
@@ -72,6 +74,7 @@ class TrialStates:
             full_contact_energy=self.full_contact_energy * energy_unit,
             simulated_length=self.simulated_length * energy_unit,
             simulated_range=self.simulated_range * height_unit,
+            simulated_distance=self.simulated_distance * height_unit,
         )
 
     def without_adhesion(self) -> Self:
@@ -101,6 +104,17 @@ class TrialStates:
         """Share of the nominal area in contact in the deepest state, ``(n,)``; as `share`."""
         gains = self._gains(adhesion_length, range, law)
         return np.where(gains.max(axis=1) > 0, self.gap_share[gains.argmax(axis=1), 0], 0.0)
+
+    def distance(self, adhesion_length: NDArray, range: NDArray) -> NDArray:
+        """Distance over which what remains acts, ``(n,)``: its work over the largest tension.
+
+        A range beyond the one simulated lengthens it by as much.
+        """
+        log_length = np.log(adhesion_length)
+        nodes = np.log(self.simulated_length)
+        distance = np.exp(np.interp(log_length, nodes, np.log(self.simulated_distance)))
+        simulated_range = np.exp(np.interp(log_length, nodes, np.log(self.simulated_range)))
+        return distance + np.maximum(range - simulated_range, 0.0)
 
     def _gains(self, adhesion_length: NDArray, range: NDArray, law: str) -> NDArray:
         """Energy gained in every state over the work of adhesion, ``(n, state)``."""
@@ -192,6 +206,13 @@ class SimulatedHeights:
     def area(self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray) -> NDArray:
         """Share of the nominal area in contact at zero load, ``(n,)``; arguments as of `share`."""
         return self.whole.area(adhesion_length / (1 + lacking), range, law)
+
+    def distance(
+        self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray
+    ) -> NDArray:
+        """Distance over which what remains acts, ``(n,)``; arguments as of `share`."""
+        maugis_range = range / find_strength(law)
+        return self.whole.distance(adhesion_length / (1 + lacking), maugis_range)
 
 
 def _find_patch_error(whole: NDArray, quarters: NDArray) -> NDArray:

@@ -27,6 +27,7 @@ STATE_VARIABLES = {
     "simulated_length": ("simulated_length", ("part", "simulation")),
     "simulated_range": ("simulated_range", ("part", "simulation")),
     "simulated_share": ("simulated_share", ("part", "simulation")),
+    "simulated_distance": ("simulated_distance", ("part", "simulation")),
 }
 
 

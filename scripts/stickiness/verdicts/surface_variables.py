@@ -29,6 +29,11 @@ SURFACE_VARIABLES = {
     "simulated_length": ("m", "adhesion lengths simulated"),
     "simulated_range": ("m", "range of the attraction simulated at every adhesion length"),
     "simulated_share": ("1", "share of the work of adhesion that remained in simulation"),
+    "simulated_distance": (
+        "m",
+        "work that remained over the largest tension on separation",
+        "not simulated on quarters",
+    ),
     "lacking_energy": ("1", "energy of waves that are not simulated over that of the others"),
     "lacking_energy_draws": ("1", "the same of every draw"),
     "draw": ("1", "spectra drawn that agree with the measured one"),

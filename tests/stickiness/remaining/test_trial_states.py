@@ -6,6 +6,7 @@ from scipy import optimize
 
 from stickiness import adhesive, surface
 from stickiness.remaining.height_simulation import find_trial_states, simulate_heights
+from stickiness.remaining.measurement import measure
 from stickiness.spectrum import SelfAffine
 
 N = 64
@@ -156,6 +157,20 @@ def test_states_bound_a_law_with_a_tail(simulated, energy_ratio):
     (high,) = states.high_limit(np.array([length]), np.array([range_]), "van_der_waals")
     assert 0.85 * share - 0.01 < low <= share + 2e-4
     assert high >= share - 2e-4
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", ["Gaussian", "tops cut"])
+def test_the_distance_is_that_of_the_simulated_pull_off(kind):
+    heights = make_heights(kind)
+    states = find_trial_states(heights, 1.0)
+    length = states.simulated_length[-4]
+    range_ = states.simulated_range[-4]
+    law = adhesive.Exponential(length, range_)
+    pulled = measure(heights, 1.0, law, squeeze=0.02, half_grid=False, steps=40, tol=1e-3)
+    (share,) = states.share(np.array([length]), np.array([range_]))
+    (distance,) = states.distance(np.array([length]), np.array([range_]))
+    assert length * share / distance == pytest.approx(pulled.pull_off, rel=0.12)
 
 
 def test_contact_without_adhesion_bounds_less():
