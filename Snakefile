@@ -65,6 +65,7 @@ TARGETS = {
     "stability": f"{RESULTS}/figures/stability.png",
     "dmt_error": f"{RESULTS}/adhesion/dmt_error.csv",
     "remaining_measured": f"{REMAINING}/remaining.csv",
+    "heights_measured": f"{REMAINING}/heights.csv",
     "tradeoff": expand(
         f"{TRADEOFF}/{{file}}",
         file=["tradeoff.md", "tradeoff.png"],

@@ -44,6 +44,7 @@ REAL_SURFACES = checked["surfaces"]["surfaces"]
 EXPERIMENTS = checked["experiments"]["experiments"]
 TRADE = checked["tradeoff"]
 REMAINING_CAMPAIGN = checked["remaining"]
+HEIGHT_CAMPAIGN = checked["heights"]
 
 FIDELITY = config["fidelities"][config["fidelity"]]
 MODEL_SURFACES = config["model_surfaces"]

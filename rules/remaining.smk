@@ -1,11 +1,13 @@
-# How much adhesion remains: approach and separation of rough surfaces, simulated once for all. The
-# model of the verdicts is compared with the committed table.
+# How much adhesion remains: approach and separation of rough surfaces, and their energies at zero
+# load, simulated once for all. The models of the verdicts are compared with the committed tables.
 
 MEASURED = REMAINING_CAMPAIGN["sets"]
+MEASURED_HEIGHTS = HEIGHT_CAMPAIGN["sets"]
 
 
 wildcard_constraints:
     remaining_set=choices(MEASURED),
+    height_set=choices(MEASURED_HEIGHTS),
 
 
 def measured_points(wildcards):
@@ -55,3 +57,47 @@ rule tabulate_remaining:
         code=source_hash("remaining/tabulate_remaining.py"),
     script:
         "../scripts/remaining/tabulate_remaining.py"
+
+
+rule measure_heights:
+    output:
+        f"{REMAINING}/heights/{{height_set}}/seed{{seed}}.nc",
+    log:
+        f"{REMAINING}/logs/measure_heights/{{height_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{REMAINING}/benchmarks/measure_heights/{{height_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: MEASURED_HEIGHTS[wildcards.height_set],
+        law=HEIGHT_CAMPAIGN["law"],
+        energies=HEIGHT_CAMPAIGN["energies"],
+        pixels_in_zone=HEIGHT_CAMPAIGN["pixels_in_zone"],
+        code=source_hash("remaining/measure_heights.py"),
+    script:
+        "../scripts/remaining/measure_heights.py"
+
+
+rule tabulate_heights:
+    input:
+        [
+            f"{REMAINING}/heights/{name}/seed{seed}.nc"
+            for name, measured in MEASURED_HEIGHTS.items()
+            for seed in measured["seeds"]
+        ],
+    output:
+        table=f"{REMAINING}/heights.csv",
+        summary=f"{REMAINING}/heights.md",
+    log:
+        f"{REMAINING}/logs/tabulate_heights/heights.log",
+    benchmark:
+        f"{REMAINING}/benchmarks/tabulate_heights/heights.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("remaining/tabulate_heights.py"),
+    script:
+        "../scripts/remaining/tabulate_heights.py"

@@ -1,4 +1,4 @@
-"""Models of config/campaigns/tradeoff.yaml and remaining.yaml, which this project measures once."""
+"""Models of config/campaigns/ but for paper.yaml: what this project measures once."""
 
 from typing import Annotated, Literal, Self
 
@@ -116,17 +116,11 @@ class Tradeoff(Section):
         return self
 
 
-class RemainingSet(ModelSurface):
+class SimulatedSet(ModelSurface):
     """A surface on which adhesion is simulated."""
-
-    one_of = (("zones", "ranges"),)
 
     points: Annotated[int, Field(ge=32, multiple_of=2)]
     seeds: f.Several[f.Index]
-    energies: Values
-    zones: Values = optional("q0 range^2/adhesion_length")
-    ranges: Values = optional("ranges over h_rms")
-    squeezes: Values = optional("pressures before separation, over E* q0 h_rms; by default 0.1")
 
     @model_validator(mode="after")
     def check_points(self) -> Self:
@@ -138,9 +132,37 @@ class RemainingSet(ModelSurface):
         return self
 
 
+class RemainingSet(SimulatedSet):
+    """A surface that approaches and separates."""
+
+    one_of = (("zones", "ranges"),)
+
+    energies: Values
+    zones: Values = optional("q0 range^2/adhesion_length")
+    ranges: Values = optional("ranges over h_rms")
+    squeezes: Values = optional("pressures before separation, over E* q0 h_rms; by default 0.1")
+
+
 class Remaining(Section):
     """How much adhesion remains, as `snakemake remaining_measured` simulates it."""
 
     law: f.Law
     squeeze: f.Positive
     sets: f.Names[RemainingSet]
+
+
+class HeightSet(SimulatedSet):
+    """A surface on which the energy at zero load is simulated."""
+
+    transform: Literal["squared", "-squared", "valleys cut", "tops cut", "exp", "-exp"] = optional(
+        "what is done to the heights, point by point; waves beyond the band are left out"
+    )
+
+
+class HeightCampaign(Section):
+    """Energies at zero load, as `snakemake heights_measured` simulates them."""
+
+    law: f.Law
+    energies: Values
+    pixels_in_zone: Values
+    sets: f.Names[HeightSet]

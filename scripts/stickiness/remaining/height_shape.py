@@ -1,6 +1,83 @@
 """What the shape of the distribution of heights does to the adhesion that remains.
 
 Broad tops hold more than the spectrum tells, sharp peaks less. Where heights cannot be simulated,
-their skewness and kurtosis say by which factor the energy ratio w/U_full changes at which Gaussian
-heights of the same spectrum would keep the same share.
+their skewness s says by which factor the energy ratio w/U_full changes at which Gaussian heights of
+the same spectrum would keep the same share: sqrt(1 + s^2) - s, whose logarithm is -arsinh(s).
+
+Slope and error were fitted to simulations on heights that were transformed point by point
+(config/heights.csv): the limits contain 90 % of them. On log-normal heights, which nothing was
+fitted to, they contain 97 %, and of 192 decisions none is wrong; by the spectrum alone 37 are. The
+skewness was from -12 to 6. The error is mostly that of one factor for all energy ratios: it is the
+further from 1, the weaker the adhesion. A term in the kurtosis would reduce the misfit by a quarter
+on these heights, and raise it as much on Gaussian ones.
+
+The skewness of a few long waves is mostly chance, and only what is beyond chance counts.
 """
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft, stats
+
+SLOPE = 1.0  # of the logarithm of the factor, against the skewness
+ERROR = 0.6  # of this logarithm, relative; for energy ratios from 0.3 to 1.2
+CHANCE = 1.645  # standard errors of the skewness, within which 90 % of Gaussian heights are
+
+
+class HeightShape(NamedTuple):
+    """What heights that are not Gaussian change."""
+
+    shape: float  #: ln of the factor on the energy ratio
+    error: float  #: half the width of its interval of 90 %
+
+
+def find_height_shape(skewness: float) -> HeightShape:
+    """Find what the skewness of heights changes.
+
+    Parameters
+    ----------
+    skewness : float
+        Mean cube of the heights over h_rms^3; positive for sharp peaks, negative for broad tops.
+
+    Examples
+    --------
+    >>> shape, error = find_height_shape(-1.0)  # worn or honed
+    >>> print(f"like {np.exp(shape):.1f} times the work of adhesion")
+    like 2.4 times the work of adhesion
+    """
+    shape = -SLOPE * float(np.arcsinh(skewness))
+    return HeightShape(shape, ERROR * abs(shape))
+
+
+def find_shape_of(heights: ArrayLike) -> HeightShape:
+    """Find what the shape of measured heights changes.
+
+    Parameters
+    ----------
+    heights : (nx, ny) or (n,) array
+        Levelled heights of a map or profile, in any unit; not flat.
+    """
+    heights = np.asarray(heights, dtype=float)
+    skewness = float(stats.skew(heights, axis=None))
+    chance = CHANCE * find_skewness_error(heights)
+    # Nothing up to what chance explains, all of it far beyond, and doubtful between.
+    share = max(1 - (chance / skewness) ** 2, 0.0) if skewness else 0.0
+    shape, error = find_height_shape(skewness)
+    doubt = np.sqrt(share * (1 - share)) * abs(shape)
+    return HeightShape(share * shape, float(np.hypot(share * error, doubt)))
+
+
+def find_skewness_error(heights: NDArray) -> float:
+    """Standard error of the skewness of Gaussian heights with the waves of these.
+
+    Its square is 6 times the mean cube of the autocorrelation (Lobato & Velasco 2004, Econometric
+    Theory 20, 671). Of profiles with 4 to 20 of the longest waves the skewness scatters by 0.40 to
+    0.19, of which this tells 0.9 to 1.1.
+    """
+    power = np.abs(fft.fftn(heights - heights.mean())) ** 2
+    correlation = fft.ifftn(power).real
+    correlation /= correlation.ravel()[0]
+    return float(np.sqrt(6 * max(np.mean(correlation**3), 0.0)))

@@ -48,7 +48,10 @@ _ROUNDING = 1e-9
 
 
 def simulate_heights(
-    heights: ArrayLike, sides: tuple[float, float], cutoff: float
+    heights: ArrayLike,
+    sides: tuple[float, float],
+    cutoff: float,
+    most_points: int = MOST_POINTS,
 ) -> tuple[SimulatedHeights, float]:
     """Simulate contact on levelled heights, which are made periodic.
 
@@ -60,6 +63,8 @@ def simulate_heights(
         Sides of the map [length].
     cutoff : float
         Highest wave number that the heights resolve [1/length].
+    most_points : int
+        Points of the grid along the longer side, at most.
 
     Returns
     -------
@@ -73,7 +78,7 @@ def simulate_heights(
         If no state with adhesion converges.
     """
     heights = np.asarray(heights, dtype=float)
-    q_max, pixels = choose_grid(heights.shape, sides, cutoff)
+    q_max, pixels = choose_grid(heights.shape, sides, cutoff, most_points)
 
     def simulate(part: NDArray, pull: bool = False) -> TrialStates:
         # The part, with its sides over the first side of the whole.
@@ -97,13 +102,16 @@ def simulate_heights(
 
 
 def choose_grid(
-    shape: tuple[int, ...], sides: tuple[float, float], cutoff: float
+    shape: tuple[int, ...],
+    sides: tuple[float, float],
+    cutoff: float,
+    most_points: int = MOST_POINTS,
 ) -> tuple[float, float]:
     """Highest wave number to simulate [1/length], and grid points per wavelength of that."""
     nyquist = np.pi * min(n / side for n, side in zip(shape, sides, strict=True))
-    most_waves = MOST_POINTS / PIXELS_PER_WAVE
+    most_waves = most_points / PIXELS_PER_WAVE
     q_max = min(cutoff, nyquist, 2 * np.pi * most_waves / max(sides)) * (1 - _ROUNDING)
-    pixels = 2 * np.pi * MOST_POINTS / (max(sides) * q_max)
+    pixels = 2 * np.pi * most_points / (max(sides) * q_max)
     return q_max, min(MOST_PIXELS_PER_WAVE, pixels) * (1 - _ROUNDING)
 
 

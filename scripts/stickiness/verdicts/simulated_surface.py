@@ -57,6 +57,11 @@ def simulate_surface(
     except ConvergenceError as error:
         logging.warning("heights are not simulated: %s", error)
         return None
+    return tabulate_simulated(simulated, q_simulated)
+
+
+def tabulate_simulated(simulated: SimulatedHeights, q_simulated: float) -> xr.Dataset:
+    """Variables of `simulate_surface`; `read_simulated` reads them."""
     parts = (simulated.whole, *simulated.quarters)
     dataset = xr.Dataset({"q_simulated": q_simulated})
     for field, (name, dimensions) in STATE_VARIABLES.items():

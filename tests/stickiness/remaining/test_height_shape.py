@@ -1,0 +1,75 @@
+"""What the skewness of heights changes: limits, chance, and simulations kept back."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from common import heights_table
+from stickiness.remaining.height_shape import (
+    find_height_shape,
+    find_shape_of,
+    find_skewness_error,
+)
+from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.spectrum import SelfAffine
+from stickiness.surface import synthesise
+
+TABLE = "config/heights.csv"
+BAND = SelfAffine(hurst=0.8, q0=2 * np.pi, q1=32 * np.pi, h_rms=1.0)
+
+
+def test_heights_without_skewness_are_gaussian():
+    assert find_height_shape(0.0) == (0, 0)
+    wave = np.sin(2 * np.pi * np.arange(64) / 64)
+    assert find_shape_of(wave) == pytest.approx((0, 0), abs=1e-9)
+
+
+def test_peaks_lower_and_plateaus_raise_what_remains():
+    skewness = np.array([-7.0, -1.0, 1.0, 4.0])
+    factor = np.exp([find_height_shape(s).shape for s in skewness])
+    assert factor == pytest.approx(np.sqrt(1 + skewness**2) - skewness)
+    assert find_height_shape(1.0).error == find_height_shape(-1.0).error > 0
+
+
+@pytest.mark.parametrize("waves", [4, 16])
+def test_chance_makes_profiles_skewed_as_far_as_is_told(waves):
+    """Against the scatter over profiles of Gaussian surfaces."""
+    length = 16 / waves
+    profiles = [
+        profile
+        for seed in range(4)
+        for profile in synthesise(BAND, n=512, length=16.0, seed=seed)[::64, : int(512 / length)]
+    ]
+    scatter = np.std([stats.skew(profile) for profile in profiles])
+    told = np.mean([find_skewness_error(profile) for profile in profiles])
+    assert told == pytest.approx(scatter, rel=0.25)
+
+
+def test_gaussian_profiles_stay_so_and_skewed_ones_do_not():
+    gaussian = synthesise(BAND, n=512, length=16.0, seed=11)[::32]
+    changed = [find_shape_of(profile).shape for profile in gaussian]
+    assert np.mean(np.equal(changed, 0)) > 0.8
+    assert np.max(np.abs(changed)) < 0.3
+    # A large map tells its skewness, whatever its scale.
+    skewed = 1e-6 * synthesise(BAND, n=256, length=8.0, seed=11, skewness=-1.0)
+    assert find_shape_of(skewed).shape == pytest.approx(find_height_shape(-1.0).shape, rel=0.03)
+    assert find_shape_of(-skewed).shape == -find_shape_of(skewed).shape
+
+
+def test_the_law_holds_on_heights_it_was_not_fitted_to():
+    table = heights_table.read(TABLE)
+    skewed = table[table.kind == "skewed"]
+    theory, shaped = (
+        heights_table.compare(skewed, name, DEFAULT_SHARE) for name in ("theory", "shaped")
+    )
+    assert theory["inside"] < 0.2
+    assert shaped["inside"] > 0.9
+    assert theory["false_sticks"] + theory["false_does_not_stick"] > 20
+    assert shaped["false_sticks"] + shaped["false_does_not_stick"] == 0
+    # Gaussian heights lose nothing.
+    gaussian = table[table.kind == heights_table.GAUSSIAN]
+    theory, shaped = (
+        heights_table.compare(gaussian, name, DEFAULT_SHARE) for name in ("theory", "shaped")
+    )
+    assert shaped["inside"] >= theory["inside"]
+    assert shaped["ratio_rms"] <= theory["ratio_rms"]
