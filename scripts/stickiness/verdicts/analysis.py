@@ -19,6 +19,7 @@ from stickiness.measured.doubts import doubt_fit
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
+from stickiness.remaining.height_shape import find_shape_of
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
 from stickiness.verdicts.measured_surface import Measurement, find_spectra
@@ -187,9 +188,12 @@ def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Da
 
 
 def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
-    """Parameters of the first heights, and what is missing of all."""
+    """Parameters of the first heights, the shape of the highest, and what is missing of all."""
     every = [measurement.heights for measurement in measurements]
     first = every[0]
+    # The largest rms height is that of the longest waves, whose shape decides.
+    highest = max(every, key=lambda heights: heights.h_rms)
+    shape = find_shape_of(highest.heights)
     return xr.Dataset(
         {
             "h_rms_measured": first.h_rms,
@@ -197,6 +201,8 @@ def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
             "height_range": np.ptp(first.heights),
             "skewness": stats.skew(first.heights, axis=None),
             "kurtosis": stats.kurtosis(first.heights, axis=None, fisher=False),
+            "shape": shape.shape,
+            "shape_error": shape.error,
             "h_rms_as_read": first.h_rms_as_read(measurements[0].detrend),
             "missing_fraction": max(heights.missing_fraction for heights in every),
             "dropped_points": sum(heights.dropped for heights in every),

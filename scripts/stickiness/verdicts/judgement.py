@@ -254,6 +254,8 @@ def _stack_ends(
         rms_slope=of_ends("rms_slope"),
         law=of_materials([material.law for material in materials]),
         film_response=of_ends("film_response"),
+        shape=of_ends("shape"),
+        shape_error=of_ends("shape_error"),
         simulated=of_ends("simulated"),
         lacking=of_ends("lacking"),
     )

@@ -192,8 +192,24 @@ def _add(first: Roughness, second: Roughness, share: float) -> Roughness:
         anisotropy_error_factor=np.maximum(
             first.anisotropy_error_factor, second.anisotropy_error_factor
         ),
+        **_add_shapes(first, second),
         **_without_simulation(first),
     )
+
+
+def _add_shapes(first: Roughness, second: Roughness) -> dict[str, NDArray]:
+    """What the shape of the heights of two solids changes, and its error.
+
+    It goes with their skewness. Third cumulants of independent heights add, and the skewness is
+    that over the cube of the rms height.
+    """
+    h_rms = np.hypot(first.h_rms, second.h_rms)
+    of_first = (first.h_rms / h_rms) ** 3
+    of_second = (second.h_rms / h_rms) ** 3
+    return {
+        "shape": of_first * first.shape + of_second * second.shape,
+        "shape_error": np.hypot(of_first * first.shape_error, of_second * second.shape_error),
+    }
 
 
 def _without_simulation(rough: Roughness) -> dict[str, NDArray]:
@@ -226,6 +242,8 @@ def _take_smooth_end(ends: Roughness) -> Roughness:
         half_space_energy=ends.half_space_energy[0],
         rms_slope=ends.rms_slope[0],
         anisotropy_error_factor=ends.anisotropy_error_factor[0],
+        shape=ends.shape[0],
+        shape_error=ends.shape_error[0],
     )
 
 

@@ -326,6 +326,8 @@ class Surface:
             anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
             rms_slope=data.rms_slope.values,
             film_response=np.zeros((2, 2, FILM_FACTORS.size)),
+            shape=np.full(2, self._find_shape("shape")),
+            shape_error=np.full(2, self._find_shape("shape_error")),
             simulated=np.full(2, self.simulated),
             lacking=self._find_lacking("lacking_energy", 2),
         )
@@ -346,6 +348,8 @@ class Surface:
             # Slopes of the draws are not kept; those of both ends hardly differ.
             rms_slope=self.ends.rms_slope.mean(),
             film_response=np.zeros((2, FILM_FACTORS.size)),
+            shape=self._find_shape("shape"),
+            shape_error=self._find_shape("shape_error"),
             simulated=self.simulated,
             lacking=self._find_lacking("lacking_energy_draws", energy.size),
         )
@@ -358,6 +362,10 @@ class Surface:
     def _find_lacking(self, name: str, count: int) -> NDArray:
         """Energy of waves that are not simulated over that of the others, ``(count,)``."""
         return self.data[name].values if self.simulated is not None else np.zeros(count)
+
+    def _find_shape(self, name: str) -> np.float64:
+        """What the shape of the heights changes, or its error; zero where no heights are."""
+        return np.float64(self.data.get(name, 0.0))
 
     @property
     def _anisotropy_error_factor(self) -> float:

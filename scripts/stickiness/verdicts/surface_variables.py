@@ -19,6 +19,8 @@ SURFACE_VARIABLES = {
     "height_range": ("m", "highest less lowest of the levelled heights, Sz (profile: Pt)"),
     "skewness": ("1", "skewness of the levelled heights, Ssk (profile: Psk)"),
     "kurtosis": ("1", "kurtosis of the levelled heights, Sku (profile: Pku); 3 of Gaussian ones"),
+    "shape": ("1", "ln of the factor on the energy ratio that the shape of the heights makes"),
+    "shape_error": ("1", "half the width of the interval of 90 % of that"),
     "part": ("1", "part of the map that is simulated: 0 the whole, then its quarters"),
     "q_simulated": ("1/m", "highest wave number that is simulated"),
     "trial_energy": ("m", "elastic energy per area over E* of every state simulated"),

@@ -218,3 +218,47 @@ def test_thinner_tapes_keep_less():
     strains = [3 * 3 / d / (d * 1e-6 * 2 * np.pi / LONGEST) for d in (50, 20)]
     assert smooth.layer_strain.values == pytest.approx([0, *strains], rel=1e-3)
     assert (smooth.remaining.diff("material") < 0).all()
+
+
+def test_skewed_heights_of_two_solids_add_as_third_cumulants():
+    shape = {"shape": 0.8, "shape_error": 0.4}
+    plateau = wall(**shape)
+    gaussian = wall()
+    alone = combine_roughness(TAPE, plateau).ends
+    first = combine_roughness(replace(TAPE, surface=gaussian), plateau).ends
+    second = combine_roughness(replace(TAPE, surface=plateau), gaussian).ends
+    twice = combine_roughness(replace(TAPE, surface=plateau), plateau).ends
+    assert alone.shape == pytest.approx(np.full(2, 0.8))
+    # The skewness of one of two equal heights counts 1/sqrt(8).
+    assert first.shape == pytest.approx(np.full(2, 0.8 / np.sqrt(8)))
+    assert first.shape_error == pytest.approx(np.full(2, 0.4 / np.sqrt(8)))
+    assert second.shape == pytest.approx(first.shape)
+    assert second.shape_error == pytest.approx(first.shape_error)
+    assert twice.shape == pytest.approx(2 * first.shape)
+    assert twice.shape_error == pytest.approx(np.sqrt(2) * first.shape_error)
+
+
+@pytest.mark.parametrize("own", [{"apart": 1.0}, {"draws": 5}])
+def test_draws_of_two_solids_and_layers_keep_the_shape_of_heights(own):
+    plateau = wall(draws=8, shape=0.8, shape_error=0.4)
+    both = combine_roughness(replace(TAPE, surface=wall(**own)), plateau)
+    assert both.draws.shape == pytest.approx(np.full(8, 0.8 / np.sqrt(8)))
+    layer = combine_roughness(put_on_layer(40e-6), plateau)
+    assert (layer.ends.shape == 0.8).all()
+    assert layer.draws.shape == 0.8
+
+
+def test_limits_follow_the_shape_of_heights():
+    """Half a logarithm on the energy ratio is half a logarithm on the threshold of the modulus."""
+    skewed = [wall(), wall(shape=0.5), wall(shape=0.5, shape_error=0.2)]
+    judged = judge([TAPE], skewed, curves=False)
+    threshold = judged.modulus_threshold.squeeze().values
+    # The width of the cohesive zone, which depends on the work of adhesion itself, hardly matters.
+    assert np.log(threshold[1] / threshold[0]) == pytest.approx(0.5, rel=0.01)
+    low, high = find_limits(judged)
+    low = low.squeeze().values
+    high = high.squeeze().values
+    assert low[1] > low[0]
+    assert high[1] > high[0]
+    assert low[2] < low[1]
+    assert high[2] > high[1]

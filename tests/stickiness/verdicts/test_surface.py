@@ -5,10 +5,13 @@ import pytest
 from helpers.analysed import wall
 
 from stickiness import Material, Surface, judge, thresholds, verdict
+from stickiness.adhesive import solve
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
-from stickiness.surface import lattice_spectrum, synthesise
+from stickiness.surface import lattice_spectrum, realised_spectrum, synthesise
+from stickiness.traction_laws import Exponential
+from stickiness.verdicts.limits import find_limits
 
 BAND = {"hurst": 0.8, "q0": 6e5, "q1": 6e7}
 TAPE = {"modulus": 2e6, "poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
@@ -71,6 +74,34 @@ def test_draws_of_two_measurements_are_independent(measured):
     both = verdict(measured, Material(**TAPE, surface=other))
     spread = np.diff(np.log(twice.modulus_threshold_limits))
     assert np.diff(np.log(both.modulus_threshold_limits)) < spread
+
+
+@pytest.mark.slow
+def test_profiles_of_a_worn_surface_tell_what_remains_on_it():
+    """Against simulation on the heights, of which profiles of 16 of the longest waves are cut."""
+    count = 16
+    length = count * SIDE
+    spectrum = SelfAffine(hurst=0.8, q0=6e5, q1=6e6, h_rms=1e-7)
+    heights = synthesise(spectrum, n=512, length=length, seed=40, skewness=-1.0)
+    adhesion_length = 0.5 * realised_spectrum(heights, length).elastic_energy()
+    law = Exponential(adhesion_length, np.sqrt(2 * length / 512 * adhesion_length))
+    state = solve(heights, length, law, pressure=0.0, start="separation", tol=1e-3)
+    share = -state.energy / adhesion_length
+    material = Material(
+        modulus=1e6, poisson=0.5, work_of_adhesion=adhesion_length * 4e6 / 3, range=law.range
+    )
+
+    def find_shares(profile, **shape):
+        surface = Surface.from_profile(profile, length, extend_to=SIDE / 10, plausibility="ignore")
+        surface = Surface(surface.data.assign(shape))
+        judged = judge([material], [surface], curves=False, thresholds=False)
+        return [float(limit.squeeze()) for limit in find_limits(judged)]
+
+    for profile in (heights[0], heights[:, 256]):
+        low, high = find_shares(profile)
+        assert low < share < high
+        # The spectrum alone does not tell.
+        assert find_shares(profile, shape=0.0, shape_error=0.0)[1] < share
 
 
 def test_nothing_is_said_of_a_pair_that_is_not_judged():
