@@ -1,6 +1,6 @@
-# The paper's six figures with what was measured added, and five on what the models are good for:
+# The paper's six figures with what was measured added, and six on what the models are good for:
 # 7 the DMT sum, 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much
-# adhesion remains.
+# adhesion remains, 12 what of it heights decide.
 
 
 MAGNIFICATIONS = [f"H0.8_zeta{magnification}" for magnification in (32, 64, 128)]
@@ -48,6 +48,7 @@ FIGURE_INPUTS = {
     },
     "fig10": {"edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL)},
     "fig11": {"table": REMAINING_TABLE},
+    "fig12": {"compared": f"{RESULTS}/remaining/heights.nc"},
 }
 FIGURES = list(FIGURE_INPUTS)
 

@@ -24,6 +24,7 @@ from figures import (
     plot_fig8,
     plot_fig9,
     plot_fig10,
+    plot_fig12,
 )
 from stability import plot_stability
 from stickiness import error_budget as budget
@@ -474,6 +475,49 @@ def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
     for index, factor in enumerate((equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG)):
         _, low, high = band_ends(ax, index)
         np.testing.assert_allclose([low, high], [[1 / factor] * 2, [factor] * 2])
+
+
+@pytest.fixture
+def skewed():
+    """By theory the share is log10(10 w/U)/2, on the heights that of a quarter of w."""
+    x = np.geomspace(0.1, 10, 9)
+    by_theory = np.log10(10 * x) / 2
+    on_heights = by_theory - np.log10(4) / 2
+    variables = {"theory": np.add.outer([-0.1, 0.0, 0.2], by_theory)}
+    variables |= {"states": np.add.outer([-0.3, 0.0, 0.4], on_heights), "bound": on_heights - 0.5}
+    variables |= {"simulated": ("simulated_energy_ratio", [0.3, 0.6])}
+    variables |= {f"seconds_{name}": 2.0 for name in ("theory", "states", "bound", "simulated")}
+    coords = {"simulated_energy_ratio": [1.0, 3.0], "limit": ["low", "value", "high"]}
+    return dataset(coords | {"energy_ratio": x}, variables)
+
+
+def test_figure_12_has_every_model_with_its_limits_and_the_simulation(ax, skewed):
+    plot_fig12.draw_shares(ax, skewed)
+    x = skewed.energy_ratio
+    drawn(ax, x, np.log10(10 * x) / 2, color=plotting.ORANGE)
+    drawn(ax, x, np.log10(10 * x / 4) / 2, color=plotting.BLUE)
+    drawn(ax, x, np.log10(10 * x / 4) / 2 - 0.5, linestyle="--")
+    drawn(ax, [1.0, 3.0], [0.3, 0.6], marker="o", linestyle="None")
+    for index, (name, lower, upper) in enumerate((("theory", 0.1, 0.2), ("states", 0.3, 0.4))):
+        _, low, high = band_ends(ax, index)
+        value = skewed[name].sel(limit="value")
+        np.testing.assert_allclose([low, high], [value - lower, value + upper])
+
+
+def test_figure_12_has_an_arrow_from_the_onset_by_theory_to_that_on_the_heights(ax, skewed):
+    plot_fig12.draw_change(ax, skewed)
+    arrow, factor = ax.texts
+    start, end = arrow.get_position(), arrow.xy
+    np.testing.assert_allclose([start, end], [[10**-0.8, 0.1], [4 * 10**-0.8, 0.1]])
+    assert factor.get_text().startswith("4 ")
+
+
+def test_figure_12_profile_is_as_skewed_as_the_map(ax):
+    flat = np.array([1.0, -1.0, 1.0, -1.0])
+    peaked = np.array([3.0, -1.0, -1.0, -1.0])
+    height = xr.DataArray([flat, peaked, peaked], dims=("x", "y"))
+    plot_fig12.draw_profile(ax, height, 2.0)
+    drawn(ax, [0, 0.5, 1, 1.5], peaked, color=plotting.BLACK)
 
 
 def test_lines_of_the_trade_are_errors_against_costs(ax):
