@@ -19,6 +19,7 @@ STARTED = time.time()
 ERROR_MODELS = project_file("config/accuracy.csv")
 TRADE_SUMMARY = project_file("config/tradeoff.csv")
 REMAINING_TABLE = project_file("config/remaining.csv")
+HEIGHTS_TABLE = project_file("config/heights.csv")
 DMT_ERROR_TABLE = project_file("config/dmt_error.csv")
 
 

@@ -45,6 +45,7 @@ rule write_report:
         surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
         answers=several("cases/{case}.nc", case=CASES),
         laws=ERROR_MODELS,
+        heights=HEIGHTS_TABLE,
         trade=TRADE_SUMMARY,
         trade_figure=f"{RESULTS}/figures/tradeoff.png",
         trade_caption=project_file("report/tradeoff.rst"),

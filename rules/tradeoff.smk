@@ -80,6 +80,7 @@ rule tabulate_tradeoff:
         adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=ADHESIVE_SURFACES),
         pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=ADHESIVE_SURFACES),
         validation=expand(f"{TRADEOFF}/contact/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
+        heights=HEIGHTS_TABLE,
         template=project_file("report/tradeoff.md.j2"),
     output:
         dataset=f"{TRADEOFF}/tradeoff.nc",

@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from common import experiment_outcomes as experiments
+from common import heights_table, remaining_models
 from common.conventions import at_load
 from common.job import start
 from common.table_rows import TONES, arrange_pairs, describe_surface
@@ -82,6 +83,8 @@ def main(job):
         presets=describe_presets(read_models(inputs.laws), **params.presets),
         columns=COLUMNS,
         dominant_source=error_budget.dominant,
+        remaining_models=remaining_models.condense(heights_table.read(inputs.heights)),
+        least_share=remaining_models.LEAST_SHARE,
         trade_figure=embed(inputs.trade_figure, inputs.trade_caption),
         versions=list_versions([claims, verdicts, tested, *surfaces.values(), *ensembles.values()]),
         ensembles=list(map(datasets.parameters, ensembles.values())),

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from common import heights_table, remaining_models
 from common import tradeoff_table as summary
 from common.conventions import annotate
 from common.job import start
@@ -73,6 +74,8 @@ def main(job):
         tables=summary.tables(medians),
         asked=job.params.presets,
         presets=presets,
+        remaining_models=remaining_models.condense(heights_table.read(job.input.heights)),
+        least_share=remaining_models.LEAST_SHARE,
         within=np.array(validate(models, job.input.validation, job.params.accuracies)),
     )
 

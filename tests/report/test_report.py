@@ -13,8 +13,9 @@ from helpers.experiments import make_dataset
 from helpers.pages import Page, make_job
 from matplotlib.figure import Figure
 
+from common import heights_table, remaining_models
 from common import verdict_texts as texts
-from common.formatting import number
+from common.formatting import number, percent
 from common.table_rows import arrange_pairs, describe_pair, describe_surface
 from report import interactive, pages, write_report
 from stickiness import datasets
@@ -46,6 +47,7 @@ def budgeted(dataset, name, **errors):
 
 
 LAWS, TRADE = "config/accuracy.csv", "config/tradeoff.csv"
+HEIGHTS = "config/heights.csv"
 QUICK = {"pixels_per_wavelength": 4, "tolerance": 1e-4, "seeds": 3, "coarse_seeds": 32}
 PRESETS = {
     "fidelities": {"quick": QUICK},
@@ -256,6 +258,7 @@ def page(claims, verdicts, surfaces, tmp_path_factory):
         return str(path), str(caption)
 
     inputs = {"template": "report/report.html.j2", "laws": LAWS, "trade": TRADE}
+    inputs["heights"] = HEIGHTS
     for kind, found in results.items():
         inputs[kind] = (
             [save(each, folder / kind / f"{name}.nc") for name, each in found.items()]
@@ -297,6 +300,11 @@ def test_the_report_shows_what_is_in_the_files(page):
         "20 mJ/m² (10 … 25 mJ/m²)",
         "(factor 1.4)",
     )
+    for row in remaining_models.condense(heights_table.read(HEIGHTS))[:-1]:
+        names = ("gaussian", "gaussian_little", "other", "other_little")
+        errors = " ".join(percent(row[name]) for name in names)
+        serves = "surface" if row["model"] in ("bound", "states") else "pair"
+        page.check(f"{number(row['seconds'], 1)} s a {serves} {errors}")
     assert page.text.count("some number = 0.5") == 6
     assert NASTY not in page.html
     images = [attributes for tag, attributes in page.tags if tag == "img"]
