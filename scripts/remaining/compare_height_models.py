@@ -16,6 +16,7 @@ from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.remaining import height_simulation
 from stickiness.remaining.prediction import Roughness
 from stickiness.traction_laws import Exponential
+from stickiness.verdicts.simulated_surface import find_lacking
 
 REMAINS = "share of the work of adhesion that remains: "
 SECONDS = "processor time: "
@@ -59,7 +60,7 @@ def main(job):
 def compare(setting, params):
     """What remains on one surface by every model, and the processor time that each takes."""
     length = cell_size(setting)
-    points = grid_points(setting, height_simulation.PIXELS_PER_WAVE)
+    points = grid_points(setting, height_simulation.PIXELS_RESOLVED)
     heights = make_heights(setting, points, params.seed)
     spectrum = surface.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
@@ -69,7 +70,7 @@ def compare(setting, params):
     rough = Roughness(1.0, Q0, energy, rms_slope=spectrum.rms_slope)
     theory, seconds_theory = time_task(list_limits, rough, lengths, ranges)
     contacts, seconds_bound = time_task(press, heights, length, spectrum.rms_slope)
-    states, seconds_states = time_task(simulate, heights, length, spectrum, rough)
+    states, seconds_states = time_task(simulate, heights, length, rough)
     simulated, seconds_simulated = time_task(
         find_shares, heights, length, energy * np.asarray(params.simulated_energies)
     )
@@ -114,15 +115,10 @@ def list_limits(model, lengths, ranges):
     return [model.share(lengths, ranges, sign) for sign in (-1, 0, 1)]
 
 
-def simulate(heights, length, spectrum, rough):
+def simulate(heights, length, rough):
     """`Roughness` by states simulated on the heights."""
-    simulated, q_simulated = height_simulation.simulate_heights(
-        heights, (length, length), cutoff=spectrum.band[1]
-    )
-    # Waves beyond those simulated raise the energy of every state.
-    energies = spectrum.q * spectrum.variance
-    is_simulated = spectrum.q <= q_simulated
-    lacking = energies[~is_simulated].sum() / energies[is_simulated].sum()
+    simulated = height_simulation.simulate_heights(heights, (length, length))
+    lacking = float(find_lacking(simulated, beyond=0.0))
     return replace(rough, simulated=simulated, lacking=lacking)
 
 

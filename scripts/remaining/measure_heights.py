@@ -20,7 +20,7 @@ from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.height_simulation import CONTACT_AREAS, simulate_heights
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.traction_laws import LAWS
-from stickiness.verdicts.simulated_surface import tabulate_simulated
+from stickiness.verdicts.simulated_surface import find_lacking, tabulate_simulated
 from stickiness.verdicts.surface_variables import SURFACE_VARIABLES
 
 TRANSFORMS = {
@@ -44,7 +44,7 @@ HEIGHT_VARIABLES = {
     "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2",
     "skewness": SURFACE_VARIABLES["skewness"],
     "kurtosis": SURFACE_VARIABLES["kurtosis"],
-    "lacking": SURFACE_VARIABLES["lacking_energy"],
+    "lacking": "energy of waves that the states lack over that of the others",
     "seconds_simulated": ("s", "processor time of a simulation"),
     "seconds_bound": ("s", "processor time of the contacts without adhesion"),
     "seconds_states": ("s", "processor time of the states simulated on the heights"),
@@ -58,7 +58,7 @@ def main(job):
     heights = transform_heights(setting, seed)
     spectrum = surface.realised_spectrum(heights, length)
     dataset = measure(heights, length, spectrum, job.params)
-    dataset = dataset.merge(simulate(heights, length, spectrum, setting))
+    dataset = dataset.merge(simulate(heights, length, setting))
     dataset["full_contact_energy"] = spectrum.elastic_energy()
     dataset["rms_slope"] = spectrum.rms_slope
     dataset["skewness"] = stats.skew(heights, axis=None)
@@ -147,20 +147,13 @@ def bound_share(contacts, law):
     return max(*gains, 0.0) / law.adhesion_length
 
 
-def simulate(heights, length, spectrum, setting):
+def simulate(heights, length, setting):
     """States simulated on the heights, on half of the grid, and what their waves lack."""
     began = time.process_time()
-    simulated, q_simulated = simulate_heights(
-        heights,
-        (length, length),
-        cutoff=Q0 * setting["magnification"],
-        most_points=setting["points"] // 2,
-    )
-    dataset = tabulate_simulated(simulated, q_simulated)
+    simulated = simulate_heights(heights, (length, length), most_points=setting["points"] // 2)
+    dataset = tabulate_simulated(simulated)
     dataset["seconds_states"] = time.process_time() - began
-    energy = spectrum.q * spectrum.variance
-    is_simulated = spectrum.q <= q_simulated
-    dataset["lacking"] = energy[~is_simulated].sum() / energy[is_simulated].sum()
+    dataset["lacking"] = float(find_lacking(simulated, beyond=0.0))
     return dataset
 
 

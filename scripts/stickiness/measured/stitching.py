@@ -264,8 +264,7 @@ class Draws:
     q0: NDArray  #: (n,), end of the plateau [1/length]; if there is none, lowest of the scan
     #: (n,), energy of all waves from the cutoff to `continue_to` over the measured energy
     unresolved: NDArray
-    #: (n,), energy of all waves beyond `simulated_to` over that of the others; 0 without it
-    lacking: NDArray
+    beyond: NDArray  #: (n,), energy of the waves beyond the cutoff over that of the others
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -279,7 +278,6 @@ def draw(
     *,
     extend_to: float | None = None,
     continue_to: float | None = None,
-    simulated_to: float | None = None,
 ) -> Draws:
     """Draw moments of spectra that agree with a measured one.
 
@@ -296,8 +294,6 @@ def draw(
         Without `extend_to`: highest wave number at which the fitted law may end [1/length]. The
         energies drawn contain the waves up to an end between the cutoff and there, whose logarithm
         is spread evenly. Default: they end at the cutoff.
-    simulated_to : float, optional
-        Highest wave number that a simulation on the heights contains [1/length].
 
     Returns
     -------
@@ -351,16 +347,14 @@ def draw(
     ends = cutoff * (furthest / cutoff) ** _draw_places(count, rng)
     moments["elastic_energy"] = moments["elastic_energy"] + integrate_law(ends, 1) / 4
 
-    # What a simulation lacks of that.
-    lacking = np.zeros(count)
-    if simulated_to is not None:
-        inside = rings.q <= simulated_to * (1 + 1e-9)
-        simulated = (levels * np.where(inside, spectrum.area * rings.q, 0.0)).sum(1) / 4
-        lacking = moments["elastic_energy"] / simulated - 1
+    inside = rings.q <= cutoff * (1 + 1e-9)
+    resolved = (levels * np.where(inside, spectrum.area * rings.q, 0.0)).sum(1) / 4
+    beyond = np.maximum(moments["elastic_energy"] / resolved - 1, 0.0)
+
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
         q0 = np.exp(law.log_q_rolloff)
-    return Draws(moments, q0, unresolved, lacking)
+    return Draws(moments, q0, unresolved, beyond)
 
 
 def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy import fft
 from scipy.special import erfinv
 
 from stickiness.adhesive import solver as adhesive
@@ -29,8 +30,7 @@ from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import Exponential
 
 MOST_POINTS = 256  #: of the grid, along the longer side
-PIXELS_PER_WAVE = 4  #: of the shortest wave, at least
-MOST_PIXELS_PER_WAVE = 8  #: beyond which a finer grid changes little
+PIXELS_RESOLVED = 4  #: in the shortest wave that an instrument resolves, unless it says otherwise
 #: Works of adhesion over the elastic energy of full contact, falling. They are simulated until
 #: hardly anything of them remains: broad tops hold with very little adhesion.
 ENERGY_RATIOS = np.append(np.geomspace(2.0, 0.2, 8), np.geomspace(0.1, 1e-4, 11))
@@ -50,10 +50,13 @@ _ROUNDING = 1e-9
 def simulate_heights(
     heights: ArrayLike,
     sides: tuple[float, float],
-    cutoff: float,
+    cutoff: float = np.inf,
     most_points: int = MOST_POINTS,
-) -> tuple[SimulatedHeights, float]:
+) -> SimulatedHeights:
     """Simulate contact on levelled heights, which are made periodic.
+
+    Large maps are thinned to every second, third … point. That keeps the distribution of the
+    heights and the flat tops, which a filter would cover with ripples.
 
     Parameters
     ----------
@@ -62,15 +65,10 @@ def simulate_heights(
     sides : pair of floats
         Sides of the map [length].
     cutoff : float
-        Highest wave number that the heights resolve [1/length].
+        Highest wave number that the heights resolve [1/length]. Waves beyond it are filtered out
+        only where it is below that of four pixels: there they are noise or blur.
     most_points : int
         Points of the grid along the longer side, at most.
-
-    Returns
-    -------
-    SimulatedHeights
-    float
-        Highest wave number that is simulated [1/length].
 
     Raises
     ------
@@ -78,19 +76,27 @@ def simulate_heights(
         If no state with adhesion converges.
     """
     heights = np.asarray(heights, dtype=float)
-    q_max, pixels = choose_grid(heights.shape, sides, cutoff, most_points)
+    steps = tuple(side / n for side, n in zip(sides, heights.shape, strict=True))
+    stride = -(-max(heights.shape) // most_points)
+    is_noisy = cutoff < 2 * np.pi / (PIXELS_RESOLVED * max(steps)) * (1 - _ROUNDING)
+
+    def prepare(part: NDArray) -> NDArray:
+        """A part, periodic, on a grid whose halves the solvers can thin again."""
+        counts = tuple(n // (4 * stride) * (4 * stride) for n in part.shape)
+        level = periodic.periodise(part[: counts[0], : counts[1]], "smooth")
+        return _filter_waves(level, steps, cutoff) if is_noisy else level
 
     def simulate(part: NDArray, pull: bool = False) -> TrialStates:
-        # The part, with its sides over the first side of the whole.
-        shares = zip(sides, part.shape, heights.shape, strict=True)
-        part_sides = tuple(side / sides[0] * n / of_whole for side, n, of_whole in shares)
-        level = periodic.periodise(part, "smooth")
-        limited = periodic.band_limited(level, part_sides, q_max * sides[0], pixels)
-        # Heights of one size for every surface, rounded: last bits do not matter.
-        height_unit = float(np.std(limited)) / STANDARD_HEIGHT
-        standard = np.round(limited / height_unit, DECIMALS)
+        level = prepare(part)
+        # Lengths over the first side of the whole; heights of one size for every surface, rounded:
+        # last bits do not matter.
+        unit = sides[0]
+        part_sides = tuple(n * step / unit for n, step in zip(level.shape, steps, strict=True))
+        thinned = level[::stride, ::stride]
+        height_unit = float(np.std(thinned)) / STANDARD_HEIGHT
+        standard = np.round((thinned - thinned.mean()) / height_unit, DECIMALS)
         states = find_trial_states(standard, part_sides, pull=pull)
-        return states.scaled(height_unit=height_unit, length_unit=sides[0])
+        return states.scaled(height_unit=height_unit, length_unit=unit)
 
     half_x, half_y = (n // 2 for n in heights.shape)
     quarters = [
@@ -98,21 +104,25 @@ def simulate_heights(
         for along_x in (slice(None, half_x), slice(half_x, None))
         for along_y in (slice(None, half_y), slice(half_y, None))
     ]
-    return SimulatedHeights(simulate(heights, pull=True), tuple(quarters)), q_max
+    whole = prepare(heights)
+    resolved = _filter_waves(whole, steps, cutoff)
+    whole_sides = tuple(n * step for n, step in zip(whole.shape, steps, strict=True))
+    return SimulatedHeights(
+        whole=simulate(heights, pull=True),
+        quarters=tuple(quarters),
+        resolved_energy=full_contact_energy(resolved, 1.0, whole_sides, edges="given"),
+        pixel=stride * max(steps),
+    )
 
 
-def choose_grid(
-    shape: tuple[int, ...],
-    sides: tuple[float, float],
-    cutoff: float,
-    most_points: int = MOST_POINTS,
-) -> tuple[float, float]:
-    """Highest wave number to simulate [1/length], and grid points per wavelength of that."""
-    nyquist = np.pi * min(n / side for n, side in zip(shape, sides, strict=True))
-    most_waves = most_points / PIXELS_PER_WAVE
-    q_max = min(cutoff, nyquist, 2 * np.pi * most_waves / max(sides)) * (1 - _ROUNDING)
-    pixels = 2 * np.pi * most_points / (max(sides) * q_max)
-    return q_max, min(MOST_PIXELS_PER_WAVE, pixels) * (1 - _ROUNDING)
+def _filter_waves(heights: NDArray, steps: tuple[float, float], cutoff: float) -> NDArray:
+    """Periodic heights without waves beyond a wave number."""
+    qx, qy = (
+        2 * np.pi * fft.fftfreq(n, step) for n, step in zip(heights.shape, steps, strict=True)
+    )
+    modes = fft.fft2(heights)
+    modes[np.hypot(qx[:, None], qy) > cutoff * (1 + _ROUNDING)] = 0.0
+    return fft.ifft2(modes).real
 
 
 def find_trial_states(
@@ -151,11 +161,12 @@ def find_trial_states(
     heights = grid("heights", heights)
     sides = check_length(length, heights.shape)
     h_rms = float(np.std(heights))
-    counted = list(_press(heights, sides, solid, h_rms))
-
-    # Full contact has no gaps; it is the last state without adhesion.
+    # Surfaces that touch at the summit, and contact without adhesion up to full contact.
+    counted = [_count_gaps(0.0, heights.max() - heights, h_rms)]
+    counted += _press(heights, sides, solid, h_rms)
     energy = full_contact_energy(heights, 1.0, sides, solid, edges="given")
     counted.append(_count_gaps(energy, np.zeros(heights.shape), h_rms))
+    without_adhesion = len(counted)
 
     # States at zero load, from strong to weak adhesion: the share in the deepest of each, and the
     # distance over which that acts on separation.
@@ -184,7 +195,7 @@ def find_trial_states(
         elastic_energy=np.array([state.elastic_energy for state in counted]),
         gap_share=np.array([state.gap_share for state in counted]),
         gap=np.array([state.gap for state in counted]),
-        has_adhesion=np.arange(len(counted)) > CONTACT_AREAS.size,
+        has_adhesion=np.arange(len(counted)) >= without_adhesion,
         full_contact_energy=energy,
         simulated_length=lengths,
         simulated_range=ranges,

@@ -16,10 +16,13 @@ adhesion the chord of w S is one.
 
 What simulation on heights leaves open widens the limits further:
 
-- Waves below the grid, or below the resolution of the instrument, store additional energy. They
-  raise the energy of every state in proportion; the limits count them half and twice.
-- Heights are one realisation. Quarters tell how far a patch of a quarter of the area differs from
-  another, and from the whole; the whole may differ as much from a larger surface.
+- Waves below the grid, or below the resolution of the instrument, store additional energy. For the
+  value they raise the energy of every state in proportion. In the low limit the whole area that
+  attracts conforms to them, so that they take their energy of full contact off the work of
+  adhesion (Persson, doi:10.1140/epje/i2002-10019-7); in the high limit they do not count.
+- Heights are one realisation. The scatter of quarters tells how far one part of the surface
+  differs from another. What the whole lacks against its quarters, a larger surface may lack twice
+  as much against the whole.
 """
 
 from __future__ import annotations
@@ -37,9 +40,8 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 # over the product of what remains and what is lost, and absolute.
 MISSED = 0.15
 LEAST_MISSED = 0.005
-# Factors on the energy of waves that are not simulated, in the high and in the low limit.
-LEAST_COUNTED = 0.5
-MOST_COUNTED = 2.0
+LEAST_LEFT = 1e-6  # of the work of adhesion
+TREND = 2.0  # of a larger surface against the whole map, over that of the whole against quarters
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,9 +103,19 @@ class TrialStates:
         return np.maximum(self._gains(adhesion_length, range, law).max(axis=1), 0.0)
 
     def area(self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL) -> NDArray:
-        """Share of the nominal area in contact in the deepest state, ``(n,)``; as `share`."""
-        gains = self._gains(adhesion_length, range, law)
-        return np.where(gains.max(axis=1) > 0, self.gap_share[gains.argmax(axis=1), 0], 0.0)
+        """Share of the nominal area in contact at zero load, ``(n,)``; as `share`.
+
+        It is that of the deepest state at every length simulated, and interpolated between these.
+        """
+        nodes = self.simulated_length
+        area = np.empty(adhesion_length.shape)
+        for value in np.unique(range):
+            gains = self._gains(nodes, np.full(nodes.shape, value), law)
+            deepest = gains.argmax(axis=1)
+            touching = np.where(gains.max(axis=1) > 0, self.gap_share[deepest, 0], 0.0)
+            rows = range == value
+            area[rows] = np.interp(np.log(adhesion_length[rows]), np.log(nodes), touching)
+        return area
 
     def distance(self, adhesion_length: NDArray, range: NDArray) -> NDArray:
         """Distance over which what remains acts, ``(n,)``: its work over the largest tension.
@@ -162,6 +174,9 @@ class SimulatedHeights:
 
     whole: TrialStates
     quarters: tuple[TrialStates, ...]
+    #: Energy of full contact of the map with all waves that it resolves, per nominal area [length]
+    resolved_energy: float
+    pixel: float  #: of the grid simulated [length]
 
     def without_adhesion(self) -> Self:
         """Return the states that were simulated without adhesion, and full contact."""
@@ -189,17 +204,16 @@ class SimulatedHeights:
         sign : (n,) array
             0 for the value, -1 or +1 for its low or high limit, between them in proportion.
         """
-
-        def count_waves(factor: float) -> NDArray:
-            return adhesion_length / (1 + factor * lacking)
-
-        value = self.whole.share(count_waves(1.0), range, law)
-        of_quarters = np.array(
-            [quarter.share(count_waves(1.0), range, law) for quarter in self.quarters]
-        )
-        patch_error = _find_patch_error(value, of_quarters)
-        low = self.whole.share(count_waves(MOST_COUNTED), range, law) - patch_error
-        high = self.whole.high_limit(count_waves(LEAST_COUNTED), range, law) + patch_error
+        in_proportion = adhesion_length / (1 + lacking)
+        value = self.whole.share(in_proportion, range, law)
+        of_quarters = [quarter.share(in_proportion, range, law) for quarter in self.quarters]
+        more_error, less_error = _find_patch_errors(value, np.array(of_quarters))
+        # The work of adhesion that is left where all that attracts conforms to the waves.
+        least_left = LEAST_LEFT * adhesion_length
+        left = adhesion_length - lacking * self.whole.full_contact_energy
+        low = self.whole.share(np.maximum(left, least_left), range, law) * left / adhesion_length
+        low = np.where(left > least_left, np.minimum(low, value), 0.0) - less_error
+        high = self.whole.high_limit(adhesion_length, range, law) + more_error
         distance = np.where(sign > 0, np.maximum(high - value, 0.0), value - low)
         return np.clip(value + sign * distance, 0.0, 1.0)
 
@@ -215,13 +229,13 @@ class SimulatedHeights:
         return self.whole.distance(adhesion_length / (1 + lacking), maugis_range)
 
 
-def _find_patch_error(whole: NDArray, quarters: NDArray) -> NDArray:
-    """Half the width of an interval of 90 % for a larger surface, ``(n,)``.
+def _find_patch_errors(whole: NDArray, quarters: NDArray) -> tuple[NDArray, NDArray]:
+    """How much more and less may remain on a larger surface than on the whole map, ``(n,)`` each.
 
-    `quarters` has the shares on the quarters, ``(quarter, n)``.
+    `quarters` has the shares on the quarters, ``(quarter, n)``. Errors cover 90 %.
     """
     count = len(quarters)
     # Four independent quarters scatter twice as much as the whole.
-    scatter = quarters.std(axis=0, ddof=1) / np.sqrt(count)
-    from_larger = whole - quarters.mean(axis=0)
-    return np.hypot(stats.t.ppf(0.95, count - 1) * scatter, from_larger)
+    scatter = stats.t.ppf(0.95, count - 1) * quarters.std(axis=0, ddof=1) / np.sqrt(count)
+    trend = TREND * (whole - quarters.mean(axis=0))
+    return np.hypot(scatter, np.maximum(trend, 0.0)), np.hypot(scatter, np.maximum(-trend, 0.0))

@@ -89,7 +89,6 @@ def analyse(
         SEED,
         extend_to=q_extended,
         continue_to=2 * np.pi / stitching.SHORTEST_WAVE,
-        simulated_to=None if simulated is None else float(simulated.q_simulated),
     )
     dataset = xr.merge(
         [
@@ -217,8 +216,8 @@ def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
     data = {
         "unresolved_energy": ("end", np.quantile(draws.unresolved, END_QUANTILES)),
         "q0_draws": ("draw", draws.q0),
-        "lacking_energy": ("end", np.quantile(draws.lacking, END_QUANTILES)),
-        "lacking_energy_draws": ("draw", draws.lacking),
+        "beyond_energy": ("end", np.quantile(draws.beyond, END_QUANTILES)),
+        "beyond_energy_draws": ("draw", draws.beyond),
     }
     for name, values in draws.moments.items():
         data[name] = ("end", draws.quantiles(name, END_QUANTILES))

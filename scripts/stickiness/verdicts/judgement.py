@@ -53,14 +53,15 @@ from stickiness.verdicts.thresholds import (
     find_thresholds,
 )
 
-#: What decides a verdict, by code: theory of the spectrum, alone or with the skewness and the
-#: kurtosis of the heights, or contact simulated on the heights.
+#: What decides a verdict, by code: theory of the spectrum, alone or with the skewness of the
+#: heights, or contact simulated on the heights.
 DECIDED_BY = (
     "theory for Gaussian heights",
-    "theory for the shape of the heights",
-    "contact simulated without adhesion",
-    "contact simulated with adhesion",
+    "theory for the spectrum and the skewness of the heights",
+    "simulated contact without adhesion, a low bound",
+    "simulated contact with adhesion",
 )
+BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
 PER_PAIR = PAIR_DIMENSIONS[:2]  #: dimensions of what has one value for every pair
 
 
@@ -312,14 +313,14 @@ def _find_deciders(
 def _find_decider(rough: PairRoughness, draws: Pair | None) -> int:
     """Code of what decides the verdict on one pair."""
     if draws is None:
-        return DECIDED_BY.index("theory for Gaussian heights")
+        return BY_GAUSSIAN_THEORY
     simulated = rough.ends.simulated[0]
     if simulated is None:
-        return DECIDED_BY.index("theory for the shape of the heights")
+        return BY_SHAPED_THEORY
     # Enough may remain without what attraction does to the contact.
     pressed = replace(draws, simulated=np.full(draws.lacking.shape, simulated.without_adhesion()))
     is_enough = find_share_quantiles(pressed)[0] >= draws.wanted_share
-    return DECIDED_BY.index(f"contact simulated {'without' if is_enough else 'with'} adhesion")
+    return BY_BOUND if is_enough else BY_SIMULATION
 
 
 def _find_disagreement(dataset: xr.Dataset) -> xr.DataArray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair, make_pair
@@ -24,6 +24,7 @@ from stickiness.verdicts.parametric import MOMENTS
 from stickiness.verdicts.rough_surface import Surface
 
 SHUFFLE_SEED = 3  #: of the order in which draws of a second surface meet those of the first
+HARDLY_CHANGED = 0.02  # relative, of the energy of full contact
 TOO_DIFFERENT = (
     "the two rough solids differ too much in scale: at the load at which a_V is evaluated, "
     f"{LOAD:g} E* q0 h_rms, they are in full contact"
@@ -193,7 +194,7 @@ def _add(first: Roughness, second: Roughness, share: float) -> Roughness:
             first.anisotropy_error_factor, second.anisotropy_error_factor
         ),
         **_add_shapes(first, second),
-        **_without_simulation(first),
+        **_keep_simulation(first, added=second.elastic_energy / first.elastic_energy),
     )
 
 
@@ -212,10 +213,23 @@ def _add_shapes(first: Roughness, second: Roughness) -> dict[str, NDArray]:
     }
 
 
-def _without_simulation(rough: Roughness) -> dict[str, NDArray]:
-    """Fields of a roughness that is not simulated: heights are, alone and on a half-space."""
-    shape = np.shape(rough.lacking)
-    return {"simulated": np.full(shape, None), "lacking": np.zeros(shape)}
+def _keep_simulation(rough: Roughness, added: ArrayLike) -> dict[str, NDArray]:
+    """Fields of the simulated heights where another solid or a layer hardly changes the energy.
+
+    `added` is the energy added over that of the heights. Up to `HARDLY_CHANGED` it counts as that
+    of waves that are not simulated; beyond, nothing is: heights are simulated alone and on a
+    half-space.
+    """
+    lacking = (1 + np.asarray(rough.lacking)) * (1 + np.maximum(added, 0.0)) - 1
+    if np.max(np.abs(added)) > HARDLY_CHANGED:
+        return {"simulated": np.full(lacking.shape, None), "lacking": np.zeros(lacking.shape)}
+    return {"simulated": rough.simulated, "lacking": lacking}
+
+
+def _find_largest_change(stiffening: NDArray, compliance: float) -> float:
+    """Largest relative change of energy and compliance by a layer, with its sign."""
+    changes = np.append(stiffening - 1, 1 - compliance)
+    return float(changes[np.abs(changes).argmax()])
 
 
 def _repeat_draws(draws: Roughness, count: int, shuffled: bool) -> Roughness:
@@ -258,7 +272,7 @@ def _put_on_layer(
         ends,
         elastic_energy=ends.elastic_energy * stiffening,
         relative_compliance=np.full(2, compliance),
-        **_without_simulation(ends),
+        **_keep_simulation(ends, added=_find_largest_change(stiffening, compliance)),
     )
     if draws is not None:
         # The spectra of the draws are not kept: the layer acts on them as on both ends.
@@ -266,7 +280,7 @@ def _put_on_layer(
             draws,
             elastic_energy=draws.elastic_energy * np.sqrt(np.prod(stiffening)),
             relative_compliance=np.float64(compliance),
-            **_without_simulation(draws),
+            **_keep_simulation(draws, added=_find_largest_change(stiffening, compliance)),
         )
     if isinstance(solid.backing, Film):
         # The film makes the solid softer to long waves, the layer stiffer to others: energies on a

@@ -30,7 +30,7 @@ from stickiness.spectrum.interface import Spectrum
 from stickiness.spectrum.kinds import SelfAffine, Tabulated
 from stickiness.verdicts import parametric
 from stickiness.verdicts.parametric import ENDS, MOMENTS
-from stickiness.verdicts.simulated_surface import read_simulated
+from stickiness.verdicts.simulated_surface import find_lacking, read_simulated
 
 #: What a verdict needs of the file of a surface.
 NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
@@ -329,7 +329,7 @@ class Surface:
             shape=np.full(2, self._find_shape("shape")),
             shape_error=np.full(2, self._find_shape("shape_error")),
             simulated=np.full(2, self.simulated),
-            lacking=self._find_lacking("lacking_energy", 2),
+            lacking=self._find_lacking("beyond_energy", 2),
         )
 
     @cached_property
@@ -351,7 +351,7 @@ class Surface:
             shape=self._find_shape("shape"),
             shape_error=self._find_shape("shape_error"),
             simulated=self.simulated,
-            lacking=self._find_lacking("lacking_energy_draws", energy.size),
+            lacking=self._find_lacking("beyond_energy_draws", energy.size),
         )
 
     @cached_property
@@ -361,7 +361,9 @@ class Surface:
 
     def _find_lacking(self, name: str, count: int) -> NDArray:
         """Energy of waves that are not simulated over that of the others, ``(count,)``."""
-        return self.data[name].values if self.simulated is not None else np.zeros(count)
+        if self.simulated is None:
+            return np.zeros(count)
+        return find_lacking(self.simulated, self.data[name].values)
 
     def _find_shape(self, name: str) -> np.float64:
         """What the shape of the heights changes, or its error; zero where no heights are."""

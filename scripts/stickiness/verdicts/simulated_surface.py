@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.topography import Topography
@@ -39,9 +39,9 @@ def simulate_surface(
     Returns
     -------
     Dataset or None
-        The variables of `STATE_VARIABLES`, for the whole map and its quarters, and `q_simulated`,
-        the highest wave number simulated [1/m]. None of a profile, of a map that lacks long waves
-        of another measurement, and if the simulation does not converge.
+        The variables of `STATE_VARIABLES`, for the whole map and its quarters. None of a profile,
+        of a map that lacks long waves of another measurement, and if the simulation does not
+        converge.
     """
     heights = measurements[0].heights
     if not isinstance(heights, Topography) or not _has_long_waves(heights, spectrum):
@@ -51,19 +51,19 @@ def simulate_surface(
     from stickiness.repulsive.solver import ConvergenceError
 
     try:
-        simulated, q_simulated = simulate_heights(
-            heights.heights, heights.size, cutoff=spectrum.cutoff.q
-        )
+        simulated = simulate_heights(heights.heights, heights.size, cutoff=spectrum.cutoff.q)
     except ConvergenceError as error:
         logging.warning("heights are not simulated: %s", error)
         return None
-    return tabulate_simulated(simulated, q_simulated)
+    return tabulate_simulated(simulated)
 
 
-def tabulate_simulated(simulated: SimulatedHeights, q_simulated: float) -> xr.Dataset:
+def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
     """Variables of `simulate_surface`; `read_simulated` reads them."""
     parts = (simulated.whole, *simulated.quarters)
-    dataset = xr.Dataset({"q_simulated": q_simulated})
+    dataset = xr.Dataset(
+        {"resolved_energy": simulated.resolved_energy, "simulated_pixel": simulated.pixel}
+    )
     for field, (name, dimensions) in STATE_VARIABLES.items():
         values = _stack([getattr(part, field) for part in parts])
         dataset[name] = dimensions, values.astype("i1") if values.dtype == bool else values
@@ -101,4 +101,18 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
         )
         for part in range(data.sizes["part"])
     )
-    return SimulatedHeights(whole, tuple(quarters))
+    return SimulatedHeights(
+        whole=whole,
+        quarters=tuple(quarters),
+        resolved_energy=float(data.resolved_energy),
+        pixel=float(data.simulated_pixel),
+    )
+
+
+def find_lacking(simulated: SimulatedHeights, beyond: ArrayLike) -> NDArray:
+    """Energy of the waves that a simulation lacks over that of the others; at least 0.
+
+    `beyond` is that of the waves beyond the instrument's resolution over that of those resolved.
+    """
+    energy = (1 + np.asarray(beyond)) * simulated.resolved_energy
+    return np.maximum(energy / simulated.whole.full_contact_energy - 1, 0.0)

@@ -174,7 +174,7 @@ def test_the_distance_is_that_of_the_simulated_pull_off(kind):
 
 
 def test_contact_without_adhesion_bounds_less():
-    simulated, _ = simulate_heights(make_heights("Gaussian"), (1.0, 1.0), cutoff=np.inf)
+    simulated = simulate_heights(make_heights("Gaussian"), (1.0, 1.0))
     pressed = simulated.without_adhesion()
     length = np.array([0.6 * simulated.whole.full_contact_energy])
     arguments = (length, np.array([0.002]), "exponential", np.zeros(1))
@@ -183,8 +183,7 @@ def test_contact_without_adhesion_bounds_less():
 
 
 def test_waves_that_are_not_simulated_take_adhesion_away_and_widen_the_limits():
-    simulated, q_max = simulate_heights(make_heights("Gaussian"), (1.0, 1.0), cutoff=np.inf)
-    assert q_max == pytest.approx(np.pi * N, rel=1e-6)
+    simulated = simulate_heights(make_heights("Gaussian"), (1.0, 1.0))
     length = np.full(3, 0.8 * simulated.whole.full_contact_energy)
     signs = np.array([-1.0, 0.0, 1.0])
 
@@ -196,17 +195,51 @@ def test_waves_that_are_not_simulated_take_adhesion_away_and_widen_the_limits():
     with_waves = find_shares(0.3)
     assert np.all(np.diff(without) > 0)
     assert np.all(np.diff(with_waves) > 0)
-    assert np.all(with_waves <= without)
     assert with_waves[1] < 0.9 * without[1]
+    assert with_waves[0] < without[0]
+    assert with_waves[2] == pytest.approx(
+        without[2], rel=0.05
+    )  # waves may be where nothing touches
 
 
 def test_last_bits_of_the_heights_do_not_matter():
     heights = make_heights("tops cut")
-    first, _ = simulate_heights(heights, (1.0, 1.0), cutoff=2 * np.pi * 16)
-    second, _ = simulate_heights(heights * (1 + 1e-15) + 1e-17, (1.0, 1.0), cutoff=2 * np.pi * 16)
+    first = simulate_heights(heights, (1.0, 1.0), cutoff=2 * np.pi * 15)
+    second = simulate_heights(heights * (1 + 1e-15) + 1e-17, (1.0, 1.0), cutoff=2 * np.pi * 15)
     for one_part, other in zip(
         (first.whole, *first.quarters), (second.whole, *second.quarters), strict=True
     ):
         np.testing.assert_allclose(
             one_part.simulated_share, other.simulated_share, rtol=1e-12, atol=1e-15
         )
+
+
+def test_thinned_maps_keep_their_flat_tops():
+    # Ripples of a filter on the plateaus would take the adhesion of worn surfaces away.
+    rough = SelfAffine(hurst=0.5, q0=4 * np.pi, q1=64 * np.pi, h_rms=1.0)
+    heights = surface.synthesise(rough, n=128, length=1.0, seed=5)
+    heights = np.where(heights > -0.3, -0.3 + 0.05 * (heights + 0.3), heights)
+    truth = find_trial_states(heights, 1.0, pull=False)
+    simulated = simulate_heights(heights, (1.0, 1.0), most_points=64)
+    lacking = simulated.resolved_energy / simulated.whole.full_contact_energy - 1
+    assert lacking == pytest.approx(0.0, abs=0.03)
+    for place in (-12, -8, -4):
+        length = truth.simulated_length[[place]]
+        shares = [
+            simulated.share(length, truth.simulated_range[[place]], "exponential", *each)[0]
+            for each in [(np.zeros(1), np.array([sign])) for sign in (-1.0, 0.0, 1.0)]
+        ]
+        share = truth.simulated_share[place]
+        assert share > 0.1
+        assert shares[0] <= share <= shares[2]
+        assert shares[1] == pytest.approx(share, rel=0.05)
+
+
+def test_surfaces_that_touch_at_the_summit_hold_by_a_long_range_at_any_modulus():
+    heights = make_heights("Gaussian")
+    states = find_trial_states(heights, 1.0, pull=False)
+    range_ = 3 * heights.std()
+    rigid = np.mean(np.exp(-(heights.max() - heights) / range_))
+    stiff = np.array([1e-6 * states.full_contact_energy])
+    assert rigid > 0.1
+    assert states.share(stiff, np.array([range_])) == pytest.approx(rigid, rel=1e-2)
