@@ -119,6 +119,7 @@ rule write_findings:
         dmt_error=f"{RESULTS}/adhesion/full/dmt_error.nc",
         edges=several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL),
         remaining=REMAINING_TABLE,
+        heights=HEIGHTS_TABLE,
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
         criterion=f"{RESULTS}/criteria/map.nc",
         experiments=f"{RESULTS}/experiments/experiments.nc",

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from common import remaining_table
+from common import heights_table, remaining_table
 from common import tradeoff_table as summary
 from common.conventions import VARIANT, at_load
 from common.edge_points import select_certain
@@ -13,11 +13,13 @@ from common.verdict_texts import count_pairs
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
+from stickiness.remaining.prediction import DEFAULT_SHARE
 
 WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met
 LEAST_SHARE = 0.05  # remaining share from which predicted works are compared
 LEAST_AREA = 0.2  # attractive over contact area from which the sphere is compared
 ENERGY_RATIOS = (0.3, 0.4, 0.6, 0.8, 1.1, 1.5, 2.5)  # bins of w/U_full
+HEIGHT_MODELS = ("theory", "shaped", "states")
 SHOWN_SETTINGS = ("points per wavelength", "seeds", "model")  # without adhesion
 
 
@@ -46,6 +48,7 @@ def main(job):
         sphere=edges.over_model[weak & (edges.attractive_over_contact >= LEAST_AREA)],
         least_area=LEAST_AREA,
         remaining=compare_remaining(remaining_table.read(inputs.remaining)),
+        heights=compare_heights(heights_table.read(inputs.heights)),
         within=WELL_KNOWN,
         least_share=LEAST_SHARE,
         verdicts=verdicts.map(WORDS.__getitem__),
@@ -84,6 +87,16 @@ def compare_remaining(table):
         "near": near.groupby(works.wide).agg(["mean", "size"]),
         "means": groups[columns].mean(),
     }
+
+
+def compare_heights(table):
+    """How models of what remains agree with simulation, for every kind of heights."""
+    return [
+        {"kind": kind, "model": model}
+        | heights_table.compare(heights, model, DEFAULT_SHARE, LEAST_SHARE)
+        for kind, heights in table.groupby("kind")
+        for model in HEIGHT_MODELS
+    ]
 
 
 if __name__ == "__main__":
