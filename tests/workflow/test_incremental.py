@@ -62,14 +62,16 @@ CHANGES = {
     "theory": (
         "scripts/stickiness/persson/theory.py",
         ("class Persson", "A_CHANGE = 1\n\n\nclass Persson"),
-        {"persson_sweep", "persson_cases"},
-        {"analyse_surface", "answer_case", *SOLUTIONS},
+        # What is known of a surface includes its a_V by theory.
+        {"persson_sweep", "persson_cases", "analyse_surface"},
+        {"answer_case", *SOLUTIONS},
     ),
     "solver": (
         "scripts/stickiness/repulsive/solver.py",
         ("def solve(", "A_CHANGE = 1\n\n\ndef solve("),
-        {"solve_repulsive", "solve_coarse", "contact_maps"},
-        {"synthesise_surface", "analyse_surface"},
+        # Contact is simulated on measured heights, too.
+        {"solve_repulsive", "solve_coarse", "contact_maps", "analyse_surface"},
+        {"synthesise_surface"},
     ),
 }
 
