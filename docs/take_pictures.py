@@ -31,7 +31,7 @@ PAGES = {
         ".page { display: block !important }",
     ),
     "surface": (
-        "report/surfaces/uncd_diamond.html",
+        "../example/run/results/draft/report/surfaces/wall.html",
         1300,
         "main > :not(h1, #contact, #contact + p, #contact + p + figure)"
         "{ display: none !important }",
@@ -99,13 +99,14 @@ def main() -> None:
     browser = shutil.which("chromium") or shutil.which("google-chrome")
     if browser is None:
         sys.exit("no chromium on the path (apt install chromium)")
+    wall = judge_wall()
     for name, (page, height, hidden) in PAGES.items():
         picture = shot(browser, RESULTS / page, height, hidden)
         picture.quantize(128).save(DOCS / f"{name}.png", optimize=True)
     for name in FIGURES:
         picture = Image.open(RESULTS / f"figures/{name}.png").convert("RGB")
         picture.quantize(128).save(DOCS / f"{name}.png", optimize=True)
-    for page in (RESULTS / "report/report.html", judge_wall()):
+    for page in (RESULTS / "report/report.html", wall):
         copy_example(page)
 
 
