@@ -30,6 +30,7 @@ from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import Exponential
 
 MOST_POINTS = 256  #: of the grid, along the longer side
+FEWEST_POINTS = 32  #: along the shorter side
 PIXELS_RESOLVED = 4  #: in the shortest wave that an instrument resolves, unless it says otherwise
 #: Works of adhesion over the elastic energy of full contact, falling. They are simulated until
 #: hardly anything of them remains: broad tops hold with very little adhesion.
@@ -74,10 +75,18 @@ def simulate_heights(
     ------
     ConvergenceError
         If no state with adhesion converges.
+    ValueError
+        If the map has fewer than `FEWEST_POINTS` along a side.
     """
     heights = np.asarray(heights, dtype=float)
+    if min(heights.shape) < FEWEST_POINTS:
+        raise ValueError(
+            f"heights must have {FEWEST_POINTS} points along each side, got {heights.shape}"
+        )
     steps = tuple(side / n for side, n in zip(sides, heights.shape, strict=True))
+    # Thin the longer side to as many points, but leave enough of them across a narrow strip.
     stride = -(-max(heights.shape) // most_points)
+    stride = min(stride, min(heights.shape) // FEWEST_POINTS)
     is_noisy = cutoff < 2 * np.pi / (PIXELS_RESOLVED * max(steps)) * (1 - _ROUNDING)
 
     def prepare(part: NDArray) -> NDArray:
@@ -221,18 +230,18 @@ def _pull_off(
     # Halve a tension until the surfaces withstand it, and then raise it in steps, each half as
     # large as the one before that they did not withstand.
     tension = state.law.adhesion_length * share / state.rms_height
-    held = pull(tension, state)
-    while held is None and tension > 0:
+    withstood = pull(tension, state)
+    while withstood is None and tension > 0:
         tension /= 2
-        held = pull(tension, state)
+        withstood = pull(tension, state)
     step = 2.0
     while step > LAST_STEP:
-        further = pull(tension * step, held)
+        further = pull(tension * step, withstood)
         if further is None:
             step = np.sqrt(step)
         else:
             tension *= step
-            held = further
+            withstood = further
     return tension * np.sqrt(step)
 
 

@@ -40,16 +40,18 @@ def simulate_surface(
     -------
     Dataset or None
         The variables of `STATE_VARIABLES`, for the whole map and its quarters. None of a profile,
-        of a map that lacks long waves of another measurement, and if the simulation does not
-        converge.
+        of a map that lacks long waves of another measurement or has too few points, and if the
+        simulation does not converge.
     """
     heights = measurements[0].heights
     if not isinstance(heights, Topography) or not _has_long_waves(heights, spectrum):
         return None
     # The solvers are loaded with the first simulation.
-    from stickiness.remaining.height_simulation import simulate_heights
+    from stickiness.remaining.height_simulation import FEWEST_POINTS, simulate_heights
     from stickiness.repulsive.solver import ConvergenceError
 
+    if min(heights.heights.shape) < FEWEST_POINTS:
+        return None
     try:
         simulated = simulate_heights(heights.heights, heights.size, cutoff=spectrum.cutoff.q)
     except ConvergenceError as error:

@@ -214,6 +214,16 @@ def test_last_bits_of_the_heights_do_not_matter():
         )
 
 
+def test_a_narrow_strip_is_thinned_less():
+    rough = SelfAffine(hurst=0.8, q0=8 * np.pi, q1=48 * np.pi, h_rms=0.01)
+    strip = surface.synthesise(rough, n=512, length=1.0, seed=2)[:, :32]
+    simulated = simulate_heights(strip, (1.0, 1 / 16), most_points=64)
+    assert simulated.pixel == pytest.approx(1 / 512)
+    assert np.isfinite(simulated.whole.simulated_share).all()
+    with pytest.raises(ValueError, match="32 points"):
+        simulate_heights(strip[:, :20], (1.0, 20 / 512))
+
+
 def test_thinned_maps_keep_their_flat_tops():
     # Ripples of a filter on the plateaus would take the adhesion of worn surfaces away.
     rough = SelfAffine(hurst=0.5, q0=4 * np.pi, q1=64 * np.pi, h_rms=1.0)
