@@ -10,11 +10,12 @@ from scipy import stats
 from common.conventions import Q0, annotate
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, make_heights, skewness_of, waves_across
-from remaining.measure_heights import bound_share, find_share, press
+from remaining.measure_heights import bound_share, press
 from stickiness import datasets, surface
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.remaining import height_simulation
 from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import Exponential
 from stickiness.verdicts.simulated_surface import find_lacking
 
@@ -125,7 +126,8 @@ def simulate(heights, length, rough):
 def find_shares(heights, length, lengths):
     """Share that remains by full simulation, for every adhesion length."""
     ranges = find_shortest_range(lengths, length / len(heights))
-    return [find_share(heights, length, law) for law in map(Exponential, lengths, ranges)]
+    laws = map(Exponential, lengths, ranges)
+    return [share_at_zero_load(heights, length, law) for law in laws]
 
 
 if __name__ == "__main__":

@@ -2,7 +2,6 @@
 
 import logging
 import time
-import warnings
 from itertools import product
 
 import numpy as np
@@ -14,11 +13,9 @@ from common.conventions import Q0, annotate
 from common.job import start
 from common.model_surfaces import cell_size, make_heights, waves_across
 from stickiness import datasets, repulsive, surface
-from stickiness.adhesive import solver as adhesive
 from stickiness.measured import periodic
-from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.height_simulation import CONTACT_AREAS, simulate_heights
-from stickiness.repulsive.solver import ConvergenceError
+from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
 from stickiness.verdicts.simulated_surface import find_lacking, tabulate_simulated
 from stickiness.verdicts.surface_variables import SURFACE_VARIABLES
@@ -31,8 +28,6 @@ TRANSFORMS = {
     "exp": np.exp,
     "-exp": lambda heights: -np.exp(heights),
 }
-#: Mean planes over h_rms of rigid heights, whose gaps are starts of the descent in energy.
-PLANES = (0.6, 1.4)
 TOLERANCE = 1e-4
 HEIGHT_VARIABLES = {
     "simulated": ("1", "largest gain of energy over the work of adhesion", "none converged"),
@@ -97,7 +92,7 @@ def measure(heights, length, spectrum, params):
         adhesion_length = ratio * spectrum.elastic_energy()
         law = LAWS[params.law](adhesion_length, np.sqrt(pixels * pixel * adhesion_length))
         began = time.process_time()
-        share = find_share(heights, length, law)
+        share = share_at_zero_load(heights, length, law)
         row = {
             "adhesion_length": adhesion_length,
             "range": law.range,
@@ -110,25 +105,6 @@ def measure(heights, length, spectrum, params):
     shape = [len(axis) for axis in axes.values()]
     values = {key: (tuple(axes), np.reshape([row[key] for row in rows], shape)) for key in rows[0]}
     return xr.Dataset({**values, "seconds_bound": seconds_bound}, coords=axes)
-
-
-def find_share(heights, length, law):
-    """Share of the work of adhesion that remains in the deepest state; NaN if none converges."""
-    starts = [adhesive.APPROACH, adhesive.SEPARATION]
-    starts += [np.maximum(plane - heights, 0.0) for plane in PLANES]
-    energies = []
-    for begin in starts:
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", PlausibilityWarning)
-                state = adhesive.solve(
-                    heights, length, law, pressure=0.0, start=begin, tol=TOLERANCE
-                )
-        except ConvergenceError as error:
-            logging.info("%s: %s", law, error)
-            continue
-        energies.append(state.energy)
-    return max(-min(energies), 0.0) / law.adhesion_length if energies else np.nan
 
 
 def press(heights, length, slope):

@@ -1,4 +1,4 @@
-"""Works of approach and separation of one rough surface, for a list of works of adhesion."""
+"""Works of approach and separation, or energies at zero load, of one rough surface."""
 
 import logging
 import time
@@ -14,6 +14,7 @@ from common.model_surfaces import cell_size, make_heights
 from stickiness import datasets, surface
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measurement
+from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
 
 QUOTED = {
@@ -30,7 +31,7 @@ OTHERS = {
     "fft_pairs": "convolutions",
     "residual": "largest residual of a state of the path",
 }
-COARSE = "the grid does not resolve the cohesive zone"
+COARSE = "no path, or the grid does not resolve the cohesive zone"
 HALF = "half grid too coarse"
 GRID_ERRORS = {
     f"{n}_grid_error": f"error by half the grid and the steps: {QUOTED[n]}" for n in QUOTED
@@ -72,7 +73,7 @@ def main(job):
         adhesion_length = ratio * energy
         range_ = np.sqrt(value * adhesion_length) if along == "zone" else value
         law = LAWS[job.params.law](adhesion_length, range_)
-        row = measure(heights, length, law, squeeze)
+        row = measure(heights, length, law, squeeze, path=setting["path"])
         rows.append(row | {"seconds": time.process_time() - began})
         logging.info("w/U %g, %s %g, squeeze %g: %s", ratio, along, value, squeeze, rows[-1])
     dims = tuple(axes)
@@ -94,13 +95,18 @@ def main(job):
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 
-def measure(heights, length, law, squeeze):
-    """Measure one law, with the change from half the grid; NaN if the grid is too coarse."""
+def measure(heights, length, law, squeeze, path=True):
+    """Measure one law, with the change from half the grid; NaN if the grid is too coarse.
+
+    Without a path only the energy at zero load is known.
+    """
     pixels = law.range**2 / law.adhesion_length / (length / heights.shape[0])
     row = dict.fromkeys((*QUOTED, *OTHERS, *GRID_ERRORS), np.nan)
     row |= {"pixels_in_zone": pixels, "range": law.range, "adhesion_length": law.adhesion_length}
     if pixels < FEWEST_PIXELS:
         return row
+    if not path:
+        return row | {"bound": share_at_zero_load(heights, length, law)}
     with warnings.catch_warnings():
         # What a coarse grid does to the result is in the limits.
         warnings.simplefilter("ignore", PlausibilityWarning)

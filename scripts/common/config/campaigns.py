@@ -133,7 +133,7 @@ class SimulatedSet(ModelSurface):
 
 
 class RemainingSet(SimulatedSet):
-    """A surface that approaches and separates."""
+    """A surface that approaches and separates, or rests at zero load."""
 
     one_of = (("zones", "ranges"),)
 
@@ -141,6 +141,7 @@ class RemainingSet(SimulatedSet):
     zones: Values = optional("q0 range^2/adhesion_length")
     ranges: Values = optional("ranges over h_rms")
     squeezes: Values = optional("pressures before separation, over E* q0 h_rms; by default 0.1")
+    path: bool = optional("false: only the energy at zero load, without approach and separation", True)
 
 
 class Remaining(Section):

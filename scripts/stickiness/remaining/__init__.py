@@ -1,6 +1,7 @@
 """How much adhesion remains on a rough surface: simulated, or predicted from the spectrum.
 
 - `measurement`: works of approach and separation and pull-off of given heights, simulated
+- `zero_load`: share that remains at zero load on given heights, simulated without a path
 - `share`: share of the work of adhesion that remains, from weak to tough, in closed form
 - `prediction`: the same of a spectrum, with limits, and the adhesion that a share needs
 - `full_contact`: elastic energy of full contact, of a spectrum or of heights
