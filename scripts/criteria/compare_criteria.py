@@ -69,6 +69,7 @@ def find_thresholds(settings, h_rms, magnification, load, table, constant):
     rough = Roughness(
         h_rms=h_rms,
         q0=q0,
+        q1=np.array([spectrum.q1 for spectrum in spectra]),
         rms_slope=np.array([spectrum.rms_slope for spectrum in spectra]),
         elastic_energy=np.array([spectrum.elastic_energy() for spectrum in spectra]),
     )

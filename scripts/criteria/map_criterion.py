@@ -190,7 +190,7 @@ def find_rule():
     """Constants c of h_rms^2 < c lambda_L w/E*, by what remains and by two other criteria."""
     unit = {"q0": 1.0, "q1": BROAD, "h_rms": 1.0}
     energy = np.array([SelfAffine(hurst=hurst, **unit).elastic_energy() for hurst in HURSTS])
-    rough = remaining.Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy)
+    rough = remaining.Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy, q1=BROAD)
     dims = ("share", "hurst")
     lengths = {
         f"rule{ending}": (dims, [rough.threshold(SHORT, share, sign) for share in SHARES])

@@ -135,6 +135,7 @@ class Observation:
         rough = Roughness(
             h_rms=h_rms,
             q0=column("q0"),
+            q1=column("q1"),
             rms_slope=column("rms_slope") * h_rms,
             elastic_energy=column("elastic_energy") * h_rms**2,
             law=self.law,
@@ -162,6 +163,7 @@ class Shape:
     """What criteria need of a self-affine spectrum of unit rms height, in powers of m."""
 
     q0: float
+    q1: float
     rms_slope: float
     rms_curvature: float
     elastic_energy: float
@@ -186,6 +188,7 @@ def describe_shape(hurst, longest, shortest, rolloff=None):
     }
     return Shape(
         q0=moments["q0"],
+        q1=spectrum.q1,
         rms_slope=moments["rms_slope"],
         rms_curvature=moments["rms_curvature"],
         elastic_energy=spectrum.elastic_energy(),

@@ -68,7 +68,13 @@ def compare(setting, params):
     lengths = energy * np.asarray(params.energies)
     ranges = find_shortest_range(lengths, length / points)
 
-    rough = Roughness(1.0, Q0, energy, rms_slope=spectrum.rms_slope)
+    rough = Roughness(
+        h_rms=1.0,
+        q0=Q0,
+        elastic_energy=energy,
+        q1=Q0 * setting["magnification"],
+        rms_slope=spectrum.rms_slope,
+    )
     theory, seconds_theory = time_task(list_limits, rough, lengths, ranges)
     contacts, seconds_bound = time_task(press, heights, length, spectrum.rms_slope)
     states, seconds_states = time_task(simulate, heights, length, rough)

@@ -84,6 +84,7 @@ def list_models(data, law):
         h_rms=1.0,
         q0=Q0,
         elastic_energy=float(data.full_contact_energy),
+        q1=Q0 * datasets.parameters(data)["magnification"],
         rms_slope=float(data.rms_slope),
         law=law,
     )

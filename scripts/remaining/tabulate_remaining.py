@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from common.conventions import Q0
 from common.formatting import number, table
 from common.job import start
 from stickiness import datasets
@@ -40,7 +41,13 @@ def list_rows(path):
     setting = datasets.parameters(data)
     energy = float(data.full_contact_energy)
     slope = float(data.rms_slope)
-    rough = Roughness(1.0, setting["rolloff"] or 1.0, energy, rms_slope=slope)
+    rough = Roughness(
+        h_rms=1.0,
+        q0=Q0 * (setting["rolloff"] or 1.0),
+        elastic_energy=energy,
+        q1=Q0 * setting["magnification"],
+        rms_slope=slope,
+    )
     along = next(name for name in ("zone", "range_over_h_rms") if name in data.dims)
     points = data.stack(point=("energy", along, "squeeze")).dropna("point", subset=["bound"])
     identity = ("hurst", "magnification", "window", "points", "seed")

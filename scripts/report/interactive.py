@@ -84,10 +84,11 @@ def draw_pairs(pairs):
     """Remaining share of the `pairs` of `table_rows.arrange_pairs`, with limits, by w/U_full."""
     ranges = {"x_range": (LEAST_RATIO / 1.5, MOST_RATIO * 1.5), "y_range": (-3, 103)}
     plot = plot_shares("work of adhesion over energy of full contact", height=460, **ranges)
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
+    # Many decades of waves with the Hurst exponent 0.8.
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=2 / 3)
     ratios = np.geomspace(LEAST_RATIO, MOST_RATIO, 500)
     model = {"line_color": "#999999", "line_dash": "dotted", "line_width": 1.5}
-    line = plot.line(ratios, 100 * rough.share(ratios, SHORT_RANGE), **model)
+    line = plot.line(ratios, 100 * rough.share(ratios * rough.elastic_energy, SHORT_RANGE), **model)
     items = [("the model, short range", [line])]
     for code, (marker, colour) in enumerate(LOOKS):
         ends = [end for pair in pairs if pair["code"] == code for end in locate(pair)]

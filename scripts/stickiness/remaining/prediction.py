@@ -11,8 +11,9 @@ from scipy.optimize import elementwise
 
 from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import (
-    ONSET,
     DeepestState,
+    count_scales,
+    find_narrowest_wave,
     find_deepest_state,
     find_onset,
     remaining_share,
@@ -21,11 +22,17 @@ from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
+ONSETS = (0.02, 0.98)  #: between which the limits of an onset are kept
 # Errors of a share. Limits with these errors contain all simulated energies above 5 %, and 95 % of
 # the smaller ones, in cells of two by two waves and more; in cells of one wave a third of them.
 ONSET_ERROR = (
     0.08  # of the onset: the spread of extrapolations to short ranges; an envelope, no 90 % limit
 )
+# The narrowest wave that simulations followed: zeta = 64 with zone zeta = 0.25. Beyond it the onset
+# is as uncertain as half of its further rise. That holds the two extremes: that finer waves do not
+# move it, and that they take their whole energy from the work of adhesion (Persson and Tosatti).
+FINEST_SIMULATED = 170.0
+EXTRAPOLATION_ERROR = 0.5
 SHARE_ERROR = 0.15  # relative, in proportion to what is lost
 WEAK_ERROR = 4.0  # relative, far below the onset at short ranges: the highest summits decide
 LEAST_ERROR = 0.015  # absolute, for small shares
@@ -88,6 +95,7 @@ class Roughness:
     h_rms: ArrayLike
     q0: ArrayLike  #: of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
+    q1: ArrayLike = np.inf  #: of the finest waves; infinite: many decades of waves
     relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
     #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     half_space_energy: ArrayLike | None = None
@@ -172,12 +180,13 @@ class Roughness:
         full_contact_share = 1 - 1 / energy_ratio
         energy_ratio = energy_ratio * np.exp(self.shape + sign * self.shape_error)
         range_ratio = np.asarray(range) / self.h_rms
-        zone = self.zone(adhesion_length, range)
+        onset = np.asarray(self.onset(adhesion_length, range))
+        simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
+        onset_error = ONSET_ERROR + EXTRAPOLATION_ERROR * (onset - simulated_onset)
         share = remaining_share(
             energy_ratio,
             range_ratio,
-            zone,
-            onset=ONSET - sign * ONSET_ERROR,
+            onset=np.clip(onset - sign * onset_error, *ONSETS),
             relative_compliance=self.relative_compliance,
             load_scale=self.load_scale,
             law=self.law,
@@ -186,9 +195,9 @@ class Roughness:
 
         # The relative error grows below the onset, the absolute one fades there. A law with a tail
         # attracts across the mean gap, whatever happens at small gaps: there it fades faster.
-        below_onset = 1 - np.minimum(energy_ratio / find_onset(zone), 1.0)
+        below_onset = 1 - np.minimum(energy_ratio / onset, 1.0)
         relative_error = (SHARE_ERROR + WEAK_ERROR * below_onset / (1 + range_ratio)) * lost
-        fading = np.minimum(energy_ratio / ONSET, 1.0)
+        fading = np.minimum(energy_ratio / onset, 1.0)
         absolute_error = LEAST_ERROR * fading ** np.where(np.equal(self.law, EXPONENTIAL), 1, 2)
         share = share * (1 + relative_error) ** sign + sign * absolute_error * lost
 
@@ -249,6 +258,7 @@ class Roughness:
             self.h_rms,
             self.q0,
             energy,
+            q1=self.q1,
             rms_slope=self.rms_slope,
             law=self.law,
             shape=self.shape,
@@ -264,6 +274,42 @@ class Roughness:
         return np.asarray(adhesion_length) / self.elastic_energy
 
     @property
+    def magnification(self) -> float | NDArray:
+        """Wavelength of the longest waves over that of the finest."""
+        return np.maximum(self.q1 / np.asarray(self.q0), 1.0)
+
+    def onset(
+        self, adhesion_length: ArrayLike, range: ArrayLike, finest: float = np.inf
+    ) -> float | NDArray:
+        """Work of adhesion over the energy of full contact at which tough contact begins.
+
+        Waves finer than `finest`, over q0, are not counted.
+        """
+        narrowest_wave = self.narrowest_wave(adhesion_length, range)
+        energy = self._energy_on_half_space
+        scales = count_scales(
+            narrowest_wave=np.minimum(narrowest_wave, finest),
+            magnification=self.magnification,
+            mean_wave_number=4 * energy / (np.square(self.h_rms) * self.q0),
+        )
+        return find_onset(scales)
+
+    def narrowest_wave(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Wave number over q0 up to which attraction does not bridge the waves."""
+        return find_narrowest_wave(self.zone(adhesion_length, range), self.magnification)
+
+    def extrapolation(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Decades of wave numbers by which the theory goes beyond the simulations behind it."""
+        beyond = np.asarray(self.narrowest_wave(adhesion_length, range)) / FINEST_SIMULATED
+        return plain(np.maximum(np.log10(beyond), 0.0))
+
+    @property
+    def _energy_on_half_space(self) -> NDArray:
+        """Energy of full contact of a half-space, as far as it is known."""
+        bound = np.nan if self.half_space_energy is None else np.asarray(self.half_space_energy)
+        return np.where(np.isfinite(bound), bound, self.elastic_energy)
+
+    @property
     def load_scale(self) -> float | NDArray:
         """Elastic energy of full contact over rms height and rms slope, see `share`.
 
@@ -271,8 +317,7 @@ class Roughness:
         as the energy, which cancels: hence the energy of the half-space. The scale of a half-space
         is at most 1/4, since the mean of q over a spectrum is at most its rms.
         """
-        bound = np.nan if self.half_space_energy is None else np.asarray(self.half_space_energy)
-        energy = np.where(np.isfinite(bound), bound, self.elastic_energy)
+        energy = self._energy_on_half_space
         return np.minimum(energy / (np.asarray(self.h_rms) * self.rms_slope), 0.25)
 
     def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
@@ -299,7 +344,7 @@ class Roughness:
         return find_deepest_state(
             energy_ratio=energy_ratio,
             range_ratio=range / self.h_rms,
-            zone=self.zone(adhesion_length, range),
+            onset=self.onset(adhesion_length, range),
             load_scale=self.load_scale,
             law=self.law,
         )
@@ -579,6 +624,7 @@ def predict(
         h_rms=spectrum.h_rms,
         q0=q0,
         elastic_energy=spectrum.elastic_energy(solid),
+        q1=highest,
         relative_compliance=check_solid(solid).factor(q0),
         half_space_energy=find_half_space_energy(spectrum, solid),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),

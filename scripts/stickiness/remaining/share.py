@@ -10,7 +10,9 @@ At a mean gap u the surfaces are in the deeper of two states, each of energy F(u
 - weak: attraction leaves the contact without adhesion as it is. F is the elastic energy of that
   contact, G the mean attraction over that of contact: exact to first order in w (Hellmann and
   Feynman).
-- tough: contact grows with w. G is the area in contact, and F follows from `tough_area`.
+- tough: contact grows with w. G is the area in contact, and F follows from `tough_area`. Contact
+  begins at the onset, which rises with the number of scales of the waves that the attraction does
+  not bridge, see `find_onset`.
 
 What remains is the depth of the lowest energy, the pull-off its steepest rise with the gap. On thin
 layers `spring_share` adds to what remains.
@@ -23,15 +25,19 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erf, erfcx, lambertw, ndtr
+from scipy.special import erf, erfcx, lambertw, log_ndtr, ndtr
 
 from stickiness.arguments import plain, positive
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
-# Fitted to what remains in simulations: the energy ratio from which tough contact grows at a short
-# range, and how a wider cohesive zone advances that.
-ONSET = 0.4
-ADVANCE = 1.2
+# Fitted to what remains in simulations. The number of scales at which the onset is a half; the
+# spread of onsets from place to place, see `_spread`; and the width of the cohesive zone times the
+# wave number of the finest waves below which it no longer matters.
+HALF_ONSET = 3.5
+SPREAD = 0.48
+SHARP = 0.125
+FEWEST_SCALES = 0.01  #: where all waves are bridged
+EXPONENTS = (-0.999, 30.0)  #: between which that of the elastic energy is searched
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
 LIFT = 1.4
@@ -63,54 +69,159 @@ _FINE_GAPS = np.geomspace(1e-9, _GAPS[-1], 1000)
 _FINE_LOG_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
 
 
-def find_onset(zone: ArrayLike, onset: float = ONSET) -> float | NDArray:
-    """Onset of contact for a width of the cohesive zone, which lets attraction reach over gaps."""
+def find_narrowest_wave(zone: ArrayLike, magnification: ArrayLike) -> float | NDArray:
+    """Wave number over q0 up to which attraction does not bridge the waves.
+
+    Attraction bridges waves that are shorter than the cohesive zone, whose width times q0 is the
+    `zone`. Where it is narrower than all waves, contact is that of Johnson, Kendall and Roberts at
+    each of them, and the range no longer matters.
+    """
     (zone,) = positive(zone=zone)
-    return plain(onset / (1 + ADVANCE * np.sqrt(zone)))
+    return plain(1 / (zone + SHARP / np.asarray(magnification)))
 
 
-def tough_share(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
+def count_scales(
+    narrowest_wave: ArrayLike, magnification: ArrayLike, mean_wave_number: ArrayLike
+) -> float | NDArray:
+    """Number of scales over which the elastic energy is spread, N, of waves that are not bridged.
+
+    That is (int u dln q)^2/int u^2 dln q, u the energy per logarithm of the wave number: for a
+    self-affine spectrum (2/a) tanh(a ln(zeta)/2) with a = 2 H - 1, so ln(zeta) at H = 1/2.
+
+    Parameters
+    ----------
+    narrowest_wave : array
+        Wave number of the narrowest wave that counts, over q0, as by `find_narrowest_wave`.
+    magnification : array
+        Wave number of the finest waves of the surface over q0; infinite for very many decades.
+    mean_wave_number : array
+        Mean wave number of the heights over q0, 4 U/(E* h_rms^2 q0), which tells the exponent a.
+
+    Examples
+    --------
+    >>> from stickiness.spectrum import SelfAffine
+    >>> rough = SelfAffine(hurst=0.5, q0=1.0, q1=1e4, h_rms=1.0)
+    >>> scales = count_scales(100, 1e4, mean_wave_number=4 * rough.elastic_energy())
+    >>> print(f"{scales:.3f} {np.log(100):.3f}")
+    4.605 4.605
+    """
+    magnification = np.asarray(magnification, dtype=float)
+    exponent = _find_exponent(magnification, np.asarray(mean_wave_number, dtype=float))
+    slope = np.abs(exponent / 2) + 1e-9  # at zero the quotient below has a limit
+    log_wave = np.maximum(np.log(narrowest_wave), FEWEST_SCALES)
+    return plain(np.tanh(slope * log_wave) / slope)
+
+
+def _find_exponent(magnification: NDArray, mean_wave_number: NDArray) -> NDArray:
+    """Exponent a of heights whose wave numbers have this mean, by bisection.
+
+    The variance of heights goes with q^(-2 - a) dq, so that the mean wave number over q0 is
+    (1 + a)/a (1 - zeta^(-a))/(1 - zeta^(-1 - a)). It falls with a.
+    """
+    shape = np.broadcast_shapes(magnification.shape, mean_wave_number.shape)
+    log_magnification = np.log(magnification)
+    low = np.full(shape, EXPONENTS[0])
+    high = np.full(shape, EXPONENTS[1])
+    for _ in range(32):
+        exponent = (low + high) / 2
+        energy = np.expm1(-exponent * log_magnification) / exponent
+        variance = np.expm1(-(1 + exponent) * log_magnification) / (1 + exponent)
+        is_low = energy / variance > mean_wave_number
+        low = np.where(is_low, exponent, low)
+        high = np.where(is_low, high, exponent)
+    return (low + high) / 2
+
+
+def find_onset(scales: ArrayLike) -> float | NDArray:
+    """Energy ratio at which tough contact begins, N/(N + `HALF_ONSET`) for N scales.
+
+    With few scales contact picks the places that cost least. The more scales share the energy, the
+    less the cost differs from place to place. With very many, each wave is followed or not by
+    itself, and contact begins where full contact begins to pay, at 1.
+    """
+    scales = np.asarray(scales, dtype=float)
+    return plain(scales / (scales + HALF_ONSET))
+
+
+def tough_share(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
     """Share that remains where contact is tough (JKR at the long waves).
 
-    The energy gained per area, w S, grows with w by the area of contact: d(x S)/dx = `tough_area`,
-    the simplest area that begins at the onset and lets S tend to 1 - 1/x, what full contact leaves.
+    The energy gained per area, w S, grows with w by the area of contact: d(x S)/dx = `tough_area`.
     """
-    (x,) = positive(energy_ratio=energy_ratio)
-    rest = 1 - np.asarray(onset)
-    reach = np.maximum(x - onset, 0) / rest
-    return plain(np.where(x > onset, 1 - 1 / x + rest / x * np.exp(-reach), 0.0))
+    x, onset = positive(energy_ratio=energy_ratio, onset=onset)
+    return plain(np.maximum(_gain_of_tough(x, onset) / x, 0.0))
 
 
-def tough_area(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
+def tough_area(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
     """Area of tough contact at zero load; 1.0 to 1.7 times that simulated at an energy ratio of 1.
 
-    At 0.5, where attraction over gaps stands in for contact, it is 1.2 to 2.4 times that.
+    At 0.5, where attraction over gaps stands in for contact, it is 1.2 to 2.4 times that. From the
+    onset o on the area is 1 - exp(-(x - o)/(1 - o)), the simplest one by which S tends to 1 - 1/x,
+    what full contact leaves. Onsets differ from place to place: this is the mean over a normal
+    distribution of them.
     """
-    (x,) = positive(energy_ratio=energy_ratio)
-    return plain(-np.expm1(-np.maximum(x - onset, 0) / (1 - np.asarray(onset))))
+    x, onset = positive(energy_ratio=energy_ratio, onset=onset)
+    return plain(np.maximum(_area_of_tough(x, onset), 0.0))
 
 
-def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike = ONSET) -> float | NDArray:
+def _spread(onset: NDArray) -> NDArray:
+    """Standard deviation of the onset from place to place; none where very many scales add up."""
+    return SPREAD * onset * np.sqrt(1 - onset)
+
+
+def _area_of_tough(x: NDArray, onset: NDArray) -> NDArray:
+    """Area of tough contact; what the normal distribution has below x = 0 is left out."""
+    return _mean_area(x, onset) - _mean_area(np.zeros_like(x), onset)
+
+
+def _gain_of_tough(x: NDArray, onset: NDArray) -> NDArray:
+    """Energy gained by tough contact over U, the integral of its area over x."""
+    nothing = np.zeros_like(x)
+    below_zero = _mean_gain(nothing, onset) + x * _mean_area(nothing, onset)
+    return _mean_gain(x, onset) - below_zero
+
+
+def _mean_area(x: NDArray, onset: NDArray) -> NDArray:
+    """Mean over normal onsets of 1 - exp(-(x - o)/(1 - o)) above the onset."""
+    rest = 1 - onset
+    width = _spread(onset)
+    deviation = (x - onset) / width
+    return ndtr(deviation) - _mean_decay(deviation, width / rest)
+
+
+def _mean_gain(x: NDArray, onset: NDArray) -> NDArray:
+    """Integral of `_mean_area` over x."""
+    rest = 1 - onset
+    width = _spread(onset)
+    deviation = (x - onset) / width
+    density = np.exp(-(deviation**2) / 2) / np.sqrt(2 * np.pi)
+    above_onset = width * (deviation * ndtr(deviation) + density)
+    return above_onset - rest * (ndtr(deviation) - _mean_decay(deviation, width / rest))
+
+
+def _mean_decay(deviation: NDArray, width: NDArray) -> NDArray:
+    """Mean of exp(-(x - o)/(1 - o)) above the onset; the width is over 1 - o."""
+    return np.exp(width**2 / 2 - deviation * width + log_ndtr(deviation - width))
+
+
+def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
     """Largest tension of tough contact [U/h].
 
-    A contact of area 1 - exp(-t) stores F = 1 - (1 + (1 - onset) t) exp(-t): that is how the energy
-    F - x area has its minimum, with the area of `tough_area`, at x = onset + (1 - onset) t.
+    A contact whose area is that of zero load at an energy ratio y stores F = y area - y S(y), by
+    which the energy F - y area has its minimum there.
     """
     x, onset = positive(energy_ratio=energy_ratio, onset=onset)
     x, onset = np.broadcast_arrays(x, onset)
-    flat_x = x.ravel()
-    start = onset.ravel()
-    rest = 1 - onset.ravel()
-    # Areas, by t, on the way from nearly none to that at zero load, evenly in the logarithm.
-    full = np.maximum(flat_x - start, 1e-9) / rest
-    least = 1e-3 * np.minimum(full, 1.0)
-    t = least * (full / least) ** np.linspace(0.0, 1.0, 60)[:, None]
+    # Contacts on the way from nearly no area to that of zero load.
+    part = np.linspace(0.02, 1.0, 100).reshape(-1, *[1] * x.ndim)
+    y = part * x
+    stored = y * _area_of_tough(y, onset) - _gain_of_tough(y, onset)
     # The mean gap at which contact without adhesion stores the same energy.
-    decay = np.maximum(-np.log(-np.expm1(-t) - rest * t * np.exp(-t)), 1e-6)
+    decay = np.maximum(-np.log(np.clip(stored, 1e-300, 1.0)), 1e-6)
     gap = np.exp(np.interp(np.log(decay), _FINE_LOG_DECAY, np.log(_FINE_GAPS)))
-    # d(F - x area)/du = dF/du (1 - x/x_t), where x_t = onset + rest t is dF/d(area).
-    rise = decay_energy(gap)[1] * np.exp(-decay) * (flat_x / (start + rest * t) - 1)
-    return plain(np.max(rise, axis=0, initial=0.0).reshape(x.shape) / LIFT)
+    # d(F - x area)/du = dF/du (1 - x/y), where y is dF/d(area).
+    rise = decay_energy(gap)[1] * np.exp(-decay) * (1 / part - 1)
+    return plain(np.max(rise, axis=0, initial=0.0) / LIFT)
 
 
 def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> float | NDArray:
@@ -242,20 +353,20 @@ def _gain_of_springs(energy_ratio: NDArray, range_ratio: NDArray) -> NDArray:
 def remaining_share(
     energy_ratio: ArrayLike,
     range_ratio: ArrayLike,
-    zone: ArrayLike,
-    onset: float = ONSET,
+    onset: ArrayLike,
     relative_compliance: ArrayLike = 1.0,
     load_scale: ArrayLike = 0.0,
     law: ArrayLike = EXPONENTIAL,
 ) -> float | NDArray:
     """Share that remains in the deeper of both states, weak and tough.
 
+    `onset` is that of tough contact, see `find_onset`.
     `relative_compliance` is the compliance to the longest waves over that of a half-space (S in
     `solids`, not the share S above). Below 1 the points of a layer are partly independent: springs
     count by its distance from 1 squared, which follows simulations at 0.1 to 0.5.
     Springs have the exponential law of equal strength.
     """
-    tough = np.asarray(tough_share(energy_ratio, find_onset(zone, onset)))
+    tough = np.asarray(tough_share(energy_ratio, onset))
     weak = weak_share(energy_ratio, range_ratio, load_scale, law)
     share = np.maximum(tough, weak)
     independence = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
@@ -274,10 +385,9 @@ class DeepestState(NamedTuple):
 
 
 def find_deepest_state(
-    energy_ratio, range_ratio, zone, load_scale=0.0, law=EXPONENTIAL
+    energy_ratio, range_ratio, onset, load_scale=0.0, law=EXPONENTIAL
 ) -> DeepestState:
     """Share that remains, largest tension, and area of contact at zero load."""
-    onset = find_onset(zone)
     states = _find_weak_states(energy_ratio, range_ratio, load_scale, law)
     weak = _gain_of(states)
     tough = np.asarray(tough_share(energy_ratio, onset))

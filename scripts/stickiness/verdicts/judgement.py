@@ -248,6 +248,7 @@ def _stack_ends(
     rough = Roughness(
         h_rms=h_rms,
         q0=q0,
+        q1=of_ends("q1"),
         elastic_energy=of_ends("elastic_energy"),
         relative_compliance=of_ends("relative_compliance"),
         half_space_energy=of_ends("half_space_energy"),

@@ -188,6 +188,7 @@ def _add(first: Roughness, second: Roughness, share: float) -> Roughness:
         h_rms=np.hypot(first.h_rms, second.h_rms),
         rms_slope=np.hypot(first.rms_slope, second.rms_slope),
         q0=first.q0**share * second.q0 ** (1 - share),
+        q1=np.maximum(first.q1, second.q1),
         elastic_energy=first.elastic_energy + second.elastic_energy,
         half_space_energy=first.half_space_energy + second.half_space_energy,
         anisotropy_error_factor=np.maximum(
@@ -252,6 +253,7 @@ def _take_smooth_end(ends: Roughness) -> Roughness:
         ends,
         h_rms=ends.h_rms[0],
         q0=ends.q0[0],
+        q1=ends.q1[0],
         elastic_energy=ends.elastic_energy[0],
         half_space_energy=ends.half_space_energy[0],
         rms_slope=ends.rms_slope[0],

@@ -320,6 +320,7 @@ class Surface:
         return Roughness(
             h_rms=data.h_rms.values,
             q0=np.full(2, float(data.q0)),
+            q1=np.full(2, float(data.q1)),
             elastic_energy=energy,
             relative_compliance=np.ones(2),
             half_space_energy=energy,
@@ -341,6 +342,7 @@ class Surface:
         return Roughness(
             h_rms=self.data.h_rms_draws.values,
             q0=self.data.q0_draws.values,
+            q1=float(self.data.q1),
             elastic_energy=energy,
             relative_compliance=np.float64(1.0),
             half_space_energy=energy,
