@@ -202,7 +202,7 @@ MISUSES = [
     (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
     (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
     (lambda: ROUGH.share(0.1, 0.1, 1, 0.5), "separation_factor must be at least 1, .* got 0.5"),
-    (lambda: ROUGH.tension(0.1, 0.1, 0, 0.0, [1.0, 0.9]), "separation_factor must be .* got 0.9"),
+    (lambda: ROUGH.tension(0.1, 0.1, 0, 0.0, [1.0, 0.9]), "pull_off_factor must be .* got 0.9"),
     (
         lambda: ROUGH.threshold(0.1, separation_factor=np.nan),
         "separation_factor must be at least 1, .* got nan",

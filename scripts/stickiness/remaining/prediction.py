@@ -17,6 +17,8 @@ from stickiness.remaining.share import (
     find_deepest_state,
     find_onset,
     remaining_share,
+    tough_share,
+    weak_share,
 )
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
@@ -162,7 +164,7 @@ class Roughness:
         the area.
         """
         if np.any(np.asarray(separation_factor) != 1):
-            factor = _check_separation_factor(separation_factor)
+            factor = _check_factor("separation_factor", separation_factor)
             value = self.share(adhesion_length, range)
             beyond_value = np.maximum(self.area(adhesion_length, range) - value, 0)
             all_edges = np.clip(sign, 0, 1) * beyond_value
@@ -358,6 +360,19 @@ class Roughness:
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
 
+    def spot_radius(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Radius of the spots of contact at zero load, times q0; 0 where contact is not tough.
+
+        Tough contact conforms to the fine waves: it has one spot to every longest wave, which
+        together make the area. Others touch at the finest waves, with spots of any size.
+        """
+        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
+        onset = self.onset(adhesion_length, range)
+        weak = weak_share(energy_ratio, range / self.h_rms, self.load_scale, self.law)
+        is_tough = tough_share(energy_ratio, onset) > weak
+        radius = 2 * np.sqrt(np.pi * np.asarray(self.area(adhesion_length, range)))
+        return plain(np.where(is_tough, radius, 0.0))
+
     def separation(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
     ) -> float | NDArray:
@@ -380,19 +395,20 @@ class Roughness:
         range: ArrayLike,
         sign: ArrayLike = 0,
         pressed: ArrayLike = 0.0,
-        separation_factor: ArrayLike = 1.0,
+        pull_off_factor: ArrayLike = 1.0,
     ) -> float | NDArray:
         """Largest mean tension on separation over E*; `sign` as of `share`.
 
         The high limit goes over to the strength of the law towards full contact, which was not
         simulated, and takes it where full contact, `pressed` with that pressure over E*, lasts. A
-        factor on the work of separation raises the tension as it does the share.
+        factor by dissipation, at least 1, raises the tension up to the strength.
         """
         length = np.asarray(adhesion_length)
         predicted = np.asarray(
             length
             / self.distance(length, range)
-            * self.share(length, range, sign, separation_factor)
+            * _check_factor("pull_off_factor", pull_off_factor)
+            * self.share(length, range, sign)
             * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
         )
         # Towards full contact, which was not simulated, only the strength bounds the high limit.
@@ -477,17 +493,14 @@ class Roughness:
         return plain(lengths.reshape(shape))
 
 
-def _check_separation_factor(factor: ArrayLike) -> NDArray:
-    """Return factors on the work of separation; ValueError if one is below 1 by more than rounding.
-
-    Dissipation adds to the work of separation.
-    """
+def _check_factor(name: str, factor: ArrayLike) -> NDArray:
+    """Return factors by dissipation; ValueError if one is below 1 by more than rounding."""
     factor = np.asarray(factor, dtype=float)
     least = np.min(factor)
     if not least > 1 - 1e-9:
         raise ValueError(
-            "separation_factor must be at least 1, since dissipation adds to the work of "
-            f"separation, got {least:.6g}"
+            f"{name} must be at least 1, since dissipation adds to what separates the surfaces, "
+            f"got {least:.6g}"
         )
     return np.maximum(factor, 1.0)
 

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stickiness.criteria.pair import SIGNS, Pair
+from stickiness.criteria.pair import SIGNS, Pair, find_dissipation
 from stickiness.verdicts.draws import QUANTILES, find_share_quantiles
 from stickiness.verdicts.limits import find_limits
 from stickiness.verdicts.material import Material
@@ -42,10 +42,10 @@ class _Path(NamedTuple):
     """Points along an axis, at which the share is evaluated."""
 
     moduli: NDArray  #: E* [Pa], (point, material); NaN where it is not known
-    separation_factors: (
-        NDArray  #: on the work of separation (value, low, high), (point, material, 3)
-    )
     heights: NDArray  #: factors on the heights, (point,)
+    #: Factors by dissipation at a steady edge, (point, material, 3), and the paths of the edge,
+    #: (point, material); None: as they are
+    dissipation: tuple[NDArray, NDArray] | None = None
 
 
 def follow_remaining(
@@ -61,7 +61,6 @@ def follow_remaining(
     """
     has_dwell = np.array([material.dwell is not None for material in materials])
     moduli = np.array([material.plane_strain_modulus for material in materials])
-    factors = np.array([material.separation_factor for material in materials])
     dwell_factors = DWELL_FACTORS if has_dwell.any() else np.ones(1)
     dwell_moduli = np.array(
         [[_find_modulus(material, factor) for material in materials] for factor in dwell_factors]
@@ -72,30 +71,24 @@ def follow_remaining(
             for factor in dwell_factors
         ]
     )
-
-    def unchanged(points: int) -> NDArray:
-        return np.broadcast_to(factors, (points, *factors.shape))
-
+    edge_paths = np.outer(dwell_factors, [material.edge_path for material in materials])
     paths = {
         "modulus": _Path(
             moduli=MODULUS_FACTORS[:, None] * moduli,
-            separation_factors=unchanged(MODULUS_FACTORS.size),
             heights=np.ones(MODULUS_FACTORS.size),
         ),
         "roughness": _Path(
             moduli=np.broadcast_to(moduli, (ROUGHNESS_FACTORS.size, moduli.size)),
-            separation_factors=unchanged(ROUGHNESS_FACTORS.size),
             heights=ROUGHNESS_FACTORS,
         ),
         "rate": _Path(
             moduli=np.where(has_dwell, np.nan, rate_moduli.T),
-            separation_factors=unchanged(rate_moduli.shape[1]),
             heights=np.ones(rate_moduli.shape[1]),
         ),
         "dwell": _Path(
             moduli=np.where(has_dwell, dwell_moduli, np.nan),
-            separation_factors=dwell_separation,
             heights=np.ones(dwell_factors.size),
+            dissipation=(dwell_separation, edge_paths),
         ),
     }
     curves: dict[str, xr.DataArray | NDArray] = {
@@ -118,7 +111,7 @@ def _find_modulus(material: Material, dwell_factor: float) -> float:
 
 
 def _find_separation_factor(material: Material, dwell_factor: float) -> tuple[float, float, float]:
-    """Factor on the work of separation after the dwell times a factor; NaN beyond a table."""
+    """Factor by dissipation after the dwell times a factor; NaN beyond a table."""
     if material.dwell is None:
         return 1.0, 1.0, 1.0
     return material.plane_strain.separation_factor(
@@ -132,15 +125,18 @@ def _follow(
     """Share along a path, with the limits that decide."""
     is_known = xr.DataArray(~np.isnan(path.moduli), dims=(dimension, "material"))
     moduli = np.where(is_known, path.moduli, pair.modulus[:, 0, 0])
-    factors = np.where(is_known.values[..., None], path.separation_factors, 1.0)
 
     # Both ends of every surface.
     scaled = pair.scaled(path.heights[:, None, None, None])
     changed = replace(
         scaled.at_modulus(moduli[..., None, None] / pair.modulus),
         modulus=moduli[..., None, None],
-        separation_factor=tuple(np.moveaxis(factors, -1, 0)[..., None, None]),
     )
+    if path.dissipation is not None:
+        steady, edge_paths = path.dissipation
+        steady = np.where(is_known.values[..., None], steady, 1.0)
+        dissipation = find_dissipation(changed, steady[:, :, None], edge_paths[..., None])
+        changed = replace(changed, **dissipation)
     shares = xr.Dataset(
         {
             f"remaining{ending}": ((dimension, *PAIR_DIMENSIONS), changed.remaining(sign))
@@ -148,8 +144,13 @@ def _follow(
         }
     )
     # The draws of measured surfaces.
+    shape = (*moduli.shape, len(draws[0]))
+    factors = np.stack([np.broadcast_to(x[..., 0], shape) for x in changed.separation_factor], -1)
     quantiles = [
-        [_follow_draws(drawn, moduli[:, i], factors[:, i], path.heights) for drawn in row]
+        [
+            _follow_draws(drawn, moduli[:, i], factors[:, i, j], path.heights)
+            for j, drawn in enumerate(row)
+        ]
         for i, row in enumerate(draws)
     ]
     dims = (*PAIR_DIMENSIONS[:2], dimension, "quantile")

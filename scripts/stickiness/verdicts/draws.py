@@ -82,7 +82,13 @@ def judge_draws(draws: Pair | None) -> dict[str, NDArray | float]:
         "modulus_threshold": margins * draws.modulus,
         "remaining": draws.share(length, draws.range, errors, factor),
         "pull_off": draws.modulus
-        * draws.tension(length, draws.range, errors, draws.pressed / draws.modulus, factor),
+        * draws.tension(
+            length,
+            draws.range,
+            errors,
+            draws.pressed / draws.modulus,
+            choose_factor(draws.pull_off_factor, errors),
+        ),
     }
     shares_by_spectrum = draws.share(length, draws.range)
     withstands = draws.withstands
@@ -91,7 +97,7 @@ def judge_draws(draws: Pair | None) -> dict[str, NDArray | float]:
         "probability_low": np.mean((margins > 1) & withstands),
         "error_of_spectrum": np.std(np.log(margins_by_spectrum)),
         "error_of_model": np.std(np.log(margins / margins_by_spectrum)),
-        "share_error_of_spectrum": np.std(shares_by_spectrum) * factor_of_value,
+        "share_error_of_spectrum": np.std(shares_by_spectrum * factor_of_value),
     }
 
 

@@ -25,6 +25,7 @@ from stickiness.criteria.pair import (
     WORDS,
     Pair,
     decide,
+    find_dissipation,
     find_quantities,
     make_pair,
 )
@@ -261,10 +262,8 @@ def _stack_ends(
         simulated=of_ends("simulated"),
         lacking=of_ends("lacking"),
     )
-    separation_factors = np.array([material.separation_factor for material in materials])
-    value, low, high = separation_factors.T[..., None, None]
     strain = [material.solid.strain(h_rms[i], q0[i]) for i, material in enumerate(materials)]
-    return make_pair(
+    pair = make_pair(
         rough,
         modulus=of_materials([material.plane_strain_modulus for material in materials]),
         work_of_adhesion=of_materials([material.work_of_adhesion for material in materials]),
@@ -273,9 +272,11 @@ def _stack_ends(
         rms_curvature=np.array([[rough.rms_curvature for rough in row] for row in roughness]),
         a_v=np.array([[rough.a_v.value for rough in row] for row in roughness]),
         wanted_share=wanted_share,
-        separation_factor=(value, low, high),
         layer_strain=np.array(strain),
     )
+    factors = np.array([material.separation_factor for material in materials])
+    edge_paths = np.array([material.edge_path for material in materials])
+    return replace(pair, **find_dissipation(pair, factors[:, None], edge_paths[:, None]))
 
 
 def _judge_all_draws(draws: list[list[Pair | None]]) -> dict[str, tuple]:

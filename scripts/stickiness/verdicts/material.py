@@ -172,10 +172,15 @@ class Material:
 
     @cached_property
     def separation_factor(self) -> tuple[float, float, float]:
-        """Factor on the work of separation (value, low, high); 1 without a dwell."""
+        """Factor by dissipation at a steady edge (value, low, high); 1 without a dwell."""
         if self.dwell is None:
             return 1.0, 1.0, 1.0
         return self.plane_strain.separation_factor(self.dwell, self.broken_at)
+
+    @property
+    def edge_path(self) -> float:
+        """Path of the edge during the dwell over the radius of its tip; 0 without a dwell."""
+        return 0.0 if self.dwell is None else self.dwell * self.broken_at
 
     def warn(self) -> None:
         """Warn of values that hardly any real pair has, with a `PlausibilityWarning`."""

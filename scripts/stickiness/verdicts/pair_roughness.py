@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
-from stickiness.criteria.pair import Pair, make_pair
+from stickiness.criteria.pair import Pair, find_dissipation, make_pair
 from stickiness.remaining.prediction import Roughness, find_film_response
 from stickiness.solids import HALF_SPACE, Film, Solid
 from stickiness.spectrum import combine
@@ -53,11 +53,21 @@ class PairRoughness:
 
     def meet_draws(self, material: Material, wanted_share: float) -> Pair | None:
         """`Pair` of the material with every draw; None of a surface that was not measured."""
-        return None if self.draws is None else _meet(material, self.draws, wanted_share)
+        if self.draws is None:
+            return None
+        ends = self.meet_ends(material, wanted_share)
+        return replace(
+            _meet(material, self.draws, wanted_share),
+            separation_factor=ends.separation_factor,
+            pull_off_factor=ends.pull_off_factor,
+        )
 
     def meet_ends(self, material: Material, wanted_share: float) -> Pair:
         """`Pair` of the material with both ends of the surface, for what needs no a_V."""
-        return _meet(material, self.ends, wanted_share)
+        pair = _meet(material, self.ends, wanted_share)
+        return replace(
+            pair, **find_dissipation(pair, material.separation_factor, material.edge_path)
+        )
 
 
 def _meet(material: Material, rough: Roughness, wanted_share: float) -> Pair:
@@ -70,7 +80,6 @@ def _meet(material: Material, rough: Roughness, wanted_share: float) -> Pair:
         law=material.law,
         pressed=material.pressed,
         wanted_share=wanted_share,
-        separation_factor=material.separation_factor,
         layer_strain=material.solid.strain(rough.h_rms, rough.q0),
     )
 

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy import integrate
+from scipy.special import gamma
 
 from stickiness.solids.moduli import Prony, Table, choose_factor
 
@@ -62,29 +63,71 @@ def test_separation_factor_is_the_integral_of_persson_and_brener(dwell, frequenc
     assert SERIES.separation_factor(dwell, frequency)[0] == pytest.approx(expected, rel=1e-8)
 
 
-def power_law(power):
-    """Series of E ~ t^-power over 21 decades, and the same as a table of storage moduli."""
-    times = 10.0 ** np.arange(-12, 9, 0.5)
-    moduli = times**-power
-    series = Prony(1e3, tuple(zip(1e9 * moduli / moduli.sum(), times, strict=True)))
-    frequencies = np.geomspace(1e-9, 1e13, 400)
-    return series, Table(tuple(frequencies), tuple(series.storage(frequencies)))
+def find_factor_of_power_law(power, dwell, frequency):
+    """Factor of E(t) ~ t^-power by nested quadrature, and E' of that solid over E(dwell).
+
+    Its terms of rates s are s^power d(ln s), and those that have not relaxed carry exp(-s dwell).
+    """
+    relaxed = gamma(power) * dwell**-power
+    scale = np.pi / np.sin(np.pi * power)
+
+    def integrate_parts(integrand, low, high, points):
+        points = [point for point in points if low < point < high]
+        settings = {"points": points, "limit": 400, "epsrel": 1e-8}
+        real = integrate.quad(lambda x: integrand(x).real, low, high, **settings)[0]
+        imaginary = integrate.quad(lambda x: integrand(x).imag, low, high, **settings)[0]
+        return real + 1j * imaginary
+
+    def find_modulus(omega):
+        def integrand(log_rate):
+            rate = np.exp(log_rate)
+            return rate ** (power + 1) * np.exp(-dwell * rate) / (rate + 1j * omega)
+
+        slowest = np.log(min(omega, 1 / dwell)) - 40
+        unrelaxed = integrate_parts(integrand, slowest, np.log(60 / dwell), [np.log(omega)])
+        return scale * (1j * omega) ** power + unrelaxed
+
+    def find_loss(log_ratio):
+        compliance = 1 / find_modulus(2 * np.pi * frequency * np.exp(log_ratio))
+        return -np.sqrt(-np.expm1(2 * log_ratio)) * compliance
+
+    slowest = -35 - max(0.0, np.log(frequency * dwell))
+    lost = integrate_parts(find_loss, slowest, 0.0, [-np.log(frequency * dwell)]).imag
+    storage = scale * np.cos(np.pi * power / 2) * (2 * np.pi * frequency) ** power
+    return 1 / (1 - 2 / np.pi * relaxed * lost), storage / relaxed
 
 
-@pytest.mark.parametrize(("power", "low"), [(0.1, 0.98), (0.2, 0.95), (0.3, 0.91), (0.5, 0.75)])
-def test_a_table_knows_relaxation_and_a_low_separation_factor(power, low):
-    series, table = power_law(power)
-    times = np.geomspace(1e-3, 1e5, 9)
-    error = table.relaxation(times) / series.relaxation(times) - 1
-    assert abs(error).max() < 0.016
-    # The common choice omega = 1/t is worse, the steeper the modulus.
-    common = series.storage(1 / (2 * np.pi * times)) / series.relaxation(times)
-    assert common.max() > 1.05 + 0.3 * power
-    for frequency in (0.01, 1.0, 100.0, 1e4):
-        value, least, most = table.separation_factor(60.0, frequency)
-        exact = series.separation_factor(60.0, frequency)[0]
-        assert low < value / exact < 1.01
-        assert least <= exact <= most
+@pytest.mark.parametrize(
+    ("power", "of_storage"), [(0.1, 1.0), (0.3, 0.95), (0.5, 0.76), (0.7, 0.48), (0.9, 0.16)]
+)
+def test_a_table_of_a_power_law_knows_relaxation_and_the_separation_factor(power, of_storage):
+    dwell = 60.0
+    frequencies = np.geomspace(1.6e-3, 1e4, 40)
+    moduli = np.pi / np.sin(np.pi * power) * np.cos(np.pi * power / 2)
+    table = Table(tuple(frequencies), tuple(moduli * (2 * np.pi * frequencies) ** power))
+    assert table.relaxation(dwell) == pytest.approx(gamma(power) * dwell**-power, rel=0.013)
+    for frequency in (0.01, 1.0, 9e3):
+        value, least, most = table.separation_factor(dwell, frequency)
+        exact, storage = find_factor_of_power_law(power, dwell, frequency)
+        assert value == pytest.approx(exact, rel=0.015)
+        assert least == 1
+        assert exact < 1.015 * most
+    # The storage modulus alone falls short of it, the more, the steeper it is.
+    assert storage / exact == pytest.approx(of_storage, abs=0.02)
+
+
+@pytest.mark.parametrize("points", [15, 200])
+def test_a_table_of_a_series_has_its_separation_factor(points):
+    series = Prony(1.0, tuple((10 ** (0.4 * i), 10.0**-i) for i in range(-2, 5)))
+    frequencies = np.geomspace(1e-4, 1e5, points)
+    table = Table(tuple(frequencies), tuple(series.storage(frequencies)))
+    for dwell, frequency in (
+        np.array(np.meshgrid([1.0, 100.0], [1e-3, 0.1, 10, 1e3])).reshape(2, -1).T
+    ):
+        value, _, most = table.separation_factor(dwell, frequency)
+        exact, _, fast_edge = series.separation_factor(dwell, frequency)
+        assert value == pytest.approx(exact, rel=0.08)
+        assert most == pytest.approx(fast_edge, rel=0.04)
 
 
 def test_a_table_of_one_relaxation_is_off_by_a_tenth_of_the_step():
@@ -92,10 +135,11 @@ def test_a_table_of_one_relaxation_is_off_by_a_tenth_of_the_step():
     step = Prony(1.0, ((9.0, 1.0),))
     table = Table(tuple(frequencies), tuple(step.storage(frequencies)))
     assert abs(table.relaxation(times) - step.relaxation(times)).max() < 0.1 * 9
-    for frequency in (1e-3, 0.1, 10.0):  # the value is too low, the limits hold
+    for frequency in (1e-3, 0.1, 1.0, 10.0):  # the value is too low, the limits hold
         value, least, most = table.separation_factor(100.0, frequency)
         exact = step.separation_factor(100.0, frequency)[0]
-        assert least <= value <= 1.02 * exact
+        assert 0.78 * exact < value <= 1.02 * exact
+        assert least == 1
         assert exact <= 1.001 * most
 
 
@@ -103,12 +147,14 @@ def test_a_table_says_nothing_of_dwells_and_rates_beyond_it():
     table = Table((0.1, 10.0), (1e4, 1e6))
     assert np.isnan(table.relaxation([0.001, 10.0])).all()
     assert np.isnan(table.separation_factor(1.0, 20.0)[0])
-    assert table.separation_factor(0.1, 0.5) == (1.0, 1.0, pytest.approx(1e6 / 1e5 / 1.0132, 1e-3))
+    assert table.separation_factor(1.0, 20.0)[1:] == (1.0, pytest.approx(1e6 / 1e4 / 1.0132, 1e-3))
 
 
 def test_a_factor_between_its_limits():
     np.testing.assert_allclose(choose_factor((4, 1, 9), [-2, -1, 0, 1, 2]), [1, 1, 4, 9, 9])
     np.testing.assert_allclose(choose_factor((4, 1, 9), [-0.5, 0.5]), [2, 6])
+    # A value that is not known is that of a slow edge.
+    np.testing.assert_allclose(choose_factor((np.nan, 1, 9), [-1, 0, 0.5, 1]), [1, 1, 3, 9])
 
 
 def test_limits_of_a_prony_series():

@@ -158,6 +158,20 @@ def test_the_rate_counts_by_the_modulus(drawn):
         np.testing.assert_allclose(slow[f"remaining_by_rate{ending}"], expected, rtol=1e-9)
 
 
+def test_the_curve_of_the_dwell_knows_where_the_factor_has_a_value(drawn):
+    """A hard tape touches at the finest waves until it has rested for long enough."""
+    hard = replace(RESTED, modulus=SLOW.modulus.scaled(6.0))
+    curves = judge_on_surface([hard], drawn).isel(material=0)
+    for place in (0, 12, 20, 24):
+        other = replace(hard, dwell=0.2 * float(DWELL_FACTORS[place]))
+        verdict = judge_on_surface([other], drawn).isel(material=0)
+        assert np.isnan(verdict.separation_factor).all() == (place < 20)
+        curve = curves.isel(dwell_factor=place)
+        shares = (verdict.remaining, *find_limits(verdict))
+        for ending, values in zip(("", "_low", "_high"), shares, strict=True):
+            np.testing.assert_allclose(curve[f"remaining_by_dwell{ending}"], values, rtol=1e-9)
+
+
 @pytest.mark.parametrize("factor", [1e-4, 1.0, 1e3])
 def test_the_dwell_counts_by_the_relaxed_modulus_and_the_factor(drawn, factor):
     """Curves of dwells are verdicts of materials with these dwells."""
@@ -187,8 +201,10 @@ def test_the_curve_of_a_table_ends_where_the_table_does():
     np.testing.assert_array_equal(known, covered)
     # E' goes as powers log10(2)/2 and log10(3)/2 of the frequency below and above 1 Hz.
     relaxed = 0.2 / np.pi ** np.log10(2)
-    expected = (0.2 * 3**0.5 / relaxed, 1.0, 0.6 / relaxed)
-    assert tape.separation_factor == pytest.approx(expected)
+    # Losses add a few per cent to the ratio of storage moduli.
+    value, low, high = tape.separation_factor
+    assert 1.02 < value / (0.2 * 3**0.5 / relaxed) < 1.04
+    assert (low, 1.02 < high / (0.6 / relaxed) < 1.04) == (1.0, True)
 
 
 def test_limits_of_a_dwell_are_those_of_the_factor(drawn):

@@ -31,6 +31,7 @@ def meet(material, rough):
         range=material.range,
         pressed=material.pressed,
         separation_factor=material.separation_factor,
+        pull_off_factor=material.separation_factor,
     )
 
 
@@ -84,6 +85,14 @@ def test_draws_know_preload_and_dissipation():
     # Its limits span three decades, so that the median of a few hundred draws errs.
     share = one.share(find_adhesion_length(rested), rested.range)
     assert median == pytest.approx(factor * share, rel=0.2)
+    # The pull-off has its own factor.
+    tension = one.tension(find_adhesion_length(rested), rested.range)
+    elastic = tension * rested.plane_strain_modulus
+    slow = replace(meet(rested, draws), pull_off_factor=(np.nan, 1.0, 1.0))
+    assert judge_draws(slow)["pull_off_quantile"][1] == pytest.approx(elastic, rel=0.05)
+    pair = meet(rested, draws)
+    median = judge_draws(pair)["pull_off_quantile"][1]
+    assert median == pytest.approx(min(factor * elastic, strength), rel=0.2)
 
 
 @pytest.mark.slow
