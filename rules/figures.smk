@@ -1,4 +1,4 @@
-# The paper's six figures with what was measured added, and six on what the models are good for:
+# The paper's six figures with what was measured added, and seven on what the models are good for:
 # 7 the DMT sum, 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much
 # adhesion remains, 12 what of it heights decide.
 
@@ -49,6 +49,7 @@ FIGURE_INPUTS = {
     "fig10": {"edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL)},
     "fig11": {"table": REMAINING_TABLE},
     "fig12": {"compared": f"{RESULTS}/remaining/heights.nc"},
+    "fig13": {"table": REMAINING_TABLE},
 }
 FIGURES = list(FIGURE_INPUTS)
 

@@ -27,13 +27,11 @@ from stickiness.traction_laws import EXPONENTIAL, find_strength
 ONSETS = (0.02, 0.98)  #: between which the limits of an onset are kept
 # Errors of a share. Limits with these errors contain all simulated energies above 5 %, and 95 % of
 # the smaller ones, in cells of two by two waves and more; in cells of one wave a third of them.
-ONSET_ERROR = (
-    0.08  # of the onset: the spread of extrapolations to short ranges; an envelope, no 90 % limit
-)
+ONSET_ERROR = 0.1  # of the onset
 # The narrowest wave that simulations followed: zeta = 64 with zone zeta = 0.25. Beyond it the onset
 # is as uncertain as half of its further rise. That holds the two extremes: that finer waves do not
 # move it, and that they take their whole energy from the work of adhesion (Persson and Tosatti).
-FINEST_SIMULATED = 170.0
+FINEST_SIMULATED = 128.0
 EXTRAPOLATION_ERROR = 0.5
 SHARE_ERROR = 0.15  # relative, in proportion to what is lost
 WEAK_ERROR = 4.0  # relative, far below the onset at short ranges: the highest summits decide

@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erf, erfcx, lambertw, log_ndtr, ndtr
+from scipy.special import erf, erfcx, lambertw, ndtr
 
 from stickiness.arguments import plain, positive
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
@@ -33,10 +33,9 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 # Fitted to what remains in simulations. The number of scales at which the onset is a half; the
 # spread of onsets from place to place, see `_spread`; and the width of the cohesive zone times the
 # wave number of the finest waves below which it no longer matters.
-HALF_ONSET = 3.5
-SPREAD = 0.48
-SHARP = 0.125
-FEWEST_SCALES = 0.01  #: where all waves are bridged
+HALF_ONSET = 3.7
+SPREAD = 0.74
+SHARP = 0.25
 EXPONENTS = (-0.999, 30.0)  #: between which that of the elastic energy is searched
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
@@ -77,7 +76,7 @@ def find_narrowest_wave(zone: ArrayLike, magnification: ArrayLike) -> float | ND
     each of them, and the range no longer matters.
     """
     (zone,) = positive(zone=zone)
-    return plain(1 / (zone + SHARP / np.asarray(magnification)))
+    return plain(1 + 1 / (zone + SHARP / np.asarray(magnification)))
 
 
 def count_scales(
@@ -108,8 +107,7 @@ def count_scales(
     magnification = np.asarray(magnification, dtype=float)
     exponent = _find_exponent(magnification, np.asarray(mean_wave_number, dtype=float))
     slope = np.abs(exponent / 2) + 1e-9  # at zero the quotient below has a limit
-    log_wave = np.maximum(np.log(narrowest_wave), FEWEST_SCALES)
-    return plain(np.tanh(slope * log_wave) / slope)
+    return plain(np.tanh(slope * np.log(narrowest_wave)) / slope)
 
 
 def _find_exponent(magnification: NDArray, mean_wave_number: NDArray) -> NDArray:
@@ -157,51 +155,42 @@ def tough_area(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
 
     At 0.5, where attraction over gaps stands in for contact, it is 1.2 to 2.4 times that. From the
     onset o on the area is 1 - exp(-(x - o)/(1 - o)), the simplest one by which S tends to 1 - 1/x,
-    what full contact leaves. Onsets differ from place to place: this is the mean over a normal
-    distribution of them.
+    what full contact leaves. Onsets differ from place to place: this is the mean over `_spread` on
+    both sides.
     """
     x, onset = positive(energy_ratio=energy_ratio, onset=onset)
-    return plain(np.maximum(_area_of_tough(x, onset), 0.0))
+    return plain(_area_of_tough(x, onset))
 
 
 def _spread(onset: NDArray) -> NDArray:
-    """Standard deviation of the onset from place to place; none where very many scales add up."""
+    """Half the width of the range of onsets from place to place; none if very many scales add."""
     return SPREAD * onset * np.sqrt(1 - onset)
 
 
 def _area_of_tough(x: NDArray, onset: NDArray) -> NDArray:
-    """Area of tough contact; what the normal distribution has below x = 0 is left out."""
-    return _mean_area(x, onset) - _mean_area(np.zeros_like(x), onset)
+    """Mean area of tough contact over evenly distributed onsets."""
+    spread = _spread(onset)
+
+    def integrate(beyond: NDArray) -> NDArray:
+        """Integral of the area over x, up to a distance beyond a single onset."""
+        beyond = np.maximum(beyond, 0.0)
+        return beyond + (1 - onset) * np.expm1(-beyond / (1 - onset))
+
+    return (integrate(x - onset + spread) - integrate(x - onset - spread)) / (2 * spread)
 
 
 def _gain_of_tough(x: NDArray, onset: NDArray) -> NDArray:
     """Energy gained by tough contact over U, the integral of its area over x."""
-    nothing = np.zeros_like(x)
-    below_zero = _mean_gain(nothing, onset) + x * _mean_area(nothing, onset)
-    return _mean_gain(x, onset) - below_zero
+    spread = _spread(onset)
 
+    def integrate_twice(beyond: NDArray) -> NDArray:
+        """Integral of the gain over x, up to a distance beyond a single onset."""
+        beyond = np.maximum(beyond, 0.0)
+        rest = 1 - onset
+        return beyond**2 / 2 - rest * beyond - rest**2 * np.expm1(-beyond / rest)
 
-def _mean_area(x: NDArray, onset: NDArray) -> NDArray:
-    """Mean over normal onsets of 1 - exp(-(x - o)/(1 - o)) above the onset."""
-    rest = 1 - onset
-    width = _spread(onset)
-    deviation = (x - onset) / width
-    return ndtr(deviation) - _mean_decay(deviation, width / rest)
-
-
-def _mean_gain(x: NDArray, onset: NDArray) -> NDArray:
-    """Integral of `_mean_area` over x."""
-    rest = 1 - onset
-    width = _spread(onset)
-    deviation = (x - onset) / width
-    density = np.exp(-(deviation**2) / 2) / np.sqrt(2 * np.pi)
-    above_onset = width * (deviation * ndtr(deviation) + density)
-    return above_onset - rest * (ndtr(deviation) - _mean_decay(deviation, width / rest))
-
-
-def _mean_decay(deviation: NDArray, width: NDArray) -> NDArray:
-    """Mean of exp(-(x - o)/(1 - o)) above the onset; the width is over 1 - o."""
-    return np.exp(width**2 / 2 - deviation * width + log_ndtr(deviation - width))
+    both = integrate_twice(x - onset + spread) - integrate_twice(x - onset - spread)
+    return both / (2 * spread)
 
 
 def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:

@@ -107,7 +107,8 @@ def test_limits_are_wider_for_surfaces_with_a_direction():
     alike = predict(as_if, length, TOUGH["range"])
     assert (found.anisotropy_error_factor, alike.anisotropy_error_factor) == (UNLIKE, 1)
     assert found.energy_ratio == pytest.approx(alike.energy_ratio)
-    assert found.separation == pytest.approx(alike.separation, rel=0.01)
+    # By the direction the mean wave number is larger over q0: that counts as more scales.
+    assert alike.separation_limits[0] < found.separation < alike.separation
     for name in ("separation_limits", "pull_off_limits"):
         wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, alike))
         assert wide > 1.1 * narrow

@@ -8,13 +8,14 @@ from scipy.special import ndtr
 from common import remaining_table
 from stickiness import repulsive, surface
 from stickiness.remaining import share as module
-from stickiness.remaining.prediction import LASTING, LATE
+from stickiness.remaining.prediction import LASTING, LATE, Roughness
 from stickiness.remaining.share import (
     FIRST_TOUCH,
     LIFT,
-    ONSET,
+    count_scales,
     decay_energy,
     find_deepest_state,
+    find_narrowest_wave,
     find_onset,
     remaining_share,
     tough_area,
@@ -30,11 +31,58 @@ pytestmark = pytest.mark.processors
 TABLE = "config/remaining.csv"
 
 
-@pytest.mark.parametrize("onset", [0.2, ONSET, 0.6])
+ONSETS = [0.1, 0.4, 0.75]
+
+
+@pytest.mark.parametrize("onset", ONSETS)
 def test_energy_gained_grows_with_the_area_of_contact(onset):
-    x = np.linspace(onset, 4, 4001)
+    x = np.linspace(0.01, 4, 8001)
     slope = np.gradient(x * tough_share(x, onset), x)
     assert slope[5:-5] == pytest.approx(tough_area(x, onset)[5:-5], abs=1e-3)
+
+
+@pytest.mark.parametrize("onset", ONSETS)
+def test_tough_contact_tends_to_full_contact_and_to_nothing(onset):
+    assert tough_share(50.0, onset) == pytest.approx(1 - 1 / 50, abs=1e-9)
+    assert tough_share(1e-3 * onset, onset) == 0
+    assert tough_area(1e-3 * onset, onset) == 0
+    # Where the onset is that of full contact, so is what remains.
+    x = np.array([0.9, 1.0, 1.5])
+    assert tough_share(x, 1 - 1e-6) == pytest.approx(np.maximum(1 - 1 / x, 0), abs=2e-3)
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.5, 0.65, 0.8, 0.95])
+@pytest.mark.parametrize("magnification", [4.0, 64.0, 1e4])
+def test_scales_are_those_of_the_spectrum(hurst, magnification):
+    """By quadrature of the energy u per logarithm of the wave number."""
+    rough = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
+    mean_wave_number = 4 * rough.elastic_energy()
+    for narrowest in (2.0, 0.5 * magnification):
+        log_q = np.linspace(0, np.log(narrowest), 4001)
+        density = np.exp(3 * log_q) * rough.psd(np.exp(log_q))
+        total = np.trapezoid(density, log_q)
+        expected = total**2 / np.trapezoid(density**2, log_q)
+        scales = count_scales(narrowest, magnification, mean_wave_number)
+        assert scales == pytest.approx(expected, rel=1e-4)
+
+
+def test_the_onset_saturates_and_moves_with_the_scales():
+    """At fixed finest waves the range stops mattering; energy at all scales moves the onset to 1."""
+    magnification = 32.0
+    waves = find_narrowest_wave(np.array([1e-3, 1e-5, 1e-12]) / magnification, magnification)
+    assert waves == pytest.approx(waves[-1], rel=0.01)
+    assert find_narrowest_wave(0.1, 1e9) == pytest.approx(11, rel=1e-6)
+
+    onsets = {}
+    for hurst in (0.5, 0.8):
+        for magnification in (32.0, 1e4, 1e8):
+            rough = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
+            wave = find_narrowest_wave(1e-12, magnification)
+            scales = count_scales(wave, magnification, 4 * rough.elastic_energy())
+            onsets[hurst, magnification] = find_onset(scales)
+    assert onsets[0.5, 1e8] - onsets[0.5, 1e4] > 0.05
+    assert onsets[0.8, 1e8] - onsets[0.8, 1e4] < 0.005
+    assert onsets[0.5, 1e8] < 1
 
 
 def test_attraction_of_long_range_needs_no_contact():
@@ -76,41 +124,48 @@ def test_hard_surfaces_keep_the_attraction_of_their_gaps_at_first_touch():
 def test_tension_of_a_tail_is_the_slope_of_its_energy():
     """Twice the attraction over the separation, if the range is long."""
     x, far = 1e-8, 30.0
-    share, tension, area = find_deepest_state(x, far, 1.0, law="van_der_waals")
+    share, tension, area = find_deepest_state(x, far, 0.2, law="van_der_waals")
     assert x * share / tension == pytest.approx((far + FIRST_TOUCH) / 2, rel=0.02)
     assert area == 0
 
 
-def test_tough_contact_has_the_least_energy_of_its_areas():
-    """The least F - x A over areas, with F of `tough_tension`, is what remains at every x."""
-    x, t = np.array([0.5, 0.8, 1.5, 3.0]), np.linspace(0, 12, 20001)[:, None]
-    area = -np.expm1(-t)
-    energy = 1 - (1 + (1 - ONSET) * t) * np.exp(-t) - x * area
-    assert -energy.min(axis=0) / x == pytest.approx(tough_share(x), abs=1e-6)
-    assert np.take_along_axis(area, energy.argmin(axis=0)[None], 0)[0] == pytest.approx(
-        tough_area(x), abs=1e-3
-    )
+def tough_energy(y, onset):
+    """Elastic energy of tough contacts, the integral of y over the area, by the trapezoidal rule."""
+    area = tough_area(y, onset)
+    steps = (y[1:] + y[:-1]) / 2 * np.diff(area)
+    return area, np.append(0.0, np.cumsum(steps))
+
+
+@pytest.mark.parametrize("onset", ONSETS)
+def test_tough_contact_has_the_least_energy_of_its_areas(onset):
+    """The least F - x A over areas is what remains at every x."""
+    area, energy = tough_energy(np.linspace(1e-4, 12, 40001), onset)
+    for x in (0.5, 0.8, 1.5, 3.0):
+        total = energy - x * area
+        assert -total.min() / x == pytest.approx(tough_share(x, onset), abs=1e-6)
+        assert area[total.argmin()] == pytest.approx(tough_area(x, onset), abs=1e-3)
 
 
 @pytest.mark.parametrize("x", [0.6, 1.0, 2.0])
 def test_the_tension_is_the_steepest_rise_of_the_energy(x):
-    """By finite differences of energy over mean gap, from the energies of `tough_tension`."""
-    t = np.linspace(1e-4, (x - ONSET) / (1 - ONSET), 4001)
-    stored = 1 - (1 + (1 - ONSET) * t) * np.exp(-t)
+    """By finite differences of energy over mean gap."""
+    onset = 0.4
+    area, stored = tough_energy(np.linspace(1e-4, x, 8001), onset)
+    area, stored = area[stored > 1e-9], stored[stored > 1e-9]
     gaps = np.geomspace(1e-6, 10, 20001)
     gap = LIFT * np.interp(-stored, -np.exp(-decay_energy(gaps)[0]), gaps)
-    slope = np.diff(stored + x * np.expm1(-t)) / np.diff(gap)
-    assert tough_tension(x) == pytest.approx(slope.max(), rel=0.01)
+    slope = np.diff(stored - x * area) / np.diff(gap)
+    assert tough_tension(x, onset) == pytest.approx(slope.max(), rel=0.01)
 
 
 def test_the_deeper_state_counts():
     x, e = np.geomspace(0.05, 3, 30)[:, None], np.geomspace(0.05, 3, 30)
-    zone = e**2 / x
-    share, tension, area = find_deepest_state(x, e, zone, 0.2)
-    assert share == pytest.approx(remaining_share(x, e, zone, load_scale=0.2))
-    assert np.all(share >= tough_share(x, find_onset(zone)))
+    onset = np.broadcast_to(find_onset(find_narrowest_wave(e**2 / x, 32.0)), (30, 30))
+    share, tension, area = find_deepest_state(x, e, onset, 0.2)
+    assert share == pytest.approx(remaining_share(x, e, onset, load_scale=0.2))
+    assert np.all(share >= tough_share(x, onset))
     assert np.all(share >= weak_share(x, e, 0.2))
-    assert np.all((area >= 0) & (area <= 1) & (tension >= 0))
+    assert np.all((area >= 0) & (area <= 1 + 1e-12) & (tension >= 0))
 
 
 def test_energy_of_contact_without_adhesion():
@@ -189,7 +244,13 @@ def test_limits_cover_what_was_simulated(held, little):
 
 def test_the_committed_predictions_are_those_of_the_code():
     table = remaining_table.read(TABLE)
-    scale = table.full_contact_energy / table.rms_slope
-    share = remaining_share(table.energy_ratio, table.range, table.zone, load_scale=scale)
     plain = table[~table["set"].str.contains("rolloff")]
-    assert share[plain.index] == pytest.approx(plain.predicted, rel=1e-3, abs=1e-5)
+    rough = Roughness(
+        h_rms=1.0,
+        q0=1.0,
+        elastic_energy=plain.full_contact_energy.to_numpy(),
+        q1=plain.magnification.to_numpy(),
+        rms_slope=plain.rms_slope.to_numpy(),
+    )
+    share = rough.share(plain.adhesion_length.to_numpy(), plain.range.to_numpy())
+    assert share == pytest.approx(plain.predicted.to_numpy(), rel=1e-3, abs=1e-5)
