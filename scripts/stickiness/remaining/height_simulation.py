@@ -2,6 +2,8 @@
 
 The states are contacts without adhesion at a dozen loads, full contact, and states of zero load for
 several works of adhesion. The attraction simulated has the shortest range that the grid resolves.
+A solid that is stiff to long waves takes stronger adhesion than a half-space to conform. The grid
+resolves its edges at a longer range, from which states are followed to that of the half-space.
 """
 
 from __future__ import annotations
@@ -9,29 +11,31 @@ from __future__ import annotations
 import logging
 import warnings
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft
 from scipy.special import erfinv
 
 from stickiness.adhesive import solver as adhesive
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.arguments import grid
-from stickiness.measured import periodic
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.full_contact import full_contact_energy
+from stickiness.remaining.standard_heights import (
+    MOST_POINTS,
+    StandardHeights,
+    StandardMap,
+    standardise,
+)
 from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
 from stickiness.repulsive import solver as repulsive
-from stickiness.repulsive.half_space import check_length, measure_slope
+from stickiness.repulsive.half_space import check_length, half_space, measure_slope
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import Exponential
 
-MOST_POINTS = 256  #: of the grid, along the longer side
-FEWEST_POINTS = 32  #: along the shorter side
-PIXELS_RESOLVED = 4  #: in the shortest wave that an instrument resolves, unless it says otherwise
 #: Works of adhesion over the elastic energy of full contact, falling. They are simulated until
 #: hardly anything of them remains: broad tops hold with very little adhesion.
 ENERGY_RATIOS = np.append(np.geomspace(2.0, 0.2, 8), np.geomspace(0.1, 1e-4, 11))
@@ -41,11 +45,12 @@ LAST_STEP = 1.1  #: of the tension on separation, over the one before
 CONTACT_AREAS = np.geomspace(1e-3, 0.9, 12)
 CONTACT_TOLERANCE = 1e-4
 ADHESION_TOLERANCE = 1e-3
+STIFFER = 1.02  #: energy of full contact over that of a half-space, from which a solid is stiffer
+LONGEST_RANGE = 2.0  #: of the attraction on such solids, over the rms height
+MOST_ITERATIONS = 3000
+FEW_ITERATIONS = 100  #: on such solids
 #: Ends of the bins in which gaps are counted, over the rms height.
 GAP_BINS = np.concatenate([[0.0], np.geomspace(1e-7, 30.0, 128)])
-STANDARD_HEIGHT = 0.01  #: rms height of what is simulated, over the first side of the map
-DECIMALS = 10  #: of these heights; an instrument resolves far less
-_ROUNDING = 1e-9
 
 
 def simulate_heights(
@@ -53,85 +58,45 @@ def simulate_heights(
     sides: tuple[float, float],
     cutoff: float = np.inf,
     most_points: int = MOST_POINTS,
+    solid: Solid = HALF_SPACE,
 ) -> SimulatedHeights:
     """Simulate contact on levelled heights, which are made periodic.
 
-    Large maps are thinned to every second, third … point. That keeps the distribution of the
-    heights and the flat tops, which a filter would cover with ripples.
-
     Parameters
     ----------
-    heights : (nx, ny) array
-        Levelled heights [length].
-    sides : pair of floats
-        Sides of the map [length].
-    cutoff : float
-        Highest wave number that the heights resolve [1/length]. Waves beyond it are filtered out
-        only where it is below that of four pixels: there they are noise or blur.
-    most_points : int
-        Points of the grid along the longer side, at most.
+    heights, sides, cutoff, most_points
+        As of `standard_heights.standardise`.
+    solid : solids.HalfSpace or solids.Layer
+        Elastic solid; the thickness of a layer is in the unit of `sides`.
 
     Raises
     ------
     ConvergenceError
         If no state with adhesion converges.
     ValueError
-        If the map has fewer than `FEWEST_POINTS` along a side.
+        If the map has too few points along a side.
     """
-    heights = np.asarray(heights, dtype=float)
-    if min(heights.shape) < FEWEST_POINTS:
-        raise ValueError(
-            f"heights must have {FEWEST_POINTS} points along each side, got {heights.shape}"
-        )
-    steps = tuple(side / n for side, n in zip(sides, heights.shape, strict=True))
-    # Thin the longer side to as many points, but leave enough of them across a narrow strip.
-    stride = -(-max(heights.shape) // most_points)
-    stride = min(stride, min(heights.shape) // FEWEST_POINTS)
-    is_noisy = cutoff < 2 * np.pi / (PIXELS_RESOLVED * max(steps)) * (1 - _ROUNDING)
+    return simulate_standard(standardise(heights, sides, cutoff, most_points), solid)
 
-    def prepare(part: NDArray) -> NDArray:
-        """A part, periodic, on a grid whose halves the solvers can thin again."""
-        counts = tuple(n // (4 * stride) * (4 * stride) for n in part.shape)
-        level = periodic.periodise(part[: counts[0], : counts[1]], "smooth")
-        return _filter_waves(level, steps, cutoff) if is_noisy else level
 
-    def simulate(part: NDArray, pull: bool = False) -> TrialStates:
-        level = prepare(part)
-        # Lengths over the first side of the whole; heights of one size for every surface, rounded:
-        # last bits do not matter.
-        unit = sides[0]
-        part_sides = tuple(n * step / unit for n, step in zip(level.shape, steps, strict=True))
-        thinned = level[::stride, ::stride]
-        height_unit = float(np.std(thinned)) / STANDARD_HEIGHT
-        standard = np.round((thinned - thinned.mean()) / height_unit, DECIMALS)
-        states = find_trial_states(standard, part_sides, pull=pull)
-        return states.scaled(height_unit=height_unit, length_unit=unit)
+def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> SimulatedHeights:
+    """Simulate contact on heights that are periodic and thinned; errors as of `simulate_heights`.
 
-    half_x, half_y = (n // 2 for n in heights.shape)
-    quarters = [
-        simulate(heights[along_x, along_y])
-        for along_x in (slice(None, half_x), slice(half_x, None))
-        for along_y in (slice(None, half_y), slice(half_y, None))
-    ]
-    whole = prepare(heights)
-    resolved = _filter_waves(whole, steps, cutoff)
-    whole_sides = tuple(n * step for n, step in zip(whole.shape, steps, strict=True))
+    The thickness of a layer is in the unit of the surface.
+    """
+    length_unit = standard.length_unit
+    in_unit = solid.in_unit(length_unit)
+
+    def simulate(part: StandardMap, pull: bool = False) -> TrialStates:
+        states = find_trial_states(part.heights, part.sides, solid=in_unit, pull=pull)
+        return states.scaled(height_unit=part.height_unit, length_unit=length_unit)
+
     return SimulatedHeights(
-        whole=simulate(heights, pull=True),
-        quarters=tuple(quarters),
-        resolved_energy=full_contact_energy(resolved, 1.0, whole_sides, edges="given"),
-        pixel=stride * max(steps),
+        quarters=tuple(simulate(quarter) for quarter in standard.quarters),
+        whole=simulate(standard.whole, pull=True),
+        resolved_energy=standard.resolved_energy,
+        pixel=standard.pixel,
     )
-
-
-def _filter_waves(heights: NDArray, steps: tuple[float, float], cutoff: float) -> NDArray:
-    """Periodic heights without waves beyond a wave number."""
-    qx, qy = (
-        2 * np.pi * fft.fftfreq(n, step) for n, step in zip(heights.shape, steps, strict=True)
-    )
-    modes = fft.fft2(heights)
-    modes[np.hypot(qx[:, None], qy) > cutoff * (1 + _ROUNDING)] = 0.0
-    return fft.ifft2(modes).real
 
 
 def find_trial_states(
@@ -182,25 +147,38 @@ def find_trial_states(
     simulated = []
     closed: str | NDArray = adhesive.SEPARATION
     pixel = max(side / n for side, n in zip(sides, heights.shape, strict=True))
+    half_space_energy = full_contact_energy(heights, 1.0, sides, edges="given")
+    is_stiffer = energy > half_space_energy * STIFFER
     for ratio in ENERGY_RATIOS:
         adhesion_length = ratio * energy
-        law = Exponential(adhesion_length, np.sqrt(pixel * adhesion_length / COARSEST))
-        states = list(_adhere(heights, sides, law, solid, starts=(closed, adhesive.APPROACH)))
+        half_space_range = np.sqrt(pixel * ratio * half_space_energy / COARSEST)
+        resolved_range = np.sqrt(pixel * adhesion_length / COARSEST)
+        longest_range = max(LONGEST_RANGE * h_rms, half_space_range)
+        law = Exponential(adhesion_length, min(resolved_range, longest_range))
+        starts = (closed, adhesive.APPROACH)
+        states = list(_adhere(heights, sides, law, solid, starts, is_stiffer))
         if not states:
             continue
-        counted += [_count_gaps(state.elastic_energy, state.gap, h_rms) for state in states]
+        closed = states[0].gap
         deepest = min(states, key=lambda state: state.energy)
+        if is_stiffer:
+            followed = list(_shorten_range(heights, sides, deepest, half_space_range, solid))
+            states += followed
+            deepest = [deepest, *followed][-1]
+        counted += [_count_gaps(state.elastic_energy, state.gap, h_rms) for state in states]
         share = max(-deepest.energy, 0.0) / adhesion_length
         if share < HARDLY_ANYTHING:
-            simulated.append((adhesion_length, law.range, share, h_rms))
+            simulated.append((adhesion_length, deepest.law.range, share, h_rms))
             break
-        tension = _pull_off(heights, sides, deepest, share, solid) if pull else np.nan
-        simulated.append((adhesion_length, law.range, share, adhesion_length * share / tension))
-        closed = states[0].gap
+        tension = np.nan
+        if pull:
+            tension = _pull_off(heights, sides, deepest, share, solid, is_stiffer)
+        distance = adhesion_length * share / tension
+        simulated.append((adhesion_length, deepest.law.range, share, distance))
     if not simulated:
         raise ConvergenceError("no state of contact with adhesion converged", None)
     lengths, ranges, shares, distances = np.array(simulated[::-1]).T
-    return TrialStates(
+    trial_states = TrialStates(
         elastic_energy=np.array([state.elastic_energy for state in counted]),
         gap_share=np.array([state.gap_share for state in counted]),
         gap=np.array([state.gap for state in counted]),
@@ -211,6 +189,29 @@ def find_trial_states(
         simulated_share=shares,
         simulated_distance=distances,
     )
+    if not is_stiffer:
+        return trial_states
+    # Where a state was not followed to its end, that for another work of adhesion may be deeper.
+    deepest = trial_states.share(lengths, ranges)
+    return replace(trial_states, simulated_share=np.maximum(shares, deepest))
+
+
+def _shorten_range(
+    heights: NDArray,
+    sides: tuple[float, float],
+    state: adhesive.Adhesion,
+    shortest: float,
+    solid: Solid,
+) -> Iterator[adhesive.Adhesion]:
+    """Follow a state of zero load to a shorter range of the attraction, as far as the grid can."""
+    while state.law.range > shortest:
+        law = Exponential(state.law.adhesion_length, max(state.law.range / 2, shortest))
+        try:
+            (state,) = _adhere(heights, sides, law, solid, (state,), is_stiffer=True)
+        except ValueError as error:
+            logging.info("range %.3g: %s", law.range, error)  # the grid would set the edges
+            return
+        yield state
 
 
 def _pull_off(
@@ -219,12 +220,13 @@ def _pull_off(
     state: adhesive.Adhesion,
     share: float,
     solid: Solid,
+    is_stiffer: bool,
 ) -> float:
     """Largest mean tension [E*] that a state of zero load withstands, within some 5 %."""
 
     def pull(tension: float, start: adhesive.Adhesion) -> adhesive.Adhesion | None:
         """State under a tension; None if that tears the surfaces apart."""
-        states = _adhere(heights, sides, state.law, solid, (start,), pressure=-tension)
+        states = _adhere(heights, sides, state.law, solid, (start,), is_stiffer, -tension)
         return next(states, None)
 
     # Halve a tension until the surfaces withstand it, and then raise it in steps, each half as
@@ -266,8 +268,13 @@ def _press(
 ) -> Iterator[_CountedState]:
     """States of contact without adhesion."""
     slope = measure_slope(heights, sides)
-    # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
-    loads = slope * erfinv(CONTACT_AREAS) / np.sqrt(2)
+    # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches a half-space. Pressures on
+    # another solid rise as those of full contact.
+    rms_pressure, on_half_space = (
+        float(np.std(half_space(heights.shape, sides, solid=each, kept=False).stiffness(heights)))
+        for each in (solid, HALF_SPACE)
+    )
+    loads = rms_pressure / on_half_space * slope * erfinv(CONTACT_AREAS) / np.sqrt(2)
     contacts = repulsive.load_path(heights, sides, loads, tol=CONTACT_TOLERANCE, solid=solid)
     for contact in contacts:
         displacement = contact.gap + heights - contact.shift
@@ -281,9 +288,15 @@ def _adhere(
     law: Exponential,
     solid: Solid,
     starts: tuple[str | NDArray | adhesive.Adhesion, ...],
+    is_stiffer: bool,
     pressure: float = 0.0,
 ) -> Iterator[adhesive.Adhesion]:
-    """States of contact at a load, from several starts, but for those that do not converge."""
+    """States of contact at a load, from several starts, but for those that do not converge.
+
+    Those on a solid `is_stiffer` than a half-space count when their iterations are spent, too: any
+    state bounds the energy. On the grid, single points hold them back.
+    """
+    most_iterations = FEW_ITERATIONS if is_stiffer else MOST_ITERATIONS
     for start in starts:
         try:
             with warnings.catch_warnings():
@@ -296,7 +309,10 @@ def _adhere(
                     pressure=pressure,
                     start=start,
                     tol=ADHESION_TOLERANCE,
+                    max_iterations=most_iterations,
                     solid=solid,
                 )
         except ConvergenceError as error:
+            if is_stiffer and not isinstance(error, adhesive.PullOffError):
+                yield error.contact
             logging.info("adhesion length %.3g: %s", law.adhesion_length, error)

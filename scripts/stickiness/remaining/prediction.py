@@ -20,6 +20,7 @@ from stickiness.remaining.share import (
     tough_share,
     weak_share,
 )
+from stickiness.remaining.thin_layers import find_flow, find_gain
 from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
@@ -97,6 +98,7 @@ class Roughness:
     elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
     q1: ArrayLike = np.inf  #: of the finest waves; infinite: many decades of waves
     relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
+    flow: ArrayLike = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
     #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
     half_space_energy: ArrayLike | None = None
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
@@ -183,6 +185,7 @@ class Roughness:
         onset = np.asarray(self.onset(adhesion_length, range))
         simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
         onset_error = ONSET_ERROR + EXTRAPOLATION_ERROR * (onset - simulated_onset)
+        gain = find_gain(energy_ratio, self.relative_compliance, self.flow, sign)
         share = remaining_share(
             energy_ratio,
             range_ratio,
@@ -190,7 +193,9 @@ class Roughness:
             relative_compliance=self.relative_compliance,
             load_scale=self.load_scale,
             law=self.law,
+            gain=gain,
         )
+        energy_ratio = energy_ratio * gain
         lost = 1 - np.asarray(share)
 
         # The relative error grows below the onset, the absolute one fades there. A law with a tail
@@ -208,6 +213,8 @@ class Roughness:
             LAYER_LESS * np.minimum(abs(compliance_lost), 1.0),
             LAYER_MORE * np.maximum(compliance_lost, 0.0),
         )
+        # Where material flows along a layer, the error of the gain stands for these.
+        layer_error = layer_error * (1 - np.asarray(self.flow))
         share = share + sign * layer_error * fading * lost
         if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
             share = self._bound_by_half_space(share, adhesion_length, range, sign)
@@ -600,9 +607,7 @@ def predict(
         Wave number of the longest waves that matter [1/length]; by default the roll-off,
         or the lowest of the spectrum, with a direction of its norm.
     solid : solids.HalfSpace or solids.Layer
-        Elastic solid; the thickness of a layer is in the unit of the spectrum. On thin
-        incompressible layers the value is a third to nine tenths of what was simulated (the less,
-        the weaker the adhesion); the limits hold that.
+        Elastic solid; the thickness of a layer is in the unit of the spectrum.
     law : str
         Name in `traction_laws.LAWS`. The range of "van_der_waals" is the cut-off distance.
     pressed : float
@@ -637,6 +642,7 @@ def predict(
         elastic_energy=spectrum.elastic_energy(solid),
         q1=highest,
         relative_compliance=check_solid(solid).factor(q0),
+        flow=find_flow(solid, q0),
         half_space_energy=find_half_space_energy(spectrum, solid),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
         rms_slope=spectrum.rms_slope,

@@ -346,6 +346,7 @@ def remaining_share(
     relative_compliance: ArrayLike = 1.0,
     load_scale: ArrayLike = 0.0,
     law: ArrayLike = EXPONENTIAL,
+    gain: ArrayLike = 1.0,
 ) -> float | NDArray:
     """Share that remains in the deeper of both states, weak and tough.
 
@@ -353,14 +354,16 @@ def remaining_share(
     `relative_compliance` is the compliance to the longest waves over that of a half-space (S in
     `solids`, not the share S above). Below 1 the points of a layer are partly independent: springs
     count by its distance from 1 squared, which follows simulations at 0.1 to 0.5.
-    Springs have the exponential law of equal strength.
+    Springs have the exponential law of equal strength, at the energy ratio times a `gain`, see
+    `thin_layers`.
     """
     tough = np.asarray(tough_share(energy_ratio, onset))
     weak = weak_share(energy_ratio, range_ratio, load_scale, law)
     share = np.maximum(tough, weak)
     independence = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
     if np.any(independence > 0):
-        springs = spring_share(energy_ratio, np.asarray(range_ratio) / find_strength(law))
+        spring_ratio = np.asarray(energy_ratio) * gain
+        springs = spring_share(spring_ratio, np.asarray(range_ratio) / find_strength(law))
         share = share + independence * np.maximum(springs - share, 0.0)
     return plain(np.minimum(share, 1.0))
 

@@ -252,6 +252,7 @@ def _stack_ends(
         q1=of_ends("q1"),
         elastic_energy=of_ends("elastic_energy"),
         relative_compliance=of_ends("relative_compliance"),
+        flow=of_ends("flow"),
         half_space_energy=of_ends("half_space_energy"),
         anisotropy_error_factor=of_ends("anisotropy_error_factor"),
         rms_slope=of_ends("rms_slope"),

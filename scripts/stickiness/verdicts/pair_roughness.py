@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair, find_dissipation, make_pair
 from stickiness.remaining.prediction import Roughness, find_film_response
+from stickiness.remaining.thin_layers import find_flow
 from stickiness.solids import HALF_SPACE, Film, Solid
 from stickiness.spectrum import combine
 from stickiness.spectrum.interface import Spectrum
@@ -106,6 +107,8 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
     stiffening = np.ones(2)
     if material.solid != HALF_SPACE:
         ends, draws, stiffening = _put_on_layer(ends, draws, spectra, material.solid)
+        if own is None:
+            ends, draws = _simulate_on_layer(ends, draws, surface, material.solid)
 
     a_v, doubt = _find_a_v(material, surface, ends, rms_curvature, spectra)
     doubts.append(doubt)
@@ -227,8 +230,7 @@ def _keep_simulation(rough: Roughness, added: ArrayLike) -> dict[str, NDArray]:
     """Fields of the simulated heights where another solid or a layer hardly changes the energy.
 
     `added` is the energy added over that of the heights. Up to `HARDLY_CHANGED` it counts as that
-    of waves that are not simulated; beyond, nothing is: heights are simulated alone and on a
-    half-space.
+    of waves that are not simulated; beyond, these states of a half-space tell nothing.
     """
     lacking = (1 + np.asarray(rough.lacking)) * (1 + np.maximum(added, 0.0)) - 1
     if np.max(np.abs(added)) > HARDLY_CHANGED:
@@ -279,10 +281,12 @@ def _put_on_layer(
     energy = [spectrum.elastic_energy(solid) for spectrum in spectra]
     stiffening = np.divide(energy, [spectrum.elastic_energy() for spectrum in spectra])
     compliance = float(solid.factor(float(ends.q0[0])))
+    flow = float(find_flow(solid, float(ends.q0[0])))
     ends = replace(
         ends,
         elastic_energy=ends.elastic_energy * stiffening,
         relative_compliance=np.full(2, compliance),
+        flow=np.full(2, flow),
         **_keep_simulation(ends, added=_find_largest_change(stiffening, compliance)),
     )
     if draws is not None:
@@ -291,6 +295,7 @@ def _put_on_layer(
             draws,
             elastic_energy=draws.elastic_energy * np.sqrt(np.prod(stiffening)),
             relative_compliance=np.float64(compliance),
+            flow=np.float64(flow),
             **_keep_simulation(draws, added=_find_largest_change(stiffening, compliance)),
         )
     if isinstance(solid.backing, Film):
@@ -306,3 +311,29 @@ def _put_on_layer(
                 film_response=responses.mean(axis=0),
             )
     return ends, draws, stiffening
+
+
+def _simulate_on_layer(
+    ends: Roughness, draws: Roughness | None, surface: Surface, solid: Solid
+) -> tuple[Roughness, Roughness | None]:
+    """Roughness with states of the layer itself, where it differs from a half-space.
+
+    States scale with one modulus, which a film under the layer does not share: there theory stays.
+    """
+    is_kept = ends.simulated[0] is not None
+    if surface.simulated is None or draws is None or is_kept or np.any(ends.film_response):
+        return ends, draws
+    simulated = surface.simulate_on(solid)
+    if simulated is None:
+        return ends, draws
+    ends = replace(
+        ends,
+        simulated=np.full(2, simulated),
+        lacking=surface.find_lacking_on(solid, simulated, surface.ends.lacking),
+    )
+    draws = replace(
+        draws,
+        simulated=simulated,
+        lacking=surface.find_lacking_on(solid, simulated, surface.draws.lacking),
+    )
+    return ends, draws

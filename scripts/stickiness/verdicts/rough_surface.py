@@ -26,11 +26,17 @@ from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import FILM_FACTORS, Roughness, find_anisotropy_error_factor
 from stickiness.remaining.trial_states import SimulatedHeights
+from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
 from stickiness.spectrum.kinds import SelfAffine, Tabulated
 from stickiness.verdicts import parametric
 from stickiness.verdicts.parametric import ENDS, MOMENTS
-from stickiness.verdicts.simulated_surface import find_lacking, read_simulated
+from stickiness.verdicts.simulated_surface import (
+    find_lacking,
+    find_stiffening,
+    read_simulated,
+    simulate_on,
+)
 
 #: What a verdict needs of the file of a surface.
 NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
@@ -323,6 +329,7 @@ class Surface:
             q1=np.full(2, float(data.q1)),
             elastic_energy=energy,
             relative_compliance=np.ones(2),
+            flow=np.zeros(2),
             half_space_energy=energy,
             anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
             rms_slope=data.rms_slope.values,
@@ -345,6 +352,7 @@ class Surface:
             q1=float(self.data.q1),
             elastic_energy=energy,
             relative_compliance=np.float64(1.0),
+            flow=np.float64(0.0),
             half_space_energy=energy,
             anisotropy_error_factor=np.float64(self._anisotropy_error_factor),
             # Slopes of the draws are not kept; those of both ends hardly differ.
@@ -360,6 +368,29 @@ class Surface:
     def simulated(self) -> SimulatedHeights | None:
         """States of contact that were simulated on the heights; None if there are none."""
         return read_simulated(self.data)
+
+    @cached_property
+    def _simulated_on(self) -> dict[Solid, SimulatedHeights | None]:
+        """What `simulate_on` has simulated, by solid: several materials may have the same."""
+        return {}
+
+    def simulate_on(self, solid: Solid) -> SimulatedHeights | None:
+        """States of contact of another solid, simulated on the heights; None if there are none."""
+        if solid not in self._simulated_on:
+            self._simulated_on[solid] = simulate_on(self.data, solid)
+        return self._simulated_on[solid]
+
+    def find_lacking_on(
+        self, solid: Solid, simulated: SimulatedHeights, on_half_space: ArrayLike
+    ) -> NDArray:
+        """Energy of waves not simulated over that of the others, on a solid.
+
+        `on_half_space` is the same ratio on a half-space.
+        """
+        assert self.simulated is not None
+        energy = np.asarray(on_half_space) * self.simulated.whole.full_contact_energy
+        stiffening = find_stiffening(solid, self.spectra[1], simulated.pixel)
+        return stiffening * energy / simulated.whole.full_contact_energy
 
     def _find_lacking(self, name: str, count: int) -> NDArray:
         """Energy of waves that are not simulated over that of the others, ``(count,)``."""

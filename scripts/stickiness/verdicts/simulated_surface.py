@@ -1,4 +1,4 @@
-"""Contact simulated on the heights of a measured surface, and how its file keeps it."""
+"""Contact simulated on the heights of a measured surface, and how its file keeps both."""
 
 from __future__ import annotations
 
@@ -11,7 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.topography import Topography
+from stickiness.remaining.standard_heights import (
+    FEWEST_POINTS,
+    StandardHeights,
+    StandardMap,
+    standardise,
+)
 from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
+from stickiness.solids import HALF_SPACE, Solid
+from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.measured_surface import Measurement
 
 #: Share of the elastic energy in waves longer than the map, up to which the map stands for the
@@ -39,29 +47,85 @@ def simulate_surface(
     Returns
     -------
     Dataset or None
-        The variables of `STATE_VARIABLES`, for the whole map and its quarters. None of a profile,
+        The variables of `STATE_VARIABLES`, for the whole map and its quarters, and the heights as
+        they are simulated, so that other solids need no file of an instrument. None of a profile,
         of a map that lacks long waves of another measurement or has too few points, and if the
         simulation does not converge.
     """
     heights = measurements[0].heights
     if not isinstance(heights, Topography) or not _has_long_waves(heights, spectrum):
         return None
-    # The solvers are loaded with the first simulation.
-    from stickiness.remaining.height_simulation import FEWEST_POINTS, simulate_heights
-    from stickiness.repulsive.solver import ConvergenceError
-
     if min(heights.heights.shape) < FEWEST_POINTS:
         return None
+    standard = standardise(heights.heights, heights.size, cutoff=spectrum.cutoff.q)
+    simulated = _simulate(standard, HALF_SPACE)
+    if simulated is None:
+        return None
+    return tabulate_simulated(simulated).merge(_tabulate_standard(standard))
+
+
+def simulate_on(data: xr.Dataset, solid: Solid) -> SimulatedHeights | None:
+    """Simulate contact of another solid on the heights that `simulate_surface` has kept.
+
+    None if the dataset of the surface holds none, or if the simulation does not converge.
+    """
+    return None if "standard_heights" not in data else _simulate(_read_standard(data), solid)
+
+
+def _simulate(standard: StandardHeights, solid: Solid) -> SimulatedHeights | None:
+    """States of contact; None if none converges."""
+    # The solvers are loaded with the first simulation.
+    from stickiness.remaining.height_simulation import simulate_standard
+    from stickiness.repulsive.solver import ConvergenceError
+
     try:
-        simulated = simulate_heights(heights.heights, heights.size, cutoff=spectrum.cutoff.q)
+        return simulate_standard(standard, solid)
     except ConvergenceError as error:
         logging.warning("heights are not simulated: %s", error)
         return None
-    return tabulate_simulated(simulated)
+
+
+def _tabulate_standard(standard: StandardHeights) -> xr.Dataset:
+    """Variables of the heights as they are simulated; `_read_standard` reads them."""
+    parts = (standard.whole, *standard.quarters)
+    quarters = np.stack([quarter.heights for quarter in standard.quarters])
+    dataset = xr.Dataset(
+        {
+            "standard_heights": (("standard_x", "standard_y"), standard.whole.heights),
+            "standard_quarters": (("quarter", "quarter_x", "quarter_y"), quarters),
+            "standard_sides": (("part", "axis"), [part.sides for part in parts]),
+            "standard_height_unit": ("part", [part.height_unit for part in parts]),
+            "standard_length_unit": standard.length_unit,
+        }
+    )
+    for name in ("standard_heights", "standard_quarters"):
+        dataset[name].encoding = {"zlib": True}
+    return dataset
+
+
+def _read_standard(data: xr.Dataset) -> StandardHeights:
+    """Read what `_tabulate_standard` made."""
+    heights = [data.standard_heights.values, *data.standard_quarters.values]
+    whole, *quarters = (
+        StandardMap(part_heights, tuple(sides), float(height_unit))
+        for part_heights, sides, height_unit in zip(
+            heights,
+            data.standard_sides.values.tolist(),
+            data.standard_height_unit.values,
+            strict=True,
+        )
+    )
+    return StandardHeights(
+        whole=whole,
+        quarters=tuple(quarters),
+        length_unit=float(data.standard_length_unit),
+        resolved_energy=float(data.resolved_energy),
+        pixel=float(data.simulated_pixel),
+    )
 
 
 def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
-    """Variables of `simulate_surface`; `read_simulated` reads them."""
+    """Variables of `STATE_VARIABLES` and of the grid; `read_simulated` reads them."""
     parts = (simulated.whole, *simulated.quarters)
     dataset = xr.Dataset(
         {"resolved_energy": simulated.resolved_energy, "simulated_pixel": simulated.pixel}
@@ -118,3 +182,17 @@ def find_lacking(simulated: SimulatedHeights, beyond: ArrayLike) -> NDArray:
     """
     energy = (1 + np.asarray(beyond)) * simulated.resolved_energy
     return np.maximum(energy / simulated.whole.full_contact_energy - 1, 0.0)
+
+
+def find_stiffening(solid: Solid, spectrum: Spectrum, pixel: float) -> float:
+    """Energy of the waves that a grid does not resolve, over that on a half-space.
+
+    Waves beyond those of the spectrum count as its shortest.
+    """
+    shortest = np.pi / pixel
+    highest = spectrum.band[1]
+    on_half_space = spectrum.averaged().integrate(lambda q: q, shortest, highest)
+    if on_half_space == 0:
+        return 1 / float(solid.factor(max(shortest, highest)))
+    on_solid = spectrum.averaged().integrate(lambda q: q / solid.factor(q), shortest, highest)
+    return on_solid / on_half_space

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 from stickiness.criteria.a_v_table import RANGES
 from stickiness.criteria.pair import Pair
 from stickiness.persson.theory import Persson
+from stickiness.remaining.thin_layers import find_flow
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.solids.moduli import Modulus
 from stickiness.spectrum.interface import Spectrum
@@ -150,8 +151,14 @@ def find_thickness(
             pair,
             elastic_energy=pair.elastic_energy * energy[1:] / energy[0],
             relative_compliance=pair.relative_compliance * softness[1:] / softness[0],
+            flow=np.array([find_flow(layer, q0) for layer in layers[1:]]),
             layer_strain=np.array([layer.strain(h_rms, q0) for layer in layers[1:]]),
         )
+        if np.any(np.not_equal(pair.simulated, None)):
+            # Simulated states are those of one thickness; others keep what it does at the same
+            # ratio of the work of adhesion to the energy of full contact.
+            work = pair.work_of_adhesion * energy[0] / energy[1:]
+            changed = replace(changed, work_of_adhesion=work)
         return remain(changed)
 
     return find_threshold(

@@ -141,6 +141,12 @@ def test_a_map(map_file, tmp_path):
     check(verdict(map_file, MATERIAL), run_workflow(tmp_path, map_file, TAPE))
 
 
+def test_a_layer_on_a_map(map_file, tmp_path):
+    texts = TAPE | {"thickness": "40 um"}
+    material = Material.from_entry(check_material(TEXTS | texts))
+    check(verdict(map_file, material), run_workflow(tmp_path, map_file, texts))
+
+
 def test_a_line_profile(profile_file, tmp_path):
     check(verdict(profile_file, MATERIAL), run_workflow(tmp_path, profile_file, TAPE))
 

@@ -1,0 +1,122 @@
+"""Measured heights as they are simulated: periodic, thinned, and of one size for every surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft
+
+from stickiness.measured import periodic
+from stickiness.remaining.full_contact import full_contact_energy
+
+MOST_POINTS = 256  #: of the grid, along the longer side
+FEWEST_POINTS = 32  #: along the shorter side
+PIXELS_RESOLVED = 4  #: in the shortest wave that an instrument resolves, unless it says otherwise
+STANDARD_HEIGHT = 0.01  #: rms height of what is simulated, over the first side of the map
+DECIMALS = 10  #: of these heights; an instrument resolves far less
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class StandardMap:
+    """Periodic heights of a map or of a part of it."""
+
+    heights: NDArray  #: over `height_unit`, ``(n0, n1)``
+    sides: tuple[float, float]  #: over the first side of the whole map
+    height_unit: float  #: [length]
+
+
+@dataclass(frozen=True, eq=False)
+class StandardHeights:
+    """Periodic heights of a map and of its quarters."""
+
+    whole: StandardMap
+    quarters: tuple[StandardMap, ...]
+    length_unit: float  #: first side of the whole map [length]
+    #: Energy of full contact of the map with all waves that it resolves, per nominal area [length]
+    resolved_energy: float
+    pixel: float  #: of the thinned grid [length]
+
+
+def standardise(
+    heights: ArrayLike,
+    sides: tuple[float, float],
+    cutoff: float = np.inf,
+    most_points: int = MOST_POINTS,
+) -> StandardHeights:
+    """Make levelled heights and their quarters periodic, and thin them.
+
+    Large maps are thinned to every second, third … point. That keeps the distribution of the
+    heights and the flat tops, which a filter would cover with ripples.
+
+    Parameters
+    ----------
+    heights : (nx, ny) array
+        Levelled heights [length].
+    sides : pair of floats
+        Sides of the map [length].
+    cutoff : float
+        Highest wave number that the heights resolve [1/length]. Waves beyond it are filtered out
+        only where it is below that of four pixels: there they are noise or blur.
+    most_points : int
+        Points of the grid along the longer side, at most.
+
+    Raises
+    ------
+    ValueError
+        If the map has fewer than `FEWEST_POINTS` along a side.
+    """
+    heights = np.asarray(heights, dtype=float)
+    if min(heights.shape) < FEWEST_POINTS:
+        raise ValueError(
+            f"heights must have {FEWEST_POINTS} points along each side, got {heights.shape}"
+        )
+    steps = tuple(side / n for side, n in zip(sides, heights.shape, strict=True))
+    # Thin the longer side to as many points, but leave enough of them across a narrow strip.
+    stride = -(-max(heights.shape) // most_points)
+    stride = min(stride, min(heights.shape) // FEWEST_POINTS)
+    is_noisy = cutoff < 2 * np.pi / (PIXELS_RESOLVED * max(steps)) * (1 - _ROUNDING)
+
+    def prepare(part: NDArray) -> NDArray:
+        """A part, periodic, on a grid whose halves the solvers can thin again."""
+        counts = tuple(n // (4 * stride) * (4 * stride) for n in part.shape)
+        level = periodic.periodise(part[: counts[0], : counts[1]], "smooth")
+        return _filter_waves(level, steps, cutoff) if is_noisy else level
+
+    def thin(part: NDArray) -> StandardMap:
+        level = prepare(part)
+        part_sides = tuple(n * step / sides[0] for n, step in zip(level.shape, steps, strict=True))
+        thinned = level[::stride, ::stride]
+        # Heights of one size for every surface, rounded: last bits do not matter.
+        height_unit = float(np.std(thinned)) / STANDARD_HEIGHT
+        standard = np.round((thinned - thinned.mean()) / height_unit, DECIMALS)
+        return StandardMap(standard, part_sides, height_unit)
+
+    half_x, half_y = (n // 2 for n in heights.shape)
+    quarters = [
+        thin(heights[along_x, along_y])
+        for along_x in (slice(None, half_x), slice(-half_x, None))
+        for along_y in (slice(None, half_y), slice(-half_y, None))
+    ]
+    whole = prepare(heights)
+    resolved = _filter_waves(whole, steps, cutoff)
+    whole_sides = tuple(n * step for n, step in zip(whole.shape, steps, strict=True))
+    return StandardHeights(
+        whole=thin(heights),
+        quarters=tuple(quarters),
+        length_unit=sides[0],
+        resolved_energy=full_contact_energy(resolved, 1.0, whole_sides, edges="given"),
+        pixel=stride * max(steps),
+    )
+
+
+def _filter_waves(heights: NDArray, steps: tuple[float, float], cutoff: float) -> NDArray:
+    """Periodic heights without waves beyond a wave number."""
+    qx, qy = (
+        2 * np.pi * fft.fftfreq(n, step) for n, step in zip(heights.shape, steps, strict=True)
+    )
+    modes = fft.fft2(heights)
+    modes[np.hypot(qx[:, None], qy) > cutoff * (1 + _ROUNDING)] = 0.0
+    return fft.ifft2(modes).real
