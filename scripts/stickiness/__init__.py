@@ -7,7 +7,7 @@ What a user needs:
 
 - `spectrum`: power spectral densities of rough surfaces, their moments
 - `surface`: heights with a given spectrum on a periodic square
-- `solids`: elastic half-space, layers of finite thickness
+- `solids`: elastic half-space, layers of finite thickness, skins
 - `repulsive`: contact without adhesion, by boundary elements
 - `adhesive`: adhesive contact by boundary elements, loading and unloading curves
 - `dmt`: attraction over the gaps of a contact without adhesion

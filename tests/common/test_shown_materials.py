@@ -28,6 +28,10 @@ THICK = "E = 0.1 MPa, ν = 0.5, 50 µm thick"
             f"{THICK} on a film of 25 µm and 3 GPa",
         ),
         (
+            PLAIN | {"skin": {"thickness": "90 nm", "modulus": "3 GPa", "poisson": 0.35}},
+            "E = 0.1 MPa, ν = 0.5, under a skin of 90 nm and 3 GPa",
+        ),
+        (
             INCOMPRESSIBLE | {"youngs_modulus_table": TABLE},
             "E′ = 50 kPa at 10 mHz … 0.5 MPa at 0.1 kHz, ν = 0.5",
         ),

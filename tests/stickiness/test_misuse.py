@@ -24,7 +24,7 @@ from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import Roughness, measure, predict, share
 from stickiness.repulsive import richardson, subpixel
-from stickiness.solids import Film, HalfSpace, Layer
+from stickiness.solids import Film, HalfSpace, Layer, Skin
 from stickiness.solids.moduli import Constant, Prony, Table
 from stickiness.spectrum import Shells, Tabulated, combine
 
@@ -267,6 +267,11 @@ MISUSES = [
     (lambda: Layer(1.0, 0.6), "poisson must be non-negative and at most 0.5, got 0.6"),
     (lambda: Layer(1.0, 0.3, "glued"), "backing must be 'bonded', 'slip' or a Film.*'glued'"),
     (lambda: Film(0.0, 0.4, 1.0), "modulus_ratio must be positive"),
+    (lambda: Skin(0.0, 9.0, 0.4, 0.5), "thickness must be positive"),
+    (lambda: Skin(1.0, -9.0, 0.4, 0.5), "modulus_ratio must be positive"),
+    (lambda: Skin(1.0, 9.0, 0.6, 0.5), "skin_poisson must be non-negative and at most 0.5"),
+    (lambda: Skin(1.0, 9.0, 0.4, -0.1), "poisson must be non-negative and at most 0.5"),
+    (lambda: judge(poisson=0.5, solid=Skin(1e-7, 9.0, 0.4, 0.3)), "poisson = 0.5 must equal"),
     (lambda: HalfSpace().compliance(0.0), "q must be positive and finite, got 0"),
     (lambda: Constant(-1.0), "modulus must be positive"),
     (lambda: Prony(0.0, ((1.0, 1.0),)), "equilibrium must be positive"),

@@ -141,7 +141,9 @@ class RemainingSet(SimulatedSet):
     zones: Values = optional("q0 range^2/adhesion_length")
     ranges: Values = optional("ranges over h_rms")
     squeezes: Values = optional("pressures before separation, over E* q0 h_rms; by default 0.1")
-    path: bool = optional("false: only the energy at zero load, without approach and separation", True)
+    path: bool = optional(
+        "false: only the energy at zero load, without approach and separation", True
+    )
 
 
 class Remaining(Section):

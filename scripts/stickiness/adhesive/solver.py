@@ -116,7 +116,7 @@ def solve(
         Largest accepted `Adhesion.residual`.
     max_iterations : int
         Largest number of iterations.
-    solid : solids.HalfSpace or solids.Layer, optional
+    solid : solids.HalfSpace, solids.Layer or solids.Skin, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of
         `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
         of the backing.

@@ -43,6 +43,14 @@ class Film(Section):
     thickness: f.Length = needed('thickness of the film, e.g. "25 um"')
 
 
+class Skin(Section):
+    """Thin skin of another modulus, bonded to the material: an oxide, a paint, an aged surface."""
+
+    thickness: f.Thickness = needed('thickness of the skin, e.g. "90 nm"')
+    modulus: f.Modulus = needed('Young\'s modulus of the skin, e.g. "3 GPa"')
+    poisson: f.Poisson = needed("Poisson's ratio of the skin")
+
+
 def _name_backing(backing: object) -> str:
     return "film" if isinstance(backing, dict | Film) else "base"
 
@@ -74,6 +82,7 @@ class Material(ElasticPair, f.Labelled):
     backing: Backing = optional(
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
     )
+    skin: Skin = optional("stiff or soft skin of an infinitely deep material")
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
     pressed: f.Pressure = optional('pressure before separation, e.g. "10 kPa"; a touch without it')
     law: f.PredictedLaw = optional(
@@ -124,6 +133,22 @@ class Material(ElasticPair, f.Labelled):
             text = "must be between 0 and 0.5 for a layer"
             raise EntryError("poisson_ratio", self.poisson_ratio, text)
         self.backing = self.backing or "bonded"
+        return self
+
+    @model_validator(mode="after")
+    def check_skin(self) -> Self:
+        """Check what only a half-space with a skin has."""
+        if self.skin is None:
+            return self
+        if self.thickness is not None:
+            text = "a layer cannot have a skin: leave out thickness, or skin"
+            raise EntryError("thickness", self.thickness, text)
+        if self.plane_strain_modulus is not None:
+            text = "needs youngs_modulus and poisson_ratio instead of plane_strain_modulus"
+            raise EntryError("skin", None, text)
+        if self.poisson_ratio < 0:
+            text = "must be between 0 and 0.5 below a skin"
+            raise EntryError("poisson_ratio", self.poisson_ratio, text)
         return self
 
     @model_validator(mode="after")

@@ -60,7 +60,7 @@ class Persson:
     correction : {"yang2008", "wang2017", "xu2024"}
         How lost contact slows the diffusion of pressure and lowers the elastic energy:
         `kernels.Yang2008` (doi:10.1088/0953-8984/20/21/215214), `Wang2017` or `Xu2024`.
-    solid : solids.HalfSpace or solids.Layer, optional
+    solid : solids.HalfSpace, solids.Layer or solids.Skin, optional
         Elastic solid, a half-space by default. On a layer the area, the mean gap and the pressure
         at a mean gap are known, the distribution of gaps is not (NotImplementedError): see
         `layered_scales`.

@@ -30,10 +30,10 @@ def full_contact_energy(
     surface : Spectrum or (nx, ny) array
         Spectrum, or heights [m], all of whose waves count.
     modulus : float
-        Plane-strain modulus E* [Pa], of the layer if `solid` is one.
+        Plane-strain modulus E* [Pa], of the layer or below the skin if `solid` has one.
     length : float or pair of float, optional
         Sides [m] along x and y; only with heights.
-    solid : HalfSpace or Layer
+    solid : HalfSpace, Layer or Skin
         Elastic solid, a thickness in m.
     edges : {"mirror", "smooth", "taper", "given"}
         How heights are levelled and made periodic, see `measured.periodise`. Heights that are

@@ -113,7 +113,7 @@ def find_trial_states(
         Periodic heights of the rigid surface [length]; not flat.
     length : float or pair of floats
         Sides of the cell [length].
-    solid : solids.HalfSpace or solids.Layer
+    solid : solids.HalfSpace, solids.Layer or solids.Skin
         Elastic solid; the thickness of a layer is in the unit of `length`.
     pull : bool
         Whether to pull the surfaces off, for `TrialStates.distance`.

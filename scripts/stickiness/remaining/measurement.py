@@ -92,7 +92,7 @@ def measure(
         Residual of every state, see `adhesive.solve`.
     half_grid : bool
         Whether to solve on every second point as well, for the limits.
-    solid : solids.HalfSpace or solids.Layer
+    solid : solids.HalfSpace, solids.Layer or solids.Skin
         Elastic solid; the thickness of a layer is in the unit of `length`. Works at given mean
         gaps exclude the mean compression of a layer, which stores and returns its energy.
     steps : int

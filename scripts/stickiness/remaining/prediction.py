@@ -13,15 +13,15 @@ from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import (
     DeepestState,
     count_scales,
-    find_narrowest_wave,
     find_deepest_state,
+    find_narrowest_wave,
     find_onset,
     remaining_share,
     tough_share,
     weak_share,
 )
 from stickiness.remaining.thin_layers import find_flow, find_gain
-from stickiness.solids import HALF_SPACE, Film, Layer, Solid, check_solid
+from stickiness.solids import HALF_SPACE, Film, Layer, Skin, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
@@ -41,6 +41,11 @@ LEAST_ERROR = 0.015  # absolute, for small shares
 # waves from 1. Both were set so that limits hold all simulations on layers; none were kept back.
 LAYER_LESS = 0.06  # low limit: films on a soft backing, and S of about a half
 LAYER_MORE = 0.2  # high limit: thin incompressible layers
+# On skins limits are wider by these parts of what is lost, times the distance of the relative
+# compliance from 1: stiff short waves have lower heights, over which attraction reaches further,
+# and their energy is spread over many scales. Set on all simulations on skins; none were kept back.
+SKIN_LESS = 0.05
+SKIN_MORE = 0.22
 PULL_OFF_ERROR = 0.3  # of the largest tension, beside the error of the share
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
 PULL_OFF_KNOWN = 1.4
@@ -97,15 +102,16 @@ class Roughness:
     q0: ArrayLike  #: of the longest waves, or of the roll-off
     elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
     q1: ArrayLike = np.inf  #: of the finest waves; infinite: many decades of waves
-    relative_compliance: ArrayLike = 1.0  #: S of the longest waves on a layer, see `solids`
+    relative_compliance: ArrayLike = 1.0  #: see `find_relative_compliance`
     flow: ArrayLike = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
-    #: Energy of a half-space, which bounds that of a layer; NaN: it does not.
+    #: Energy of a half-space, which bounds that of a layer or skin; NaN: it does not.
     half_space_energy: ArrayLike | None = None
+    is_skin: ArrayLike = False  #: whether the compliance is that of a skin, not of a layer
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
     rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
     law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
-    #: How elastic energy and compliance depend on the modulus of a layer on a film, see
-    #: `find_film_response`; zeros without a film, None: not varied
+    #: How elastic energy and compliance depend on the modulus of a layer on a film, or below a
+    #: skin, see `find_film_response`; zeros without these, None: not varied
     film_response: ArrayLike | None = None
     #: ln of the factor by which heights that are not Gaussian change the energy ratio at which a
     #: share remains, and its error: see `height_shape`
@@ -119,7 +125,7 @@ class Roughness:
     height_factor: ArrayLike = 1.0  #: on the heights simulated
 
     def at_modulus(self, factor: ArrayLike) -> Self:
-        """Return the same with E* times a factor: the film under a layer keeps its stiffness."""
+        """Return the same with E* times a factor: films and skins keep their stiffness."""
         if self.film_response is None:
             return self
         # Position of the factor in `FILM_FACTORS`, whose logarithms are evenly spaced.
@@ -186,11 +192,14 @@ class Roughness:
         simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
         onset_error = ONSET_ERROR + EXTRAPOLATION_ERROR * (onset - simulated_onset)
         gain = find_gain(energy_ratio, self.relative_compliance, self.flow, sign)
+        # A skin binds its points together: none of them is a spring.
+        compliance = np.asarray(self.relative_compliance)
+        layer_compliance = np.where(self.is_skin, 1.0, compliance)
         share = remaining_share(
             energy_ratio,
             range_ratio,
             onset=np.clip(onset - sign * onset_error, *ONSETS),
-            relative_compliance=self.relative_compliance,
+            relative_compliance=layer_compliance,
             load_scale=self.load_scale,
             law=self.law,
             gain=gain,
@@ -207,7 +216,7 @@ class Roughness:
         share = share * (1 + relative_error) ** sign + sign * absolute_error * lost
 
         # Layers are less certain the further the longest waves are from those of a half-space.
-        compliance_lost = 1 - np.asarray(self.relative_compliance)
+        compliance_lost = 1 - layer_compliance
         layer_error = np.where(
             sign < 0,
             LAYER_LESS * np.minimum(abs(compliance_lost), 1.0),
@@ -215,7 +224,9 @@ class Roughness:
         )
         # Where material flows along a layer, the error of the gain stands for these.
         layer_error = layer_error * (1 - np.asarray(self.flow))
-        share = share + sign * layer_error * fading * lost
+        skin_error = np.where(sign < 0, SKIN_LESS, SKIN_MORE) * np.maximum(1 - compliance, 0.0)
+        skin_error = np.where(self.is_skin, skin_error, 0.0)
+        share = share + sign * (layer_error + skin_error) * fading * lost
         if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
             share = self._bound_by_half_space(share, adhesion_length, range, sign)
 
@@ -360,7 +371,7 @@ class Roughness:
         """Width of the cohesive zone times q0.
 
         That is twice the stiffness q0/(2 S) of these waves over the strength^2/w of the law,
-        so that attraction reaches over gaps the more, the stiffer a layer holds them.
+        so that attraction reaches over gaps the more, the stiffer a layer or skin holds them.
         """
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
@@ -440,7 +451,8 @@ class Roughness:
         """Adhesion length from which on at least a share remains.
 
         With `sign` +1 or -1, from which on the high or low limit of the share is at least that.
-        On a film it is the modulus of the layer that changes the length, from `adhesion_length`.
+        On a film it is the modulus of the layer that changes the length, from `adhesion_length`,
+        and below a skin that of the half-space.
         """
         positive(
             h_rms=self.h_rms,
@@ -492,9 +504,12 @@ class Roughness:
         bracket = (np.where(is_enough, lowest, log_start), np.where(is_enough, log_start, highest))
         root = elementwise.find_root(find_excess, bracket, args=(row,))
 
-        # Attraction whose range is far above h_rms holds at any strength.
+        # Attraction whose range is far above h_rms holds at any strength. On a skin that takes more
+        # to bend than is gained, nothing holds however soft the half-space is.
         holds_always = find_excess(bracket[0], row) >= 0
-        lengths = np.where(holds_always, LEAST_LENGTH * energy, np.exp(root.x))
+        holds_never = find_excess(bracket[1], row) < 0
+        extremes = [LEAST_LENGTH * energy, energy / LEAST_LENGTH]
+        lengths = np.select([holds_always, holds_never], extremes, np.exp(root.x))
         return plain(lengths.reshape(shape))
 
 
@@ -545,25 +560,37 @@ def flatten_pairs(rough: Roughness, **columns: ArrayLike) -> tuple[tuple[int, ..
 
 
 def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray | None:
-    """Logarithms of elastic energy over E* and of S at `q0`, over both as they are.
+    """Logarithms of elastic energy over E* and of the relative compliance, over both as they are.
 
-    For factors on the modulus of a layer whose film stays as it is, ``(2, FILM_FACTORS)``; None
-    without a film.
+    For factors on E* where a film or a skin stays as it is, ``(2, FILM_FACTORS)``; None without.
     """
-    if not isinstance(solid, Layer) or not isinstance(solid.backing, Film):
+    if solid.at_modulus(2.0) == solid:
         return None
-    film = solid.backing
     responses = []
     for factor in np.append(1.0, FILM_FACTORS):
-        softer_film = replace(film, modulus_ratio=float(film.modulus_ratio / factor))
-        layer = replace(solid, backing=softer_film)
-        responses.append((spectrum.elastic_energy(layer), layer.factor(q0)))
+        changed = solid.at_modulus(float(factor))
+        energy = spectrum.elastic_energy(changed)
+        responses.append((energy, find_relative_compliance(spectrum, changed, q0)))
     log_responses = np.log(responses).T
     return log_responses[:, 1:] - log_responses[:, :1]
 
 
+def find_relative_compliance(spectrum: Spectrum, solid: Solid, q0: float) -> float:
+    """S of the longest waves on a layer, see `solids`; on a skin that of all waves together.
+
+    A skin is stiff to short waves, which then store most of the energy. The mean of 1/S, weighted
+    by the energy of a half-space, stands for them.
+    """
+    if isinstance(solid, Skin):
+        return spectrum.elastic_energy() / spectrum.elastic_energy(solid)
+    return float(check_solid(solid).factor(q0))
+
+
 def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
-    """Elastic energy that bounds that of a layer; none of a film, which is softer to long waves."""
+    """Elastic energy that bounds that of a layer or a skin; none of a film.
+
+    A film is softer to long waves.
+    """
     is_on_film = isinstance(solid, Layer) and isinstance(solid.backing, Film)
     if solid == HALF_SPACE or is_on_film:
         return None
@@ -606,7 +633,7 @@ def predict(
     q0 : float, optional
         Wave number of the longest waves that matter [1/length]; by default the roll-off,
         or the lowest of the spectrum, with a direction of its norm.
-    solid : solids.HalfSpace or solids.Layer
+    solid : solids.HalfSpace, solids.Layer or solids.Skin
         Elastic solid; the thickness of a layer is in the unit of the spectrum.
     law : str
         Name in `traction_laws.LAWS`. The range of "van_der_waals" is the cut-off distance.
@@ -641,9 +668,10 @@ def predict(
         q0=q0,
         elastic_energy=spectrum.elastic_energy(solid),
         q1=highest,
-        relative_compliance=check_solid(solid).factor(q0),
+        relative_compliance=find_relative_compliance(spectrum, solid, q0),
         flow=find_flow(solid, q0),
         half_space_energy=find_half_space_energy(spectrum, solid),
+        is_skin=isinstance(solid, Skin),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
         rms_slope=spectrum.rms_slope,
         law=law,

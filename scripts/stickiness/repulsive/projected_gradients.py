@@ -5,6 +5,9 @@ distance. A film bends, and a thin incompressible layer yields only where materi
 there it may cycle, or hardly gain. The method of Polonsky and Keer (Wear 231:206, 1999, doi
 10.1016/S0043-1648(99)00113-1) changes the set of contact with every step. Here the stiffness
 preconditions it, with directions of Polak and Ribiere: hundreds of iterations instead of thousands.
+
+A stiff skin smooths every change of pressure, which this method then cannot see. `relax_gap` does
+the same in the gap, where the pressure is what must vanish and the compliance preconditions it.
 """
 
 from dataclasses import dataclass
@@ -13,6 +16,7 @@ import numpy as np
 
 from stickiness.repulsive.active_set import State
 
+_CHECK_EVERY = 10  # iterations in the gap
 _JOINING = 1e-6  # of the mean pressure, for points that join: what they carry is the next step's
 
 
@@ -48,6 +52,58 @@ def relax(problem, pressure, tol, max_iterations):
         last_gap = gap_in_contact
         last_product = product if conjugate else np.inf
         iterations += 1
+    return _state(best, iterations, operator.pairs - pairs_before)
+
+
+def relax_gap(problem, gap, tol, max_iterations):
+    """Find pressure and gap, as `relax` does, from a gap that is zero somewhere."""
+    operator = problem.operator(np.float64)
+    pairs_before = operator.pairs
+    gap = np.maximum(gap, 0.0)
+    # No elasticity holds the mean gap: it is taken to be as soft as the longest wave.
+    of_mean = 1 / problem.solid.stiffness(2 * np.pi / max(problem.sides))
+    best = None
+    iterations = 0
+    last_pull = np.zeros_like(gap)
+    last_product = np.inf
+    direction = np.zeros_like(gap)
+    while True:
+        # The pressure that this gap takes must vanish at open points, and press at the others.
+        pressure = operator.stiffness(gap + problem.heights)
+        pressure += problem.load
+        free = (gap > 0) | (pressure < 0)
+        pull = pressure * free
+        is_last = iterations >= max_iterations
+        if (is_last or iterations % _CHECK_EVERY == 0) and not free.all():
+            pressure[free] = 0
+            pressure *= problem.load / pressure.mean()
+            closed_gap, _, shift, residual = _gap(problem, operator, pressure)
+            if best is None or residual < best.residual:
+                best = _Iterate(pressure, closed_gap, shift, residual)
+        if is_last or (best is not None and best.residual <= tol):
+            break
+        # Direction of Polak and Ribiere.
+        fall = operator.compliance(pull)
+        fall += of_mean * pull.mean()
+        fall *= free
+        product = float(np.vdot(pull, fall))
+        weight = max(0.0, (product - float(np.vdot(last_pull, fall))) / last_product)
+        direction *= weight
+        direction *= free
+        direction += fall
+        curvature = float(np.vdot(direction, operator.stiffness(direction)))
+        if not curvature > 0:  # nothing but rounding is left
+            break
+        gap -= float(np.vdot(pull, direction)) / curvature * direction
+        np.maximum(gap, 0, out=gap)
+        last_pull = pull
+        last_product = product
+        iterations += 1
+    return _state(best, iterations, operator.pairs - pairs_before)
+
+
+def _state(best, iterations, pairs):
+    """State of the best iterate."""
     touching = best.pressure > 0
     gap = np.maximum(best.gap, 0.0)
     gap[touching] = 0
@@ -58,7 +114,7 @@ def relax(problem, pressure, tol, max_iterations):
         area_fraction=float(np.mean(touching)),
         residual=best.residual,
         iterations=iterations,
-        fft_pairs=operator.pairs - pairs_before,
+        fft_pairs=pairs,
     )
 
 

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike
 from stickiness.arguments import grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
 from stickiness.repulsive import active_set, half_space, projected_gradients, sharing
-from stickiness.solids import HALF_SPACE, Solid, check_solid
+from stickiness.solids import HALF_SPACE, Skin, Solid, check_solid
 
 _MIN_COARSE_POINTS = 128  # points along the shorter side of the coarsest grid
 # Relative change of load up to which the last solution is the better start.
@@ -121,7 +121,7 @@ def solve(
         load changes by 0.1 %, and costs more than it saves beyond 1 %.
     max_iterations : int
         Largest number of iterations on the given grid.
-    solid : solids.HalfSpace or solids.Layer, optional
+    solid : solids.HalfSpace, solids.Layer or solids.Skin, optional
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of `length`.
     periodic : bool
         Whether surface and pressure repeat. If not, the surface is a rigid body with free edges,
@@ -320,8 +320,12 @@ def _relax(problem, guess, tol, limit):
     iterations = state.iterations
     pairs = state.fft_pairs
     if unsure and not state.residual <= tol and iterations < limit:
-        pressure = np.asarray(state.pressure, dtype=float)
-        state = projected_gradients.relax(problem, pressure, tol, limit - iterations)
+        if isinstance(problem.solid, Skin):
+            gap = np.asarray(state.gap, dtype=float)
+            state = projected_gradients.relax_gap(problem, gap, tol, limit - iterations)
+        else:
+            pressure = np.asarray(state.pressure, dtype=float)
+            state = projected_gradients.relax(problem, pressure, tol, limit - iterations)
         iterations += state.iterations
         pairs += state.fft_pairs
     pairs += sum(work) / problem.heights.size

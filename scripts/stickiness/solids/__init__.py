@@ -1,10 +1,20 @@
-"""Elastic solids that a rough surface presses on: half-space, or layer of finite thickness.
+"""Elastic solids that a rough surface presses on: half-space, layer of finite thickness, or skin.
 
-- `layers`: compliance of both, wave by wave
+- `layers`: compliance of all, wave by wave
 - `moduli`: moduli that depend on the rate
 """
 
-from stickiness.solids.layers import HALF_SPACE, Film, HalfSpace, Layer, Solid, check_solid
+from stickiness.solids.layers import HALF_SPACE, Film, HalfSpace, Layer, Skin, Solid, check_solid
 from stickiness.solids.moduli import Prony, Table
 
-__all__ = ["HALF_SPACE", "Film", "HalfSpace", "Layer", "Prony", "Solid", "Table", "check_solid"]
+__all__ = [
+    "HALF_SPACE",
+    "Film",
+    "HalfSpace",
+    "Layer",
+    "Prony",
+    "Skin",
+    "Solid",
+    "Table",
+    "check_solid",
+]

@@ -1,12 +1,15 @@
-"""Compliance of an elastic half-space and of layers of finite thickness, wave by wave.
+"""Compliance of an elastic half-space, of layers and of skins on a half-space, wave by wave.
 
 A pressure wave ``p_q`` displaces the surface of a solid by ``u_q = (2/|q|) S p_q/E*``. E* is the
-plane-strain modulus of the material at the surface, i.e. of the layer. S, the `factor`, is one for
-a half-space and for short waves, and a function of ``k = |q| d`` for a layer of thickness d:
+plane-strain modulus of the material at the surface, i.e. of the layer, but of the half-space below
+a skin. S, the `factor`, is one for a half-space and for short waves, and a function of
+``k = |q| d`` for a layer of thickness d:
 
 - free to slip on a rigid base: ``S = (cosh 2k - 1)/(sinh 2k + 2k)``;
 - bonded to a rigid base: ``S = [a sinh 2k - 2k]/[a cosh 2k + 2 k^2 + 5 - 12 nu + 8 nu^2]``, with
   ``a = 3 - 4 nu`` (Carbone and Mangialardi 2008, doi 10.1016/j.jmps.2007.05.009).
+
+Below a skin S is one for long waves, and E*/E1* for short ones, with E1* of the skin: see `Skin`.
 
 The code regroups numerator and denominator into sums of terms that do not cancel. Displacements
 have no mean: mean gaps, energies and works of adhesion do not depend on how a layer as a whole
@@ -45,19 +48,27 @@ class _Compliant(ABC):
         return plain(q / 2 / self.factor(q))
 
 
-@dataclass(frozen=True)
-class HalfSpace(_Compliant):
-    """Elastic half-space: the default everywhere."""
+class _Deep(_Compliant):
+    """What half-spaces have in common, with a skin or without."""
 
     mean_compliance = 0.0  # undefined; displacements are counted from their mean
+
+    def strain(self, h_rms: ArrayLike, q0: ArrayLike) -> float | NDArray:
+        """Strain that conforming demands of the whole depth: none."""
+        return plain(np.zeros(np.broadcast_shapes(np.shape(h_rms), np.shape(q0))))
+
+
+@dataclass(frozen=True)
+class HalfSpace(_Deep):
+    """Elastic half-space: the default everywhere."""
 
     def factor(self, q: ArrayLike) -> float:
         """Compliance over that of a half-space: one."""
         return 1.0
 
-    def strain(self, h_rms: ArrayLike, q0: ArrayLike) -> float | NDArray:
-        """Strain that conforming demands of the whole depth: none."""
-        return plain(np.zeros(np.broadcast_shapes(np.shape(h_rms), np.shape(q0))))
+    def at_modulus(self, factor: float) -> HalfSpace:
+        """Return the solid with E* times a factor."""
+        return self
 
     def in_unit(self, length: float) -> HalfSpace:
         """Return the solid with `length` as the unit of length."""
@@ -169,6 +180,13 @@ class Layer(_Compliant):
             backing = replace(backing, thickness=backing.thickness / length)
         return replace(self, thickness=self.thickness / length, backing=backing)
 
+    def at_modulus(self, factor: float) -> Layer:
+        """Return the solid with E* times a factor; a film keeps its modulus."""
+        if not isinstance(self.backing, Film):
+            return self
+        ratio = self.backing.modulus_ratio / factor
+        return replace(self, backing=replace(self.backing, modulus_ratio=ratio))
+
     def _scale(self, q: ArrayLike) -> NDArray:
         """Wave numbers `q` times the thickness; ValueError if floats cannot carry their cubes."""
         q = np.asarray(q, dtype=float)
@@ -212,7 +230,90 @@ class Layer(_Compliant):
         return numerator / denominator
 
 
-Solid = HalfSpace | Layer  #: what the solvers and theories take
+@dataclass(frozen=True)
+class Skin(_Deep):
+    """Elastic half-space below a skin that is bonded to it: an oxide, a paint, an aged surface.
+
+    E* is that of the half-space. With ``g`` the shear modulus of the skin over that of the
+    half-space, ``a = 3 - 4 nu``, index 1 for the skin, 2 for the half-space, ``k = |q| t``, and
+
+    ``b = 8 g (1 - nu1) (1 - nu2)``, ``c = a2 g^2 + 2 g (1 - 2 nu1) (1 - 2 nu2) + a1``,
+
+    S is E*/E1* times::
+
+          b cosh 2k + c (sinh 2k - 2k) + 4 [a2 g^2 + 1 - 2 nu1 - 2 g nu1 (1 - 2 nu2)] k
+        ----------------------------------------------------------------------------------------
+        b sinh 2k + c (cosh 2k - 1 - 2k^2) + 8 (1 - nu1)^2 + 8 (1 - nu1) [1 + g (1 - 2 nu2)] k^2
+
+    This is Burmister's solution for two layers (1945, doi 10.1063/1.1707558), regrouped so that no
+    terms cancel. Stiff skins carry short waves alone, and bend as plates under long ones.
+
+    Parameters
+    ----------
+    thickness : float
+        Thickness t of the skin [length], positive.
+    modulus_ratio : float
+        Young's modulus of the skin over that of the half-space, positive.
+    skin_poisson : float
+        Poisson's ratio of the skin, 0 to 0.5.
+    poisson : float
+        Poisson's ratio of the half-space, 0 to 0.5.
+
+    Examples
+    --------
+    >>> oxidised = Skin(thickness=0.1, modulus_ratio=1000.0, skin_poisson=0.35, poisson=0.5)
+    >>> print(f"{oxidised.factor(0.01):.3f} {oxidised.factor(10.0):.5f}")
+    1.000 0.00128
+    """
+
+    thickness: float
+    modulus_ratio: float
+    skin_poisson: float
+    poisson: float
+
+    def __post_init__(self):
+        _set(self, "thickness", number("thickness", self.thickness))
+        _set(self, "modulus_ratio", number("modulus_ratio", self.modulus_ratio))
+        for name in ("skin_poisson", "poisson"):
+            _set(self, name, number(name, getattr(self, name), zero=True, most=0.5))
+
+    def factor(self, q: ArrayLike) -> float | NDArray:
+        """Compliance over that of the half-space alone, S, of waves `q` >= 0 [1/length]."""
+        skin = 1 - self.skin_poisson
+        deep = 1 - self.poisson
+        skin_volume = 1 - 2 * self.skin_poisson  # zero if incompressible
+        deep_volume = 1 - 2 * self.poisson
+        g = self.modulus_ratio * (1 + self.poisson) / (1 + self.skin_poisson)
+        # The coefficients over g, so that squares of large and small ratios do not overflow.
+        both = 8 * skin * deep
+        common = (3 - 4 * self.poisson) * g
+        common += 2 * skin_volume * deep_volume + (3 - 4 * self.skin_poisson) / g
+        linear = 4 * (
+            (3 - 4 * self.poisson) * g + skin_volume / g - 2 * self.skin_poisson * deep_volume
+        )
+        square = 8 * skin * (1 / g + deep_volume)
+
+        # Numerator and denominator times 2 exp(-2k).
+        with np.errstate(over="ignore"):
+            k = np.minimum(np.ravel(q) * self.thickness, 1 / LEAST_SCALE)
+        decay = np.exp(-2 * k)
+        odd, even = _less_leading_terms(2 * k)
+        numerator = both * (1 + decay**2) + common * odd + 2 * linear * k * decay
+        denominator = both * -np.expm1(-4 * k) + common * even
+        denominator += 2 * (8 * skin**2 / g + square * k**2) * decay
+        factor = skin / (g * deep) * (numerator / denominator)
+        return plain(factor.reshape(np.shape(q)))
+
+    def at_modulus(self, factor: float) -> Skin:
+        """Return the solid with E* times a factor; the skin keeps its modulus."""
+        return replace(self, modulus_ratio=self.modulus_ratio / factor)
+
+    def in_unit(self, length: float) -> Skin:
+        """Return the solid with `length` as the unit of length."""
+        return replace(self, thickness=self.thickness / length)
+
+
+Solid = HalfSpace | Layer | Skin  #: what the solvers and theories take
 HALF_SPACE = HalfSpace()  #: their default
 
 
@@ -220,11 +321,14 @@ def check_solid(solid: Solid) -> Solid:
     """Return a solid; ValueError for anything else."""
     if not isinstance(solid, Solid):
         got = f"the class {solid.__name__}" if isinstance(solid, type) else repr(solid)
-        raise ValueError(f"solid must be solids.HalfSpace() or a solids.Layer(...), got {got}")
+        raise ValueError(
+            "solid must be solids.HalfSpace() or a solids.Layer(...) or solids.Skin(...), "
+            f"got {got}"
+        )
     return solid
 
 
-def _set(frozen: Film | Layer, name: str, value: float) -> None:
+def _set(frozen: Film | Layer | Skin, name: str, value: float) -> None:
     object.__setattr__(frozen, name, value)
 
 

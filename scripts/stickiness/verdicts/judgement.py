@@ -254,6 +254,7 @@ def _stack_ends(
         relative_compliance=of_ends("relative_compliance"),
         flow=of_ends("flow"),
         half_space_energy=of_ends("half_space_energy"),
+        is_skin=of_ends("is_skin"),
         anisotropy_error_factor=of_ends("anisotropy_error_factor"),
         rms_slope=of_ends("rms_slope"),
         law=of_materials([material.law for material in materials]),

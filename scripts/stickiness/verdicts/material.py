@@ -11,7 +11,7 @@ import numpy as np
 
 from stickiness.arguments import number
 from stickiness.plausibility import LIMITS, warn_of_si
-from stickiness.solids import HALF_SPACE, Film, Layer, Solid
+from stickiness.solids import HALF_SPACE, Film, HalfSpace, Layer, Skin, Solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL, PREDICTED
 
@@ -34,8 +34,9 @@ class Material:
         Work of adhesion of the pair [J/m^2].
     range : float
         Range of the attraction [m].
-    solid : HalfSpace or Layer
-        Shape of the solid, thickness in m; see `stickiness.solids`.
+    solid : HalfSpace, Layer or Skin
+        Shape of the solid, thickness in m; see `stickiness.solids`. `modulus` is that of the layer,
+        or of the half-space below a skin, and `work_of_adhesion` that of the surface.
     law : str
         Traction law: "exponential" or "van_der_waals".
     pressed : float
@@ -54,8 +55,8 @@ class Material:
     ------
     ValueError
         If a number is not positive and finite, if `poisson` is not above -1 and at most 0.5, if a
-        layer has another Poisson's ratio, or if `modulus` is not known at the time or frequency
-        at which the verdict is made.
+        layer or half-space has another Poisson's ratio, or if `modulus` is not known at the time or
+        frequency at which the verdict is made.
 
     Examples
     --------
@@ -85,10 +86,11 @@ class Material:
         number("broken_at", self.broken_at)
         if self.poisson is not None and not -1 < self.poisson <= 0.5:
             raise ValueError(f"poisson must be above -1 and at most 0.5, got {self.poisson!r}")
-        if isinstance(self.solid, Layer) and self.poisson != self.solid.poisson:
+        if not isinstance(self.solid, HalfSpace) and self.poisson != self.solid.poisson:
+            part = "half-space below the skin" if isinstance(self.solid, Skin) else "layer"
             raise ValueError(
-                f"poisson = {self.poisson!r} must equal the layer's, {self.solid.poisson!r}: "
-                "`modulus` is that of the layer"
+                f"poisson = {self.poisson!r} must equal the solid's, {self.solid.poisson!r}: "
+                f"`modulus` is that of the {part}"
             )
         if self.surface is not None and not hasattr(self.surface, "draws"):
             raise ValueError(f"surface must be a Surface, got {self.surface!r}")
@@ -189,7 +191,7 @@ class Material:
             work_of_adhesion=self.work_of_adhesion,
             range=self.range,
         )
-        if isinstance(self.solid, Layer):
+        if not isinstance(self.solid, HalfSpace):
             warn_of_si(thickness=self.solid.thickness)
 
 
@@ -228,10 +230,19 @@ def _read_modulus(entry: Mapping[str, Any]) -> float | Prony | Table:
 
 
 def _read_solid(entry: Mapping[str, Any], material: Material) -> Solid:
-    """Half-space, or layer on a rigid base or on a film, of an entry of the configuration."""
+    """Half-space, with a skin or without, or layer on a rigid base or a film, of an entry."""
+    poisson = entry["poisson_ratio"]
+    skin = entry.get("skin")
+    if skin is not None:
+        youngs_modulus = material.plane_strain_modulus * (1 - poisson**2)
+        return Skin(
+            thickness=float(skin["thickness"]),
+            modulus_ratio=skin["modulus"] / youngs_modulus,
+            skin_poisson=skin["poisson"],
+            poisson=poisson,
+        )
     if entry.get("thickness") is None:
         return HALF_SPACE
-    poisson = entry["poisson_ratio"]
     backing = entry["backing"]
     if isinstance(backing, Mapping):
         youngs_modulus = material.plane_strain_modulus * (1 - poisson**2)

@@ -1,8 +1,8 @@
 """Roughness of a pair: that of the surface and of the material, as the material's solid meets it.
 
-The surface of a material that is rough itself adds its spectrum. A layer of finite thickness
-changes the energy that it takes to conform. Everything is known at both ends of the surface, and on
-the draws of a surface that was measured.
+The surface of a material that is rough itself adds its spectrum. A layer or a skin changes the
+energy that it takes to conform. Everything is known at both ends of the surface, and on the draws
+of a surface that was measured.
 """
 
 from __future__ import annotations
@@ -15,9 +15,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair, find_dissipation, make_pair
-from stickiness.remaining.prediction import Roughness, find_film_response
+from stickiness.remaining.prediction import (
+    Roughness,
+    find_film_response,
+    find_half_space_energy,
+    find_relative_compliance,
+)
 from stickiness.remaining.thin_layers import find_flow
-from stickiness.solids import HALF_SPACE, Film, Solid
+from stickiness.solids import HALF_SPACE, Skin, Solid
 from stickiness.spectrum import combine
 from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.material import Material
@@ -103,12 +108,14 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
         ends, draws = _add_surfaces(surface, own, material.solid)
         rms_curvature = np.hypot(rms_curvature, _curvature(own))
 
-    # A layer changes the energy of full contact, and the compliance to the longest waves.
+    # A layer or a skin changes the energy of full contact, and the compliance.
     stiffening = np.ones(2)
     if material.solid != HALF_SPACE:
         ends, draws, stiffening = _put_on_layer(ends, draws, spectra, material.solid)
         if own is None:
             ends, draws = _simulate_on_layer(ends, draws, surface, material.solid)
+    if isinstance(material.solid, Skin) and own is None and surface.unresolved_energy > 0:
+        ends, draws = _stiffen_unresolved(ends, draws, surface, stiffening, material.solid)
 
     a_v, doubt = _find_a_v(material, surface, ends, rms_curvature, spectra)
     doubts.append(doubt)
@@ -238,7 +245,7 @@ def _keep_simulation(rough: Roughness, added: ArrayLike) -> dict[str, NDArray]:
     return {"simulated": rough.simulated, "lacking": lacking}
 
 
-def _find_largest_change(stiffening: NDArray, compliance: float) -> float:
+def _find_largest_change(stiffening: NDArray, compliance: NDArray) -> float:
     """Largest relative change of energy and compliance by a layer, with its sign."""
     changes = np.append(stiffening - 1, 1 - compliance)
     return float(changes[np.abs(changes).argmax()])
@@ -274,19 +281,45 @@ def _take_smooth_end(ends: Roughness) -> Roughness:
     )
 
 
+def _stiffen_unresolved(
+    ends: Roughness, draws: Roughness, surface: Surface, stiffening: NDArray, skin: Skin
+) -> tuple[Roughness, Roughness]:
+    """Let a skin meet unresolved waves, at least, as it meets the shortest that are resolved."""
+    shortest = float(surface.spectra[0].band[1])
+    gain = np.maximum(1 / (skin.factor(shortest) * stiffening), 1.0)
+    stiffened = []
+    for rough, name, its_gain in (
+        (ends, "beyond_energy", gain),
+        (draws, "beyond_energy_draws", np.sqrt(np.prod(gain))),
+    ):
+        beyond = surface.data[name].values
+        change = (1 + beyond * its_gain) / (1 + beyond)
+        stiffened.append(
+            replace(
+                rough,
+                elastic_energy=rough.elastic_energy * change,
+                relative_compliance=rough.relative_compliance / change,
+            )
+        )
+    return stiffened[0], stiffened[1]
+
+
 def _put_on_layer(
     ends: Roughness, draws: Roughness | None, spectra: tuple[Spectrum, ...], solid: Solid
 ) -> tuple[Roughness, Roughness | None, NDArray]:
-    """Roughness as a layer meets it, and its energy of full contact over that of a half-space."""
+    """Roughness as a layer or skin meets it, and its energy over that of a half-space."""
     energy = [spectrum.elastic_energy(solid) for spectrum in spectra]
     stiffening = np.divide(energy, [spectrum.elastic_energy() for spectrum in spectra])
-    compliance = float(solid.factor(float(ends.q0[0])))
-    flow = float(find_flow(solid, float(ends.q0[0])))
+    q0 = float(ends.q0[0])
+    compliance = np.array([find_relative_compliance(each, solid, q0) for each in spectra])
+    flow = float(find_flow(solid, q0))
+    is_skin = np.full(2, isinstance(solid, Skin))
     ends = replace(
         ends,
         elastic_energy=ends.elastic_energy * stiffening,
-        relative_compliance=np.full(2, compliance),
+        relative_compliance=compliance,
         flow=np.full(2, flow),
+        is_skin=is_skin,
         **_keep_simulation(ends, added=_find_largest_change(stiffening, compliance)),
     )
     if draws is not None:
@@ -294,22 +327,22 @@ def _put_on_layer(
         draws = replace(
             draws,
             elastic_energy=draws.elastic_energy * np.sqrt(np.prod(stiffening)),
-            relative_compliance=np.float64(compliance),
+            relative_compliance=np.sqrt(np.prod(compliance)),
             flow=np.float64(flow),
+            is_skin=is_skin[0],
             **_keep_simulation(draws, added=_find_largest_change(stiffening, compliance)),
         )
-    if isinstance(solid.backing, Film):
-        # The film makes the solid softer to long waves, the layer stiffer to others: energies on a
-        # half-space bound neither way.
-        q0 = float(ends.q0[0])
+    if solid.at_modulus(2.0) != solid:
         responses = np.array([find_film_response(spectrum, solid, q0) for spectrum in spectra])
-        ends = replace(ends, half_space_energy=np.full(2, np.nan), film_response=responses)
+        ends = replace(ends, film_response=responses)
         if draws is not None:
-            draws = replace(
-                draws,
-                half_space_energy=np.full(draws.h_rms.shape, np.nan),
-                film_response=responses.mean(axis=0),
-            )
+            draws = replace(draws, film_response=responses.mean(axis=0))
+    if find_half_space_energy(spectra[0], solid) is None:
+        # A film makes the solid softer to long waves, the layer stiffer to others: energies on a
+        # half-space bound neither way.
+        ends = replace(ends, half_space_energy=np.full(2, np.nan))
+        if draws is not None:
+            draws = replace(draws, half_space_energy=np.full(draws.h_rms.shape, np.nan))
     return ends, draws, stiffening
 
 

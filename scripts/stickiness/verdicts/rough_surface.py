@@ -331,6 +331,7 @@ class Surface:
             relative_compliance=np.ones(2),
             flow=np.zeros(2),
             half_space_energy=energy,
+            is_skin=np.zeros(2, dtype=bool),
             anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
             rms_slope=data.rms_slope.values,
             film_response=np.zeros((2, 2, FILM_FACTORS.size)),

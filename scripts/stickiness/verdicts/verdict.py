@@ -299,8 +299,10 @@ def thresholds(
     any_modulus = 0.99 * judged.plane_strain_modulus * judged.work_of_adhesion
     any_modulus /= LEAST_LENGTH * full_contact_energy
     as_given = 1.0 if judged.poisson is None else 1 - judged.poisson**2
+    moduli = [as_given * x if x < any_modulus else np.inf for x in moduli]
     return Thresholds(
-        modulus=Threshold(*(as_given * x if x < any_modulus else np.inf for x in moduli)),
+        # Nothing is softer: below a skin that is too stiff no modulus would do.
+        modulus=Threshold(*(x if x > 1e-3 * LEAST_STRESS else 0.0 for x in moduli)),
         rms_height=collect("rms_height_threshold"),
         thickness=collect("thickness_threshold"),
         pressure=collect("contact_pressure"),

@@ -75,6 +75,7 @@ def test_an_error_says_what_would_be_right(check, wrong, hint):
 
 
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.3, "thickness": "25 um"}
+SKIN = {"modulus": "3 GPa", "poisson": 0.35, "thickness": "90 nm"}
 LAYER = {"materials/psa/thickness": "50 um"}
 TEXT = {"surfaces/map/file": "README.md"}
 LIMIT = "experiments/wafers/cases/limit"
@@ -87,6 +88,7 @@ KNOWN = {"value": "1 um", "known": "read"}
         *((file, {}) for file in MODELS),
         ("materials", LAYER | {"materials/psa/backing": "slip"}),
         ("materials", LAYER | {"materials/psa/backing": FILM}),
+        ("materials", {"materials/psa/skin": SKIN}),
         ("materials", {"materials/psa/surface": "asphalt"}),
         (
             "surfaces",
