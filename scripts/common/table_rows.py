@@ -19,7 +19,7 @@ from stickiness.criteria.pair import (
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
-from stickiness.verdicts.judgement import DECIDED_BY
+from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
 from stickiness.verdicts.limits import find_limits, find_value
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
@@ -203,6 +203,8 @@ def gather_facts(pair, work_of_adhesion):
     curvature = float(rough.pair_rms_curvature)
     intervals = ("attractive_over_contact", "edge_strength", "over_dmt")
     share = texts.describe_share(pair)
+    beyond = float(pair.extrapolation.max())
+    by_theory = int(pair.decided_by) in (BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY)
     return {name: interval(*pair[name].values, 2) for name in intervals} | {
         "remaining": share if share.endswith("times") else f"{share} of",
         "wanted": percent(DEFAULT_SHARE),
@@ -217,6 +219,7 @@ def gather_facts(pair, work_of_adhesion):
         "summit_radius": amount(2 / curvature, "m", 2),
         "energy": f"{number(work_of_adhesion / float(rough.energy_ratio), 2)} J/m²",
         "work_of_adhesion": f"{number(work_of_adhesion, 2)} J/m²",
+        "extrapolation": number(beyond, 2) if beyond > 0 and by_theory else "",
         "modulus": amount(pair.modulus_quoted, "Pa", 2),
     }
 

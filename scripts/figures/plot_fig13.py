@@ -1,4 +1,4 @@
-"""Figure 13: what remains where contact edges are sharper than the finest waves, by magnification."""
+"""Figure 13: what remains where contact edges are sharper than the finest waves."""
 
 import numpy as np
 
@@ -51,7 +51,7 @@ def draw_ladder(ax, table, ratio):
 
 
 def predict(hurst, magnifications, ratio):
-    """Share and its limits for a cohesive zone of `SHARP` times the finest waves: low, value, high."""
+    """Low limit, value and high limit for a zone of `SHARP` times the finest waves."""
     spectra = [SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0) for zeta in magnifications]
     energy = np.array([spectrum.elastic_energy() for spectrum in spectra])
     rough = Roughness(

@@ -54,7 +54,8 @@ def test_the_rule_of_thumb_is_where_the_share_remains():
     assert (rule.rule.diff("share") < 0).all()
     for hurst, share in ((0.5, 0.1), (0.8, 0.01), (0.9, 0.3)):
         spectrum = SelfAffine(hurst=hurst, q0=0.5, q1=0.5e4, h_rms=3.0)
-        rough = Roughness(h_rms=3.0, q0=0.5, elastic_energy=spectrum.elastic_energy())
+        energy = spectrum.elastic_energy()
+        rough = Roughness(h_rms=3.0, q0=0.5, elastic_energy=energy, q1=spectrum.q1)
         for name, sign in (("rule", 0), ("rule_low", -1), ("rule_high", 1)):
             c = float(rule[name].sel(hurst=hurst, share=share))
             remains = rough.share(3.0**2 / (c * 2 * np.pi / 0.5), 3e-6, sign)

@@ -23,6 +23,8 @@ from stickiness import error_budget as budget
 from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES, WORDS
 from stickiness.criteria.registry import EDGES, REMAINING
 from stickiness.entries import check_material, check_surface
+from stickiness.remaining.prediction import predict
+from stickiness.spectrum import SelfAffine
 
 NASTY = '<script>alert("1 & 2")</script>'
 GRADES = ("reproduced", "reproduced with a qualification", "not reproduced", "undecided")
@@ -386,7 +388,11 @@ def test_every_judged_pair_is_on_one_axis(pairs):
     (line,) = interactive.draw_pairs(doubtful).renderers  # the model alone
     at = line.data_source.data
     shares = np.interp(np.log([0.5, 2.0]), np.log(at["x"]), at["y"])
-    assert shares == pytest.approx([1.58, 52.1], rel=0.02)
+    # As of a spectrum of H = 0.8 with very many waves.
+    rough = SelfAffine(hurst=0.8, q0=1.0, q1=1e9, h_rms=1.0)
+    lengths = np.array([0.5, 2.0]) * rough.elastic_energy()
+    expected = [100 * predict(rough, length, 1e-6).separation for length in lengths]
+    assert shares == pytest.approx(expected, rel=0.02)
 
 
 def test_disagreement_counts_pairs_by_verdict(verdicts):

@@ -52,6 +52,7 @@ QUANTITIES = {
     for ending in SIGNS
 } | {
     "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
+    "extrapolation": ("1", "decades of wave numbers by which the theory goes beyond simulations"),
     "range_over_h_rms": ("1", "range of attraction over rms height"),
     "pair_h_rms": ("m", "rms height of the pair, of both solids if both are rough"),
     "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
@@ -257,6 +258,7 @@ def find_quantities(pair: Pair) -> dict[str, NDArray]:
     )
     quantities = {
         "range_over_h_rms": pair.range / pair.h_rms,
+        "extrapolation": pair.extrapolation(length, pair.range),
         "energy_ratio": length / pair.elastic_energy,
         "edge_strength": edges.strength,
         "attractive_over_contact": edges.attractive_over_contact,

@@ -36,6 +36,7 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 HALF_ONSET = 3.7
 SPREAD = 0.74
 SHARP = 0.25
+FEWEST_SCALES = 1e-6  #: where all waves are bridged
 EXPONENTS = (-0.999, 30.0)  #: between which that of the elastic energy is searched
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
@@ -137,7 +138,7 @@ def find_onset(scales: ArrayLike) -> float | NDArray:
     less the cost differs from place to place. With very many, each wave is followed or not by
     itself, and contact begins where full contact begins to pay, at 1.
     """
-    scales = np.asarray(scales, dtype=float)
+    scales = np.maximum(scales, FEWEST_SCALES)
     return plain(scales / (scales + HALF_ONSET))
 
 

@@ -6,7 +6,7 @@ import pytest
 from stickiness.criteria.pair import SPOT_INDENTATION, find_dissipation, make_pair
 from stickiness.remaining.prediction import Roughness
 
-ENERGY = 0.3e-6  # of full contact over E* [m]: with tough contact at adhesion lengths of as much
+ENERGY = 0.6e-6  # of full contact over E* [m]: with tough contact at adhesion lengths of as much
 
 
 def put_on(range, adhesion_length=ENERGY, edge_path=0.0):
@@ -30,7 +30,7 @@ def find_zone_of_sphere(indentation_ratio):
 
 
 def test_pull_off_has_a_factor_where_spots_are_those_of_wide_spheres():
-    near = 4.2e-8  # the area hardly changes with the range
+    near = 5.7e-8  # the area hardly changes with the range
     pair, _ = put_on(near)
     area = np.min(pair.area(pair.adhesion_length, near))
     assert 0.1 < area < 0.3

@@ -67,7 +67,7 @@ def test_scales_are_those_of_the_spectrum(hurst, magnification):
 
 
 def test_the_onset_saturates_and_moves_with_the_scales():
-    """At fixed finest waves the range stops mattering; energy at all scales moves the onset to 1."""
+    """At fixed waves the range stops mattering; energy at all scales moves the onset to 1."""
     magnification = 32.0
     waves = find_narrowest_wave(np.array([1e-3, 1e-5, 1e-12]) / magnification, magnification)
     assert waves == pytest.approx(waves[-1], rel=0.01)
@@ -130,7 +130,7 @@ def test_tension_of_a_tail_is_the_slope_of_its_energy():
 
 
 def tough_energy(y, onset):
-    """Elastic energy of tough contacts, the integral of y over the area, by the trapezoidal rule."""
+    """Elastic energy of tough contacts, the integral of y over the area."""
     area = tough_area(y, onset)
     steps = (y[1:] + y[:-1]) / 2 * np.diff(area)
     return area, np.append(0.0, np.cumsum(steps))

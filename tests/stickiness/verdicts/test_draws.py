@@ -48,19 +48,22 @@ def find_adhesion_length(material):
 def draw(pair):
     """Margins and shares of every draw, with the errors of the model."""
     errors = draw_model_errors(pair)
-    margins = pair.adhesion_length / pair.threshold(pair.range, sign=errors)
+    length = pair.adhesion_length
+    margins = length / pair.threshold(pair.range, sign=errors, adhesion_length=length)
     return margins, pair.share(pair.adhesion_length, pair.range, errors)
 
 
 @pytest.mark.slow
 def test_errors_of_the_spectrum_pass_to_the_margin():
-    # Tough: the threshold is in proportion to the elastic energy, whatever h_rms and q0.
+    # Tough: the threshold is in proportion to the elastic energy, if the mean wave number is the
+    # same over q0.
     rng = np.random.default_rng(0)
     energy = 1e-7 * np.exp(0.2 * rng.normal(size=4000))
-    judged = judge_draws(meet(MATERIAL, Roughness(1e-6 * SAME, 1e5 * SAME, energy)))
+    h_rms = 1e-6 * np.sqrt(energy / 1e-7)
+    judged = judge_draws(meet(MATERIAL, Roughness(h_rms, 1e5 * SAME, energy)))
     assert judged["error_of_spectrum"] == pytest.approx(0.2, rel=0.05)
     h_rms = 1e-6 * np.exp(0.1 * rng.normal(size=4000))
-    q0 = 1e5 * np.exp(0.2 * rng.normal(size=4000))
+    q0 = 1e5 * (1e-6 / h_rms) ** 2
     judged = judge_draws(meet(MATERIAL, Roughness(h_rms, q0, 1e-7 * SAME)))
     assert judged["error_of_spectrum"] < 1e-3
 
