@@ -5,7 +5,8 @@ ends, and then falls to the next. Whether a step was reversible shows in its ene
 the change of energy less the integral of the mean pressure over the mean gap, along a parabola
 through both ends and the state before. On a branch this is of fourth order in the step; at a jump
 it does not vanish with the step. So the balance sets the steps, and a jump is a step that stays out
-of balance when it is as short as the tolerance for its place. On a grid, attraction of short range
+of balance when it is as short as the tolerance for its place. What lies beyond the place is solved
+once, from the near side of the first step across it. On a grid, attraction of short range
 passes over points one by one, each with a small jump (a Maugis zone always does).
 """
 
@@ -60,6 +61,7 @@ def path(
     max_states: int = 5000,
     max_iterations: int = 3000,
     solid: Solid = HALF_SPACE,
+    balanced_below: float = math.inf,
 ) -> Iterator[PathPoint]:
     """Follow the contact through rising and falling pressure or mean gap.
 
@@ -91,6 +93,9 @@ def path(
         Least number of steps between two of the values.
     max_states : int
         States to compute at most.
+    balanced_below : float
+        Mean pressure [E*] above which steps are as long as `steps` allows, and jumps part of them:
+        for works of tension alone, which do not depend on where the surfaces jump under pressure.
 
     Raises
     ------
@@ -133,6 +138,7 @@ def path(
         smallest_jump=smallest_jump,
         located=located,
         steps=steps,
+        balanced_below=balanced_below,
     )
     for target in values[1:]:
         for point in follower.leg(last, target):
@@ -157,6 +163,7 @@ class _Follower:
     smallest_jump: float
     located: float
     steps: int
+    balanced_below: float
 
     def leg(self, state, target):
         """Points from a state (left out) to a value of the control."""
@@ -166,28 +173,33 @@ class _Follower:
         finest = longest / _SUBSTEPS[self.first.law.smooth]
         step = longest
         before = None  # the state before this one, on the same branch
-        end = target  # or a value before it that could not be reached in balance
-        failures = 0
+        ahead = []  # values that were out of balance from states farther back, with their states
+        halved = False
         while value != target:
-            trial = self._next_value(value, end, step, failures)
-            successor = self._solve(state, trial, APPROACH if closing else SEPARATION)
+            if ahead and not halved:
+                trial, successor = ahead.pop()  # nothing is solved twice
+            else:
+                trial = self._next_value(value, target, step)
+                successor = self._solve(state, trial, APPROACH if closing else SEPARATION)
+            halved = False
             work, dissipated = self._dissipation(before, state, successor)
             width = abs(trial - value)
             allowed = max(self.smallest_jump, self.balance) if width <= finest else self.balance
-            if abs(dissipated) <= allowed * self.scale:
-                # In balance: go on, by a step whose error of fourth order is just allowed.
+            in_balance = abs(dissipated) <= allowed * self.scale
+            free = self._press(state, successor)
+            if in_balance or free:
                 yield PathPoint(successor, work=work, dissipated=dissipated)
+                # Go on, by a step whose error of fourth order is just allowed.
                 growth = 0.8 * (self.balance * self.scale / max(abs(dissipated), 1e-300)) ** 0.25
-                step = min(longest, width * min(2.0, max(growth, 0.2)))
-                before = state
+                step = longest if free else min(longest, width * min(2.0, max(growth, 0.2)))
+                before = state if in_balance else None
                 state = successor
                 value = trial
             elif width > self._width(trial):
                 # Out of balance: approach the place by halves.
-                end = trial
-                failures += 1
+                ahead.append((trial, successor))
                 step = width / 2
-                continue
+                halved = True
             elif successor is None:
                 yield PathPoint(state, "pull-off", (value, trial), 0.0, math.inf)
                 return
@@ -198,19 +210,17 @@ class _Follower:
                 state = successor
                 value = trial
                 step = longest
-            if trial == end:
-                end = target
-                failures = 0
 
-    def _next_value(self, value, end, step, failures):
-        """Next value towards an end: by the step, or by halves if the end is known to fail."""
-        distance = abs(end - value)
-        if failures and distance > self._width(end) and (failures > 2 or step < distance):
-            step = distance / 2 if failures > 2 else min(step, distance / 2)
-        elif failures:
-            return end
-        # No crumb of a step before the end.
-        return end if 1.01 * step >= distance else value + math.copysign(step, end - value)
+    def _next_value(self, value, target, step):
+        """Next value towards a target."""
+        distance = abs(target - value)
+        # No crumb of a step before the target.
+        return target if 1.01 * step >= distance else value + math.copysign(step, target - value)
+
+    def _press(self, state, successor):
+        """Whether both states press, so that the step between them need not be in balance."""
+        limit = self.balanced_below
+        return successor is not None and min(state.mean_pressure, successor.mean_pressure) > limit
 
     def _width(self, value):
         return self.located * max(abs(value), _NEAR_ZERO * self.span)

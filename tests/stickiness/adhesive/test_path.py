@@ -253,6 +253,31 @@ def test_mean_gap_follows_the_curve_beyond_pull_off():
     assert not any(point.event for point in points)
 
 
+def test_steps_under_pressure_need_not_balance():
+    """Bumps that jump into contact: the jump is found under tension, and passed under pressure."""
+    law = Exponential(adhesion_length=2e-4, range=2e-3)
+    heights = bumps(32)
+    far = heights.max() + 4 * law.range
+    fine = {"balance": 1e-2, "smallest_jump": 1e-2, "located": 1e-2, "steps": 12}
+
+    def follow(limit):
+        values = (far, 0.2 * far)
+        return list(
+            adhesive.path(heights, 1.0, law, values, "mean_gap", balanced_below=limit, **fine)
+        )
+
+    loose = follow(-np.inf)
+    np.testing.assert_allclose(np.diff([p.state.mean_gap for p in loose]), -0.8 * far / 12)
+    assert not any(point.event for point in loose)
+    balanced = follow(np.inf)
+    assert any(point.event == "jump-in" for point in balanced)
+    # The path may pass what happens under pressure, and ends in the same state but for some points.
+    for points in (loose, follow(0.0)):
+        assert points[-1].state.energy == pytest.approx(balanced[-1].state.energy, rel=2e-3)
+    touch = [p.event for p in balanced if p.state.mean_pressure < 0]
+    assert [p.event for p in follow(0.0) if p.state.mean_pressure < 0] == touch
+
+
 def test_path_gives_up_when_told_to():
     law = Exponential(adhesion_length=5e-5, range=0.01)
     with pytest.raises(adhesive.ConvergenceError, match="max_states") as info:
