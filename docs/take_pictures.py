@@ -37,7 +37,7 @@ PAGES = {
         "{ display: none !important }",
     ),
 }
-FIGURES = ("fig11", "fig12")
+FIGURES = ("fig11", "fig12", "fig13")
 
 
 def shot(browser: str, page: Path, height: int, hidden: str) -> Image.Image:

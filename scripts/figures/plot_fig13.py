@@ -12,17 +12,19 @@ from stickiness.spectrum import SelfAffine
 COLOURS = {0.5: RED, 0.8: BLUE}  # by the Hurst exponent
 CELLS = {4: "D", 2: "o", 1: "s"}  # markers by the longest waves along a cell
 RATIOS = {"A": 0.5, "B": 0.8}  # works of adhesion over the energy of full contact, by panel
+SHARPEST = 0.31  # zone over the finest waves of the works that are shown
 WORKS = {"approach": "v", "separation": "^"}
 MAGNIFICATION = "magnification ζ"
 
 
 def main(job):
     table = remaining_table.read(job.input.table)
-    sharp = table[np.isclose(table.zone * table.magnification, SHARP, rtol=1e-3)]
+    fine_zone = table.zone * table.magnification
+    ladders = table[np.isclose(fine_zone, SHARP, rtol=1e-3)]
     with plotting.open_figure(job.output, "ABC", 3.0) as panels:
         for name, ratio in RATIOS.items():
-            draw_ladder(panels[name], sharp, ratio)
-        draw_works(panels["C"], sharp[sharp.separation.notna() & ~sharp.weak])
+            draw_ladder(panels[name], ladders, ratio)
+        draw_works(panels["C"], table[(fine_zone < SHARPEST) & table.separation.notna()])
 
 
 def draw_ladder(ax, table, ratio):
@@ -74,17 +76,17 @@ def average_ladder(rows):
 def draw_works(ax, table):
     """Works of approach and separation over the energy gained, with the limits of the theory."""
     for name, marker in WORKS.items():
-        for hurst, colour in COLOURS.items():
-            for window in (1, 2):
-                rows = table[(table.hurst == hurst) & (table.window == window)]
-                look = {"color": colour, "mfc": colour if window > 1 else "white", "markersize": 4}
-                ax.plot(rows.magnification, rows[name] / rows.bound, marker, **look)
+        for row in table.itertuples():
+            colour = COLOURS[min(COLOURS, key=lambda hurst: abs(hurst - row.hurst))]
+            look = {"color": colour, "mfc": colour if row.window > 1 else "white", "markersize": 4}
+            ax.plot(row.magnification, getattr(row, name) / row.bound, marker, **look)
     for limit in (1 / LATE, HYSTERESIS):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
     ax.legend(handles=[make_dot(name, marker=marker, color=GREY) for name, marker in WORKS.items()])
-    ax.set(xscale="log", xlabel=MAGNIFICATION, ylabel="work over energy gained")
-    plotting.write_ticks(ax.xaxis, [4, 8, 16])
+    ax.set(xscale="log", xlim=(3.5, 12), ylim=(0.6, 2), xlabel=MAGNIFICATION)
+    ax.set_ylabel("work over energy gained")
+    plotting.write_ticks(ax.xaxis, [4, 5, 8, 10])
 
 
 if __name__ == "__main__":

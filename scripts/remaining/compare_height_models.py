@@ -15,6 +15,7 @@ from stickiness import datasets, surface
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.remaining import height_simulation
 from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.standard_heights import PIXELS_RESOLVED
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import Exponential
 from stickiness.verdicts.simulated_surface import find_lacking
@@ -61,7 +62,7 @@ def main(job):
 def compare(setting, params):
     """What remains on one surface by every model, and the processor time that each takes."""
     length = cell_size(setting)
-    points = grid_points(setting, height_simulation.PIXELS_RESOLVED)
+    points = grid_points(setting, PIXELS_RESOLVED)
     heights = make_heights(setting, points, params.seed)
     spectrum = surface.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()

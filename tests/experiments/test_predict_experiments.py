@@ -239,8 +239,9 @@ def test_the_roughness_of_criteria_is_where_their_margin_is_one():
 def test_the_dataset_has_predictions_limits_and_outcomes(dataset):
     assert dataset.case.values.tolist() == ["ball/limit", "ball/work", "plate/steel"]
     for name in ("predicted", "pull_off_curve"):
-        assert np.all(dataset[f"{name}_lowest"] <= dataset[name])
-        assert np.all(dataset[name] <= dataset[f"{name}_highest"])
+        # Near full contact limits and value agree; roots are found to 1e-8.
+        assert np.all(dataset[f"{name}_lowest"] <= dataset[name] * (1 + 1e-8))
+        assert np.all(dataset[name] <= dataset[f"{name}_highest"] * (1 + 1e-8))
     plate, ball = dataset.sel(case="plate/steel"), dataset.sel(case="ball/work")
     assert (int(plate.outcome), int(plate.value_inside)) == (COMPATIBLE, 1)
     assert ball.most_effective_input.item() == "longest_wavelength"
@@ -248,7 +249,8 @@ def test_the_dataset_has_predictions_limits_and_outcomes(dataset):
     # Across Derjaguin's zone, which is wider than JKR's contact with the work that remains.
     longest = np.sqrt(50e-6 * 100e-6)
     rough = spectrum(1e-6, q0=2 * np.pi / longest)
-    pair = Roughness(1e-6, rough.q0, rough.elastic_energy(), rms_slope=rough.rms_slope)
+    energy = rough.elastic_energy()
+    pair = Roughness(1e-6, rough.q0, energy, q1=rough.q1, rms_slope=rough.rms_slope)
     zone = np.sqrt(2 * 5e-3 * pair.distance(LENGTH, RANGE))
     assert float(ball.waves_in_contact) == pytest.approx(2 * zone / longest, rel=1e-6)
     limit = float(dataset.predicted.sel(case="ball/limit"))

@@ -25,10 +25,13 @@ from figures import (
     plot_fig9,
     plot_fig10,
     plot_fig12,
+    plot_fig13,
 )
 from stability import plot_stability
 from stickiness import error_budget as budget
 from stickiness.criteria import equivalent_sphere
+from stickiness.remaining import predict
+from stickiness.spectrum import SelfAffine
 from tradeoff import plot_tradeoff
 
 # Relative errors by source of everything "measured" here: in quadrature 3, 4, 12 give 13 %.
@@ -537,3 +540,19 @@ def test_map_of_validity_shows_the_worst_of_the_variants(ax):
     plot_stability.draw_map(ax, outcome)
     np.testing.assert_array_equal(ax.images[0].get_array(), [[3], [1]])
     assert [label.get_text() for label in ax.get_yticklabels()] == ["0.2", "0.8"]
+
+
+def test_figure_13_follows_the_surfaces_that_go_furthest(ax):
+    """Means of seeds 1 and 2, which have both magnifications, over that of seed 3."""
+    rows = [(1, 4, 0.05), (2, 4, 0.07), (3, 4, 0.5), (1, 8, 0.03), (2, 8, 0.05)]
+    table = pd.DataFrame(rows, columns=["seed", "magnification", "bound"])
+    table = table.assign(set="a_rest", hurst=0.8, window=2, energy_ratio=0.5)
+    plot_fig13.draw_ladder(ax, table, 0.5)
+    drawn(ax, [4, 8], [0.06, 0.04], marker="o", color=plotting.BLUE)
+    # The theory at H = 0.8 is the same spectrum's, at a zone of a quarter of the finest waves.
+    low, value, high = plot_fig13.predict(0.8, np.array([8.0]), 0.5)
+    spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    length = 0.5 * spectrum.elastic_energy()
+    expected = predict(spectrum, length, range=np.sqrt(0.25 / 8 * length))
+    assert value[0] == pytest.approx(expected.separation)
+    assert low[0] < value[0] < high[0]

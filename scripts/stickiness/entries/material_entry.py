@@ -82,7 +82,7 @@ class Material(ElasticPair, f.Labelled):
     backing: Backing = optional(
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
     )
-    skin: Skin = optional("stiff or soft skin of an infinitely deep material")
+    skin: Skin = optional("stiff skin of an infinitely deep material")
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
     pressed: f.Pressure = optional('pressure before separation, e.g. "10 kPa"; a touch without it')
     law: f.PredictedLaw = optional(

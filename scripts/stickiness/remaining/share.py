@@ -118,7 +118,7 @@ def _find_exponent(magnification: NDArray, mean_wave_number: NDArray) -> NDArray
     (1 + a)/a (1 - zeta^(-a))/(1 - zeta^(-1 - a)). It falls with a.
     """
     shape = np.broadcast_shapes(magnification.shape, mean_wave_number.shape)
-    log_magnification = np.log(magnification)
+    log_magnification = np.log(np.maximum(magnification, 1 + 1e-9))
     low = np.full(shape, EXPONENTS[0])
     high = np.full(shape, EXPONENTS[1])
     for _ in range(32):
@@ -202,15 +202,15 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
     """
     x, onset = positive(energy_ratio=energy_ratio, onset=onset)
     x, onset = np.broadcast_arrays(x, onset)
-    # Contacts on the way from nearly no area to that of zero load.
-    part = np.linspace(0.02, 1.0, 100).reshape(-1, *[1] * x.ndim)
-    y = part * x
+    # Contacts on the way from nearly no area to that of zero load, evenly in the logarithm of y.
+    first = np.minimum(onset - _spread(onset), x)
+    y = first * (x / first) ** np.linspace(0.01, 1.0, 100).reshape(-1, *[1] * x.ndim)
     stored = y * _area_of_tough(y, onset) - _gain_of_tough(y, onset)
     # The mean gap at which contact without adhesion stores the same energy.
     decay = np.maximum(-np.log(np.clip(stored, 1e-300, 1.0)), 1e-6)
     gap = np.exp(np.interp(np.log(decay), _FINE_LOG_DECAY, np.log(_FINE_GAPS)))
     # d(F - x area)/du = dF/du (1 - x/y), where y is dF/d(area).
-    rise = decay_energy(gap)[1] * np.exp(-decay) * (1 / part - 1)
+    rise = decay_energy(gap)[1] * np.exp(-decay) * (x / y - 1)
     return plain(np.max(rise, axis=0, initial=0.0) / LIFT)
 
 

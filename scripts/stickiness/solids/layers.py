@@ -263,7 +263,7 @@ class Skin(_Deep):
     --------
     >>> oxidised = Skin(thickness=0.1, modulus_ratio=1000.0, skin_poisson=0.35, poisson=0.5)
     >>> print(f"{oxidised.factor(0.01):.3f} {oxidised.factor(10.0):.5f}")
-    1.000 0.00128
+    1.000 0.00856
     """
 
     thickness: float

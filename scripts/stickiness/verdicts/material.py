@@ -11,7 +11,7 @@ import numpy as np
 
 from stickiness.arguments import number
 from stickiness.plausibility import LIMITS, warn_of_si
-from stickiness.solids import HALF_SPACE, Film, HalfSpace, Layer, Skin, Solid
+from stickiness.solids import HALF_SPACE, Film, HalfSpace, Layer, Skin, Solid, check_solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL, PREDICTED
 
@@ -86,6 +86,13 @@ class Material:
         number("broken_at", self.broken_at)
         if self.poisson is not None and not -1 < self.poisson <= 0.5:
             raise ValueError(f"poisson must be above -1 and at most 0.5, got {self.poisson!r}")
+        check_solid(self.solid)
+        if isinstance(self.solid, Skin) and self.solid.modulus_ratio < 1:
+            raise ValueError(
+                f"solid: the skin has {self.solid.modulus_ratio:.3g} times the modulus of what is "
+                "below it. A verdict needs a skin that is at least as stiff; describe a soft coat "
+                "as a layer"
+            )
         if not isinstance(self.solid, HalfSpace) and self.poisson != self.solid.poisson:
             part = "half-space below the skin" if isinstance(self.solid, Skin) else "layer"
             raise ValueError(

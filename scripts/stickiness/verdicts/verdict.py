@@ -141,6 +141,8 @@ class StickinessVerdict:
         actual = f"it is {show(self.material.plane_strain_modulus)} MPa"
         if low == "any":
             return f"sticks at any modulus; {actual}"
+        if max(self.modulus_threshold_limits) == 0:
+            return f"sticks at no modulus; {actual}"
         if value == "any":
             return f"sticks below {name} = {low} MPa, and probably at any modulus; {actual}"
         high = "any" if high == "any" else f"{high} MPa"
@@ -280,7 +282,7 @@ def thresholds(
     >>> tape = Material(modulus=2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
     >>> answer = thresholds(wall, tape)
     >>> print(f"sticks below E = {answer.modulus.value / 1e6:.2f} MPa")
-    sticks below E = 1.57 MPa
+    sticks below E = 1.50 MPa
     """
     pair = read_pair(surface, material, length=length, **properties)
     cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
@@ -301,8 +303,7 @@ def thresholds(
     as_given = 1.0 if judged.poisson is None else 1 - judged.poisson**2
     moduli = [as_given * x if x < any_modulus else np.inf for x in moduli]
     return Thresholds(
-        # Nothing is softer: below a skin that is too stiff no modulus would do.
-        modulus=Threshold(*(x if x > 1e-3 * LEAST_STRESS else 0.0 for x in moduli)),
+        modulus=Threshold(*moduli),
         rms_height=collect("rms_height_threshold"),
         thickness=collect("thickness_threshold"),
         pressure=collect("contact_pressure"),
@@ -414,7 +415,11 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
 def find_limited(cell: xr.Dataset, name: str) -> Limited:
     """Value and limits of a quantity of one pair."""
     low, high = find_limits(cell, name)
-    return Limited(float(find_value(cell, name)), float(low), float(high))
+    values = (float(find_value(cell, name)), float(low), float(high))
+    if name == "modulus_threshold":
+        # Nothing is softer: below a skin that is too stiff no modulus would do.
+        values = tuple(0.0 if x < 1e-3 * LEAST_STRESS else x for x in values)
+    return Limited(*values)
 
 
 def describe_contact_law(

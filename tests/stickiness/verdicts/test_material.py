@@ -122,7 +122,7 @@ def test_a_dwell_decides_by_the_relaxed_modulus():
         ({"pressed": -1.0}, "pressed must"),
         ({"poisson": 0.7}, "poisson must be above -1 and at most 0.5, got 0.7"),
         ({"law": "none"}, "law must be one of"),
-        ({"solid": Layer(1e-5, 0.3)}, "must equal the layer's, 0.3"),
+        ({"solid": Layer(1e-5, 0.3)}, "must equal the solid's, 0.3"),
         ({"dwell": 10.0}, "needs a modulus that depends on time"),
         ({"modulus": SERIES, "dwell": 0.0}, "dwell must"),
         ({"modulus": Table((10.0, 100.0), (1e5, 1e6))}, "the table must cover the frequency"),

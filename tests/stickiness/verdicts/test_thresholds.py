@@ -31,7 +31,7 @@ WANTED = {"slipping": 0.3}  # shares of the work of adhesion
 
 
 def make_spectrum(h_rms=1e-6):
-    return SelfAffine(hurst=0.8, q0=6e4, q1=6e7, h_rms=h_rms, q_rolloff=1.2e5)
+    return SelfAffine(hurst=0.8, q0=6e4, q1=6e6, h_rms=h_rms, q_rolloff=1.2e5)
 
 
 def make_wall(h_rms=1e-6):
@@ -83,8 +83,9 @@ def test_verdict_at_a_threshold_has_the_wanted_share(name):
                 judged = judge_again(question, value, material, wanted)
                 of_limit = value != threshold.value
                 shares = judged.remaining_limits if of_limit else (judged.remaining,)
-                # Energies on a skin are interpolated in the modulus to 1e-3.
-                precision = 3e-3 if name == "aged" and question == "modulus" else 1e-3
+                # Energies on a skin are interpolated in the modulus to 1e-3; shares go with a power
+                # of 4 to 5 of these.
+                precision = 5e-3 if name == "aged" and question == "modulus" else 1e-3
                 assert min(np.abs(np.subtract(shares, wanted))) < precision * wanted
                 tried += 1
     assert tried >= 6
