@@ -93,7 +93,7 @@ def draw_hysteresis(ax, table):
     keys = [make_dot(f"ζ = {a} to {b}", color=c, marker="s") for (a, b), c in colours.items()]
     keys += [make_dot(name, marker=marker, mfc="white") for name, marker in WORKS.items()]
     ax.legend(handles=[*keys, make_dot("pressed", marker="^")], loc="upper right", ncols=2)
-    ax.set(xscale="log", ylim=(0.7, 1.9), xlim=(0.02, 0.3), ylabel="work over energy gained")
+    ax.set(xscale="log", ylim=(0.6, 1.9), xlim=(0.02, 0.3), ylabel="work over energy gained")
     plotting.write_ticks(ax.xaxis, [0.025, 0.05, 0.1, 0.2])
     ax.set_xlabel(r"width of the cohesive zone $q_0\epsilon^2/l_a$")
 
