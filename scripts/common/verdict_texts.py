@@ -3,6 +3,7 @@
 import numpy as np
 
 from common.formatting import amount, duration, number, percent
+from stickiness.criteria.pair import SIGNS, WORDS
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS
@@ -33,6 +34,20 @@ def describe_quantity(pair, name, show=None):
     value = show(float(find_value(pair, name)))
     limits = join(low, high, " to ")
     return value if limits == value or high.startswith("<") else f"{value} ({limits})"
+
+
+def describe_larger(pair):
+    """Verdict and share for a contact larger than the scan, as texts; None where none is judged."""
+    if np.isnan(pair.larger_contact):
+        return None
+    shares = (float(pair[f"larger_remaining{ending}"]) for ending in SIGNS)
+    value, low, high = map(show_share, shares)
+    limits = join(low, high, " to ")
+    return {
+        "contact": amount(float(pair.larger_contact), "m", 2),
+        "word": WORDS[int(pair.larger_verdict)],
+        "remaining": value if value == limits else f"{value} ({limits})",
+    }
 
 
 def describe_moment(judged):

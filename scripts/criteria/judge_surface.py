@@ -9,7 +9,7 @@ from stickiness.criteria.pair import WORDS
 from stickiness.verdicts.judgement import DECIDED_BY, judge
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
-from stickiness.verdicts.verdict import describe_contact_law, find_limited
+from stickiness.verdicts.verdict import describe_contact_law, find_larger, find_limited
 
 
 def main(job):
@@ -52,6 +52,8 @@ def write_contact_laws(verdicts, materials, label, output):
             decided_by=DECIDED_BY[int(cell.decided_by)],
             separation_factor=find_limited(cell, "separation_factor"),
             pull_off_factor=find_limited(cell, "pull_off_factor"),
+            contact=float(cell.contact),
+            larger=find_larger(cell),
         )
         laws.append({"material": material.label, **contact_law})
     with datasets.whole_file(output.contact_laws) as path:

@@ -8,7 +8,7 @@ from common.job import start
 from common.materials import find_doubts
 from common.table_rows import describe_pair, describe_surface, explain
 from common.templates import write_page
-from common.verdict_texts import describe_moment
+from common.verdict_texts import describe_larger, describe_moment
 from report import interactive, pages, surface_figures
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
@@ -80,6 +80,7 @@ def describe_verdict(pair, entry):
             if not np.isnan(pair[f"{name}_low"])
         },
         "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
+        "larger": describe_larger(pair),
     }
 
 

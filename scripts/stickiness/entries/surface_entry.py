@@ -311,6 +311,7 @@ class Measured(f.Labelled, Reading):
         "ignore: a verdict on implausible data, too", "check"
     )
     extend_to: f.Length = optional("wavelength to which the fit is extended beyond the instrument")
+    contact: f.Length = optional("side of the contact, if it is larger than the scan")
     bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
     @model_validator(mode="before")

@@ -265,6 +265,11 @@ class Draws:
     #: (n,), energy of all waves from the cutoff to `continue_to` over the measured energy
     unresolved: NDArray
     beyond: NDArray  #: (n,), energy of the waves beyond the cutoff over that of the others
+    long_variance: NDArray  #: (n,), of heights, by the waves below those fitted [length^2]
+    long_energy: NDArray  #: (n,), of these waves, per area over E* [length]
+    hurst: NDArray  #: (n,), of the fitted law
+    #: (n,), C of the law at the lowest wave number fitted or the end of a plateau [length^4]
+    first_psd: NDArray
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -354,7 +359,20 @@ def draw(
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
         q0 = np.exp(law.log_q_rolloff)
-    return Draws(moments, q0, unresolved, beyond)
+    # The longest waves, which levelling and the taper change, and what the law says of them.
+    first = spectrum.fit.q_min
+    long = levels * np.where(rings.q < first * (1 - 1e-9), spectrum.area, 0.0)
+    start = np.log(np.maximum(first, q0))
+    return Draws(
+        moments=moments,
+        q0=q0,
+        unresolved=unresolved,
+        beyond=beyond,
+        long_variance=long.sum(1),
+        long_energy=long @ rings.q / 4,
+        hurst=law.hurst,
+        first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
+    )
 
 
 def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:

@@ -22,18 +22,19 @@ from stickiness.measured.topography import Profile, Topography
 from stickiness.remaining.height_shape import find_shape_of
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
+from stickiness.verdicts.longer_waves import lengthen
 from stickiness.verdicts.measured_surface import Measurement, find_spectra
 from stickiness.verdicts.parametric import (
+    END_QUANTILES,
     ENDS,
     POINTS_PER_DECADE,
     REFERENCE_HURST,
     describe_variables,
 )
-from stickiness.verdicts.simulated_surface import simulate_surface
+from stickiness.verdicts.simulated_surface import simulate_surface, stands_alone
 
 DRAWS = 200  #: spectra that are drawn
 SEED = 1  #: of the draws
-END_QUANTILES = (0.16, 0.84)  #: of the draws, one standard error either side: smooth and rough end
 PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
 LEFT_OUT = "left out of the spectrum"
 IGNORED = "judged all the same (plausibility: ignore)"
@@ -43,6 +44,7 @@ def analyse(
     measurements: Sequence[Measurement],
     *,
     extend_to: float | None = None,
+    contact: float | None = None,
     ignore_doubts: bool = False,
 ) -> xr.Dataset:
     """Analyse measurements of one surface.
@@ -54,6 +56,9 @@ def analyse(
     extend_to : float, optional
         Wavelength [m] down to which the fitted law extrapolates the spectrum. By default it goes on
         to an unknown end, which widens the limits of verdicts.
+    contact : float, optional
+        Side of the contact [m], whose waves are longer than those of the measurements. By default
+        the contact is as large as the largest of these.
     ignore_doubts : bool
         Judge implausible data, too.
 
@@ -79,9 +84,6 @@ def analyse(
     doubts += [doubt for each in heights for doubt in each.doubts]
     not_judged = [] if ignore_doubts else doubts
 
-    # Contact on the heights themselves.
-    simulated = None if not_judged else simulate_surface(measurements, spectrum)
-
     # Spectra that agree with the measured one, with waves that the instrument does not resolve.
     draws = stitching.draw(
         spectrum,
@@ -101,6 +103,13 @@ def analyse(
     )
     if isinstance(spectrum, stitching.Stitched):
         dataset = dataset.merge(_compare_measurements(spectrum))
+    if contact is not None:
+        dataset = lengthen(dataset, contact)
+
+    # Contact on the heights themselves.
+    simulated = None
+    if not not_judged and stands_alone(dataset):
+        simulated = simulate_surface(measurements, spectrum)
     if simulated is not None:
         dataset = dataset.merge(simulated)
     dataset = _add_budgets(describe_variables(dataset), fit)
@@ -172,6 +181,9 @@ def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Da
             "C0_reference_upper": ("end", [upper, upper]),
             "hurst": fit.hurst,
             "misfit": fit.misfit,
+            "scan": 2 * np.pi / spectrum.lowest,
+            "contact": 2 * np.pi / spectrum.lowest,
+            "q_fitted": fit.q_min,
             "q0": fit.q_rolloff or spectrum.lowest,
             "q1": cutoff.q if q_extended is None else q_extended,
             "q_cutoff": cutoff.q,
@@ -218,6 +230,10 @@ def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
         "q0_draws": ("draw", draws.q0),
         "beyond_energy": ("end", np.quantile(draws.beyond, END_QUANTILES)),
         "beyond_energy_draws": ("draw", draws.beyond),
+        "hurst_draws": ("draw", draws.hurst),
+        "first_psd_draws": ("draw", draws.first_psd),
+        "long_variance_draws": ("draw", draws.long_variance),
+        "long_energy_draws": ("draw", draws.long_energy),
     }
     for name, values in draws.moments.items():
         data[name] = ("end", draws.quantiles(name, END_QUANTILES))

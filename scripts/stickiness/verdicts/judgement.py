@@ -41,7 +41,7 @@ from stickiness.verdicts.draws import (
     find_share_quantiles,
     judge_draws,
 )
-from stickiness.verdicts.limits import find_limits
+from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
 from stickiness.verdicts.parametric import ENDS
@@ -63,6 +63,7 @@ DECIDED_BY = (
     "simulated contact with adhesion",
 )
 BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
+LARGER = ("remaining", "modulus_threshold")  #: judged for a larger contact, too, with limits
 PER_PAIR = PAIR_DIMENSIONS[:2]  #: dimensions of what has one value for every pair
 
 
@@ -143,6 +144,7 @@ def judge(
         dataset = dataset.assign(
             _find_thresholds(materials, roughness, dataset, contact_area, wanted_share)
         )
+    dataset = dataset.assign(_judge_larger(materials, surfaces, wanted_share))
     dataset = _describe(dataset)
     draw_counts = [
         [0 if rough.draws is None else rough.draws.h_rms.size for rough in row] for row in roughness
@@ -366,11 +368,44 @@ def _find_thresholds(
     }
 
 
+def _judge_larger(
+    materials: Mapping[str, Material], surfaces: Mapping[str, Surface], wanted_share: float
+) -> xr.Dataset:
+    """Verdict, and `LARGER` with limits, where the contact is larger than a scan.
+
+    "not judged" and NaN where no longer waves may follow, or nothing is known of them.
+    """
+    larger = {name: surface.larger for name, surface in surfaces.items() if surface.larger}
+    of_surfaces = {"surface": list(surfaces)}
+    contact = [surface.contact for surface in surfaces.values()]
+    larger_contact = [larger[x].contact if x in larger else np.nan for x in surfaces]
+    dataset = xr.Dataset(
+        {"contact": ("surface", contact), "larger_contact": ("surface", larger_contact)},
+        coords=of_surfaces,
+    )
+    names = [f"larger_{name}{ending}" for name in LARGER for ending in SIGNS]
+    if not larger:
+        coords = {"material": list(materials), **of_surfaces}
+        unknown = xr.DataArray(np.nan, dims=PER_PAIR, coords=coords)
+        verdict = xr.full_like(unknown, NOT_JUDGED, dtype="i1")
+        return dataset.assign(dict.fromkeys(names, unknown) | {"larger_verdict": verdict})
+    judged = judge(materials, larger, wanted_share=wanted_share, curves=False, thresholds=False)
+    limited = {"larger_verdict": judged.verdict}
+    for name in LARGER:
+        low, high = find_limits(judged, name)
+        numbers = (find_value(judged, name), low, high)
+        for ending, values in zip(SIGNS, numbers, strict=True):
+            limited[f"larger_{name}{ending}"] = values
+    verdicts = xr.Dataset(limited).reset_coords(drop=True)
+    return dataset.merge(verdicts.reindex(of_surfaces, fill_value={"larger_verdict": NOT_JUDGED}))
+
+
 def _describe(dataset: xr.Dataset) -> xr.Dataset:
     """Give every variable its unit, its description, and what a missing value means."""
     texts = {name: text for name, text in _list_texts().items() if name in dataset.variables}
     dataset = datasets.annotate(dataset, **texts)
     dataset.verdict.attrs |= datasets.flags(WORDS)
+    dataset.larger_verdict.attrs |= datasets.flags(WORDS)
     dataset.regime.attrs |= datasets.flags(REGIMES)
     dataset.decided_by.attrs |= datasets.flags(DECIDED_BY)
     return dataset
@@ -380,6 +415,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
     """Unit, description and, where a value may be missing, what that means, of every variable."""
     remains = LIMITED["remaining"][1]
     unmeasured = "not measured"
+    no_longer = "no waves longer than the scan are expected or known"
     texts: dict[str, tuple[str, ...]] = {
         **QUANTITIES,
         "material": ("1", "material"),
@@ -424,7 +460,16 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         ),
         "disagrees": ("1", "1 where a criterion says the opposite of the verdict"),
         "not_judged": ("1", "why a pair is not judged, a line each; empty if it is"),
+        "contact": ("m", "side of the contact that is judged", unmeasured),
+        "larger_contact": ("m", "side of a larger contact that is judged, too", no_longer),
+        "larger_verdict": ("1", "verdict for the larger contact"),
     }
+    for name in LARGER:
+        unit, text = LIMITED[name]
+        for ending in SIGNS:
+            limit = f", {ending[1:]} limit" if ending else ""
+            longer = f"{text}, of the larger contact{limit}"
+            texts[f"larger_{name}{ending}"] = (unit, longer, no_longer)
     for name in DRAWN:
         unit, text = LIMITED[name]
         texts[f"{name}_quantile"] = (unit, f"quantiles of the {text}", unmeasured)

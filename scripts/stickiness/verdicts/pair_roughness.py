@@ -288,12 +288,14 @@ def _stiffen_unresolved(
     shortest = float(surface.spectra[0].band[1])
     gain = np.maximum(1 / (skin.factor(shortest) * stiffening), 1.0)
     stiffened = []
-    for rough, name, its_gain in (
-        (ends, "beyond_energy", gain),
-        (draws, "beyond_energy_draws", np.sqrt(np.prod(gain))),
+    for rough, ending, its_gain in (
+        (ends, "", gain),
+        (draws, "_draws", np.sqrt(np.prod(gain))),
     ):
-        beyond = surface.data[name].values
-        change = (1 + beyond * its_gain) / (1 + beyond)
+        beyond = surface.data[f"beyond_energy{ending}"].values
+        longer = np.asarray(surface.data.get(f"longer_energy{ending}", 0.0))
+        unresolved = beyond / (1 + beyond) / (1 + longer)
+        change = 1 + unresolved * (its_gain - 1)
         stiffened.append(
             replace(
                 rough,

@@ -16,6 +16,7 @@ from stickiness.spectrum.kinds import SelfAffine
 from stickiness.verdicts.surface_variables import SURFACE_VARIABLES
 
 ENDS = ("smooth", "rough")  #: of what is known of a surface
+END_QUANTILES = (0.16, 0.84)  #: of draws, one standard error either side: smooth and rough end
 MOMENTS = ("h_rms", "rms_slope", "rms_curvature")
 REFERENCE_HURST = 0.8  #: of the paper's lines C0 = 1e-3 and 1e-5 m^0.4
 POINTS_PER_DECADE = 10  #: at which spectra are tabulated

@@ -30,6 +30,7 @@ from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
 from stickiness.spectrum.kinds import SelfAffine, Tabulated
 from stickiness.verdicts import parametric
+from stickiness.verdicts.longer_waves import LARGER, lengthen
 from stickiness.verdicts.parametric import ENDS, MOMENTS
 from stickiness.verdicts.simulated_surface import (
     find_lacking,
@@ -119,7 +120,7 @@ class Surface:
         **options
             Keys of a measured surface, see docs/inputs.md, with lengths in m: `detrend`, `missing`,
             `max_missing`, `missing_rim`, `spikes`, `window`, `fit_from`, `fit_to`, `resolution`,
-            `tip_radius`, `cutoff`, `extend_to` and `plausibility`.
+            `tip_radius`, `cutoff`, `extend_to`, `contact` and `plausibility`.
 
         Raises
         ------
@@ -176,9 +177,10 @@ class Surface:
         from stickiness.verdicts.measured_surface import LIMIT_KEYS, Measurement
 
         options = dict(options)
-        extend_to = options.pop("extend_to", None)
-        if extend_to is not None:
-            (extend_to,) = map(float, positive(extend_to=extend_to))
+        waves = {}
+        for name in ("extend_to", "contact"):
+            wave = options.pop(name, None)
+            waves[name] = None if wave is None else float(positive(**{name: wave})[0])
         ignore_doubts = options.pop("plausibility", "check") == "ignore"
         lengths = {key: options.pop(key) for key in LIMIT_KEYS & options.keys()}
         limits = Limits(**lengths, detect=options.pop("cutoff", "detect") == "detect")
@@ -186,7 +188,7 @@ class Surface:
         detrend = options.pop("detrend", "plane")
         levelled = topography.from_array(heights, steps, **options).detrended(detrend)
         measurement = Measurement(levelled, detrend=detrend, window=window, limits=limits)
-        return cls(analyse([measurement], extend_to=extend_to, ignore_doubts=ignore_doubts))
+        return cls(analyse([measurement], ignore_doubts=ignore_doubts, **waves))
 
     @classmethod
     def from_drawing(
@@ -266,6 +268,7 @@ class Surface:
             analyse(
                 measurements,
                 extend_to=entry["extend_to"],
+                contact=entry["contact"],
                 ignore_doubts=entry["plausibility"] == "ignore",
             )
         )
@@ -280,6 +283,22 @@ class Surface:
         if self.shells is not None:
             raise ValueError("the spectrum of a periodic cell has no density that can be written")
         datasets.write(self.data, path, title=title, parameters=parameters)
+
+    @property
+    def contact(self) -> float:
+        """Side of the contact whose waves are known [m]; NaN of a surface that was not measured."""
+        return float(self.data.get("contact", np.nan))
+
+    @cached_property
+    def larger(self) -> Surface | None:
+        """The surface as a contact of `LARGER` times the side of the scan meets it.
+
+        None if its waves are known, by a roll-off or by the size of the contact, or not judged.
+        """
+        if "scan" not in self.data or "q_rolloff" in self.data or self.not_judged:
+            return None
+        scan = float(self.data.scan)
+        return None if self.contact > scan else Surface(lengthen(self.data, LARGER * scan))
 
     @property
     def not_judged(self) -> str:
@@ -338,7 +357,7 @@ class Surface:
             shape=np.full(2, self._find_shape("shape")),
             shape_error=np.full(2, self._find_shape("shape_error")),
             simulated=np.full(2, self.simulated),
-            lacking=self._find_lacking("beyond_energy", 2),
+            lacking=self._find_lacking("", count=2),
         )
 
     @cached_property
@@ -362,7 +381,7 @@ class Surface:
             shape=self._find_shape("shape"),
             shape_error=self._find_shape("shape_error"),
             simulated=self.simulated,
-            lacking=self._find_lacking("beyond_energy_draws", energy.size),
+            lacking=self._find_lacking("_draws", count=energy.size),
         )
 
     @cached_property
@@ -393,11 +412,15 @@ class Surface:
         stiffening = find_stiffening(solid, self.spectra[1], simulated.pixel)
         return stiffening * energy / simulated.whole.full_contact_energy
 
-    def _find_lacking(self, name: str, count: int) -> NDArray:
+    def _find_lacking(self, ending: str, count: int) -> NDArray:
         """Energy of waves that are not simulated over that of the others, ``(count,)``."""
         if self.simulated is None:
             return np.zeros(count)
-        return find_lacking(self.simulated, self.data[name].values)
+        return find_lacking(
+            self.simulated,
+            beyond=self.data[f"beyond_energy{ending}"].values,
+            longer=np.asarray(self.data.get(f"longer_energy{ending}", 0.0)),
+        )
 
     def _find_shape(self, name: str) -> np.float64:
         """What the shape of the heights changes, or its error; zero where no heights are."""

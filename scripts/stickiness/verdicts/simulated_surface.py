@@ -137,6 +137,12 @@ def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
     return dataset
 
 
+def stands_alone(data: xr.Dataset) -> bool:
+    """Whether heights stand for a surface: little energy is in waves longer than the scan."""
+    longer = data.get("longer_energy")
+    return longer is None or float((longer / (1 + longer)).max()) <= MOST_LONGER
+
+
 def _has_long_waves(heights: Topography, spectrum: MeasuredSpectrum) -> bool:
     """Whether the waves of a surface that store its energy fit into a map."""
     rings = spectrum.rings
@@ -154,8 +160,11 @@ def _stack(values: list) -> NDArray:
 
 
 def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
-    """Read what `simulate_surface` made from the dataset of a surface; None if it holds none."""
-    if "trial_energy" not in data:
+    """Read what `simulate_surface` made from the dataset of a surface.
+
+    None if it holds none, or if the heights do not stand for the surface.
+    """
+    if "trial_energy" not in data or not stands_alone(data):
         return None
     whole, *quarters = (
         TrialStates(
@@ -175,12 +184,15 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
     )
 
 
-def find_lacking(simulated: SimulatedHeights, beyond: ArrayLike) -> NDArray:
+def find_lacking(
+    simulated: SimulatedHeights, beyond: ArrayLike, longer: ArrayLike = 0.0
+) -> NDArray:
     """Energy of the waves that a simulation lacks over that of the others; at least 0.
 
-    `beyond` is that of the waves beyond the instrument's resolution over that of those resolved.
+    `beyond` is that of the waves beyond the instrument's resolution over that of those resolved,
+    `longer` that of the waves longer than the scan over that of all others.
     """
-    energy = (1 + np.asarray(beyond)) * simulated.resolved_energy
+    energy = (1 + np.asarray(beyond)) * (1 + np.asarray(longer)) * simulated.resolved_energy
     return np.maximum(energy / simulated.whole.full_contact_energy - 1, 0.0)
 
 

@@ -11,13 +11,13 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from stickiness import __version__
+from stickiness import __version__, units
 from stickiness.criteria.pair import FACTORS, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE, LEAST_LENGTH, PULL_OFF_UNKNOWN
 from stickiness.spectrum.interface import Spectrum
-from stickiness.verdicts.judgement import DECIDED_BY, judge
+from stickiness.verdicts.judgement import DECIDED_BY, LARGER, judge
 from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
@@ -33,6 +33,15 @@ class Limited(NamedTuple):
     value: float
     low: float
     high: float
+
+
+class LargerContact(NamedTuple):
+    """Answer for a contact larger than the scan, if the fitted law goes on to longer waves."""
+
+    contact: float  #: side of the contact [m]
+    word: str  #: verdict
+    remaining: Limited  #: share of the work of adhesion
+    modulus_threshold: Limited  #: plane-strain modulus below which the wanted share remains [Pa]
 
 
 @dataclass(frozen=True)
@@ -70,6 +79,10 @@ class StickinessVerdict:
     energy_ratio: float  #: work of adhesion over the elastic energy of full contact
     wanted_share: float  #: of the work of adhesion, that must remain to stick
     decided_by: str  #: one of `DECIDED_BY`: theory, or contact simulated on the heights
+    #: Side of the contact [m] that the answer is for: that of the scan, unless a larger one was
+    #: given; NaN of a surface that was not measured.
+    contact: float
+    larger: LargerContact | None  #: answer for a larger contact; None where nothing would change
     material: Material = field(repr=False)  #: that was judged
     surface: Surface = field(repr=False)  #: on which it was judged
     doubts: tuple[str, ...]  #: why the answer is probably to another question
@@ -90,6 +103,8 @@ class StickinessVerdict:
             decided_by=self.decided_by,
             separation_factor=Limited(self.separation_factor, *self.separation_factor_limits),
             pull_off_factor=Limited(self.pull_off_factor, *self.pull_off_factor_limits),
+            contact=self.contact,
+            larger=self.larger,
         )
         return {"version": __version__, **contact_law, "warnings": list(self.doubts)}
 
@@ -102,6 +117,7 @@ class StickinessVerdict:
                 f"{self.word}: {self._describe_remaining()}",
                 f"pull-off stress: {self._describe_pull_off()}",
                 self._describe_threshold(),
+                *self._describe_contact(),
                 f"decided by {self.decided_by}",
                 *self._describe_dwell(),
                 *doubts,
@@ -147,6 +163,20 @@ class StickinessVerdict:
             return f"sticks below {name} = {low} MPa, and probably at any modulus; {actual}"
         high = "any" if high == "any" else f"{high} MPa"
         return f"sticks below {name} = {value} MPa ({low} to {high}); {actual}"
+
+    def _describe_contact(self) -> list[str]:
+        """Size of the contact, and the answer for a larger one; none if nothing was measured."""
+        if np.isnan(self.contact):
+            return []
+        size = units.show(self.contact, "m")
+        if self.larger is None:
+            return [f"for a contact of {size}"]
+        value, low, high = (_round(100 * share) for share in self.larger.remaining)
+        return [
+            f"for contacts up to {size}, the size of the scan; if longer waves follow the fitted "
+            f"law, at {units.show(self.larger.contact, 'm')}: {self.larger.word}, "
+            f"{value} % remains ({low} to {high} %)"
+        ]
 
     def _describe_dwell(self) -> list[str]:
         """What a dwell does, in one line; none without one."""
@@ -406,9 +436,24 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
         energy_ratio=float(cell.energy_ratio.max()),
         wanted_share=wanted_share,
         decided_by=DECIDED_BY[int(cell.decided_by)],
+        contact=float(cell.contact),
+        larger=find_larger(cell),
         material=pair.material,
         surface=pair.surface,
         doubts=(*pair.doubts, *remarks, *reasons),
+    )
+
+
+def find_larger(cell: xr.Dataset) -> LargerContact | None:
+    """Answer for a larger contact from one cell of what `judge` returns; None if there is none."""
+    if np.isnan(cell.larger_contact):
+        return None
+    limited = {
+        name: Limited(*(float(cell[f"larger_{name}{ending}"]) for ending in SIGNS))
+        for name in LARGER
+    }
+    return LargerContact(
+        contact=float(cell.larger_contact), word=WORDS[int(cell.larger_verdict)], **limited
     )
 
 
@@ -433,6 +478,8 @@ def describe_contact_law(
     decided_by: str,
     separation_factor: Limited,
     pull_off_factor: Limited,
+    contact: float,
+    larger: LargerContact | None,
 ) -> dict[str, Any]:
     """Return a verdict and the effective attraction of a smooth surface, for DEM and FE models.
 
@@ -459,6 +506,17 @@ def describe_contact_law(
     if material.dwell is not None:
         contact_law["separation_factor"] = _quantity(separation_factor, "1")
         contact_law["pull_off_factor"] = _quantity(pull_off_factor, "1")
+    if not np.isnan(contact):
+        contact_law["contact"] = {"value": contact, "unit": "m"}
+    if larger is not None:
+        contact_law["larger_contact"] = {
+            "contact": {"value": larger.contact, "unit": "m"},
+            "verdict": larger.word,
+            "effective_work_of_adhesion": _quantity(
+                Limited(*(work * share for share in larger.remaining)), "J/m^2"
+            ),
+            "modulus_threshold": _quantity(_drop_unbounded(larger.modulus_threshold), "Pa"),
+        }
     return {name: value for name, value in contact_law.items() if value is not None}
 
 

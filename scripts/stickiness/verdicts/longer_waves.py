@@ -1,0 +1,160 @@
+"""Waves longer than a scan, which only a larger contact meets.
+
+A scan holds no wave longer than its side. A larger contact does, and for H > 1/2 the longest waves
+store most of the elastic energy. The fitted law goes on to longer waves, up to a roll-off beyond
+which the spectrum is level. Where the roll-off lies is not known: the law goes on to the contact in
+two fifths of the draws, it ends at the scan in a tenth, and in the others the roll-off is spread
+evenly over the orders of magnitude between both. A roll-off that the scan shows stays where it is.
+
+The law also replaces the longest waves of the scan, those below the fit: levelling and taper change
+them, and they are one sample of those that a larger contact meets.
+
+The waves of a square of side L are a lattice of wave vectors with the step 2 pi/L. As an integral
+over C they begin below that step, at `FIRST_WAVE` times it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from stickiness.verdicts.parametric import END_QUANTILES, ENDS
+
+LARGER = 10.0  #: side of the contact over that of the scan, of the answer beside that for the scan
+#: Places of the roll-off are drawn from these: up to 0 it is at the scan, from 1 at the contact.
+PLACES = (-0.2, 1.8)
+SEED = 4  #: of the roll-offs, and of the power of the longest waves
+RINGS = 20  #: per decade
+#: Wave number over 2 pi/L from which integrals over C equal sums over the lattice of a square of
+#: side L: 0.67 to 0.72 for energy and variance of self-affine spectra, H = 0.6 to 0.9.
+FIRST_WAVE = 0.7
+
+
+@dataclass(frozen=True)
+class LongerWaves:
+    """Spectra from the longest wave of a contact to those fitted in a scan, `n` draws in `m` rings.
+
+    A contact has few of the longest waves: the power of a ring of nu independent waves is
+    Gamma-distributed with the shape nu, as that of a periodogram.
+    """
+
+    q: NDArray  #: wave numbers of the rings [1/m], (m,)
+    width: float  #: of a ring in ln q
+    law: NDArray  #: C of the law in the rings [m^4], (n, m)
+    power: NDArray  #: power of this contact over that of the law, (n, m)
+    q0: NDArray  #: lowest wave number of the self-affine range [1/m], (n,)
+
+    @classmethod
+    def draw(cls, data: xr.Dataset, contact: float) -> LongerWaves:
+        """Draw them from the laws fitted to a surface, for a contact of a side [m]."""
+        rng = np.random.default_rng(SEED)
+        of_scan = 2 * np.pi / float(data.scan)
+        of_contact = 2 * np.pi / contact
+        fitted = float(data.q_fitted)
+
+        # Rings between the first wave of the contact and those fitted.
+        whole_width = np.log(fitted / (FIRST_WAVE * of_contact))
+        count = int(np.ceil(RINGS * whole_width / np.log(10)))
+        width = whole_width / count
+        q = FIRST_WAVE * of_contact * np.exp(width * (np.arange(count) + 0.5))
+
+        # The law, level below the roll-off of every draw.
+        if "q_rolloff" in data:
+            q0 = data.q0_draws.values
+            corner = q0
+        else:
+            places = np.clip(rng.uniform(*PLACES, data.sizes["draw"]), 0.0, 1.0)
+            q0 = of_scan * (of_contact / of_scan) ** places
+            corner = FIRST_WAVE * q0
+        start = np.maximum(fitted, corner)
+        rise = np.maximum(q, corner[:, None]) / start[:, None]
+        exponent = 2 * np.clip(data.hurst_draws.values, 0.0, 1.0) + 2
+        law = data.first_psd_draws.values[:, None] * rise ** -exponent[:, None]
+
+        # Half of the waves of a ring are independent, for heights are real.
+        waves = np.pi * q**2 * width / of_contact**2
+        power = rng.gamma(waves, size=law.shape) / waves
+        return cls(q=q, width=width, law=law, power=power, q0=q0)
+
+    @property
+    def psd(self) -> NDArray:
+        """C of this contact in the rings [m^4], ``(n, m)``."""
+        return self.law * self.power
+
+    def integrate(self, order: int) -> NDArray:
+        """2 pi * integral of q^(1 + order) C over the waves, ``(n,)``."""
+        return 2 * np.pi * self.width * self.psd @ self.q ** (2 + order)
+
+
+def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
+    """Add the waves that a larger contact meets to what is known of a measured surface.
+
+    Parameters
+    ----------
+    data : Dataset
+        Variables of `surface_variables.SURFACE_VARIABLES` of a measured surface.
+    contact : float
+        Side of the contact [m], at least that of the scan.
+
+    Returns
+    -------
+    Dataset
+        The same variables for the larger contact, with `longer_energy` and its draws. The slope
+        and the curvature are those of the scan, whose shorter waves decide them.
+
+    Raises
+    ------
+    ValueError
+        If the contact is smaller than the scan.
+    """
+    scan = float(data.scan)
+    if not contact >= scan * (1 - 1e-9):
+        raise ValueError(
+            f"contact must be at least the side of the scan, {scan:.3g} m, got {contact:.3g} m: "
+            "crop the heights to a smaller contact"
+        )
+    if contact <= scan * (1 + 1e-9):
+        return data
+    waves = LongerWaves.draw(data, contact)
+    of_scan = data.elastic_energy_draws.values
+    energy = of_scan - data.long_energy_draws.values + waves.integrate(order=1) / 4
+    variance = data.h_rms_draws.values**2 - data.long_variance_draws.values
+    h_rms = np.sqrt(np.maximum(variance, 0.0) + waves.integrate(order=0))
+    longer = np.maximum(energy / of_scan - 1, 0.0)
+    share = np.median(longer / (1 + longer))
+    changed = data.assign(
+        h_rms_draws=("draw", h_rms),
+        elastic_energy_draws=("draw", energy),
+        longer_energy_draws=("draw", longer),
+        q0_draws=("draw", np.minimum(data.q0_draws.values, waves.q0)),
+        h_rms=("end", np.quantile(h_rms, END_QUANTILES)),
+        elastic_energy=("end", np.quantile(energy, END_QUANTILES)),
+        longer_energy=("end", np.quantile(longer, END_QUANTILES)),
+        unresolved_energy=data.unresolved_energy * (1 - share),
+        q0=np.minimum(float(data.q0), np.median(waves.q0)),
+        # The heights of the longer waves are not known: their shape is that of the scan's, or they
+        # are Gaussian.
+        shape=data.shape * (1 - share / 2),
+        shape_error=np.hypot(data.shape_error, data.shape * share / 2),
+        contact=contact,
+    )
+    return _prepend_spectrum(changed, waves)
+
+
+def _prepend_spectrum(data: xr.Dataset, waves: LongerWaves) -> xr.Dataset:
+    """Put these waves in the place of those below the fit, in the spectra of both ends."""
+    longer = xr.Dataset(
+        {
+            "psd": (("end", "wave_number"), np.quantile(waves.psd, END_QUANTILES, axis=0)),
+            "psd_standard_error": ("wave_number", np.std(waves.psd, axis=0)),
+            "psd_fit": ("wave_number", np.median(waves.psd, axis=0)),
+            "fitted": ("wave_number", np.zeros(waves.q.size, "i1")),
+        },
+        coords={"end": list(ENDS), "wave_number": waves.q},
+    )
+    kept = data[list(longer)].sel(wave_number=slice(waves.q[-1] * (1 + 1e-9), None))
+    joined = xr.concat([longer, kept], dim="wave_number")
+    return data.drop_dims("wave_number").merge(joined.transpose("end", ...))

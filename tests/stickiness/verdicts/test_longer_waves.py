@@ -1,0 +1,145 @@
+"""Waves longer than the scan: their moments, their limits, and surfaces larger than a patch."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stickiness import Material, Surface, judge, verdict
+from stickiness.spectrum import SelfAffine
+from stickiness.surface import realised_spectrum, synthesise
+from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.longer_waves import FIRST_WAVE, LARGER, LongerWaves, lengthen
+
+SIDE = 1e-3
+BAND = {"q0": 2 * np.pi / SIDE, "q1": 256 * np.pi / SIDE, "h_rms": 10e-6}
+ROUGH = SelfAffine(hurst=0.8, **BAND)
+TAPE = Material(modulus=1e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+
+
+def take_patch(seed, parts, hurst=0.8, contact=None):
+    """A surface of side `SIDE`, and what a square of 1/`parts` of its side tells of it."""
+    heights = synthesise(SelfAffine(hurst=hurst, **BAND), n=1024, length=SIDE, seed=seed)
+    points = 1024 // parts
+    patch = heights[:points, -points:]
+    resolved = 1.3 * 2 * np.pi / ROUGH.q1
+    surface = Surface.from_heights(patch, SIDE / parts, contact=contact, fit_to=resolved)
+    return heights, surface
+
+
+@pytest.fixture(scope="module")
+def patch():
+    return take_patch(seed=1, parts=4)[1]
+
+
+@pytest.mark.parametrize("order", [0, 1])
+def test_moments_are_integrals_of_the_law(patch, order):
+    """Where the law goes on to the contact."""
+    data = patch.data
+    contact = 10 * float(data.scan)
+    waves = LongerWaves.draw(data, contact)
+    goes_on = waves.q0 <= 2 * np.pi / contact * (1 + 1e-9)
+    assert 0.3 < goes_on.mean() < 0.5
+    hurst = np.clip(data.hurst_draws.values, 0, 1)
+    power = order - 2 * hurst
+    fitted = float(data.q_fitted)
+    integral = fitted**power - (FIRST_WAVE * 2 * np.pi / contact) ** power
+    law = 2 * np.pi * data.first_psd_draws.values * fitted ** (2 * hurst + 2) * integral / power
+    mean = replace(waves, power=np.ones_like(waves.power))
+    assert mean.integrate(order)[goes_on] == pytest.approx(law[goes_on], rel=0.01)
+
+
+def test_few_waves_have_an_uncertain_power(patch):
+    """The power of a ring is 1 in the mean, with the variance of so many independent waves."""
+    contact = 10 * float(patch.data.scan)
+    waves = LongerWaves.draw(patch.data, contact)
+    many = waves.q > 4 * 2 * np.pi / contact
+    count = np.pi * waves.q[many] ** 2 * waves.width / (2 * np.pi / contact) ** 2
+    power = waves.power[:, many]
+    assert power.mean() == pytest.approx(1, abs=3 / np.sqrt(power.size * count.min()))
+    assert power.var(axis=0) * count == pytest.approx(1, rel=0.5)
+
+
+@pytest.mark.parametrize("hurst", [0.6, 0.7, 0.8, 0.9])
+def test_sums_over_a_lattice_equal_integrals_from_the_first_wave(hurst):
+    indices = np.arange(-1500, 1501)
+    steps = np.hypot(indices[:, None], indices)
+    steps = steps[(steps > 0) & (steps <= 1500)]
+    for order in (0, 1):
+        power = order - 2 * hurst  # of the integral of q^(1 + order) q^(-2 (H + 1))
+        expected = 2 * np.pi * (1500**power - FIRST_WAVE**power) / power
+        assert np.sum(steps ** (power - 2)) == pytest.approx(expected, rel=0.05)
+
+
+def test_a_contact_as_large_as_the_scan_changes_nothing(patch):
+    same = lengthen(patch.data, float(patch.data.scan))
+    for name in ("h_rms_draws", "elastic_energy_draws", "q0", "shape"):
+        assert same[name].values == pytest.approx(patch.data[name].values, rel=1e-12)
+    assert same.wave_number.size == patch.data.wave_number.size
+
+
+def test_energy_grows_with_the_contact(patch):
+    energies = []
+    for times in (2, 10, 100):
+        longer = lengthen(patch.data, times * float(patch.data.scan))
+        energies.append(longer.elastic_energy_draws.values)
+    assert np.all(np.diff(np.median(energies, axis=1)) > 0)
+
+
+def test_where_a_rolloff_is_seen_longer_waves_hardly_matter():
+    bent = SelfAffine(hurst=0.8, q_rolloff=16 * np.pi / SIDE, **BAND)
+    surface = Surface.from_heights(synthesise(bent, n=512, length=SIDE, seed=2), SIDE)
+    assert "q_rolloff" in surface.data
+    assert surface.larger is None
+    longer = lengthen(surface.data, 100 * SIDE)
+    assert longer.longer_energy.values == pytest.approx(0, abs=0.05)
+
+
+def test_a_contact_smaller_than_the_scan_is_an_error(patch):
+    with pytest.raises(ValueError, match=r"contact must be at least the side of the scan, 0.00025"):
+        take_patch(seed=1, parts=4, contact=SIDE / 5)
+
+
+def test_the_larger_contact_is_the_answer_for_its_size(patch):
+    size = LARGER * float(patch.data.scan)
+    answer = verdict(patch, TAPE)
+    _, known = take_patch(seed=1, parts=4, contact=size)
+    asked = verdict(known, TAPE)
+    assert asked.larger is None
+    assert (answer.larger.contact, answer.larger.word) == (pytest.approx(size), asked.word)
+    assert answer.larger.remaining == pytest.approx((asked.remaining, *asked.remaining_limits))
+    told = answer.to_dict()["larger_contact"]
+    assert told["modulus_threshold"] == asked.to_dict()["modulus_threshold"]
+    assert told["contact"] == asked.to_dict()["contact"]
+    assert asked.decided_by.startswith("theory")
+
+
+def test_other_surfaces_have_no_larger_contact():
+    verdicts = judge([TAPE], {"wall": Surface.from_spectrum(ROUGH)}, curves=False)
+    assert np.isnan(verdicts.larger_contact)
+    assert np.isnan(verdicts.larger_remaining).all()
+
+
+@pytest.mark.slow
+def test_patches_tell_the_threshold_of_the_whole_surface():
+    """Limits without longer waves contain few of these thresholds."""
+    inside = []
+    without = []
+    for hurst in (0.8, 0.9):
+        for seed in (1, 2, 3, 4):
+            heights, _ = take_patch(seed, parts=8, hurst=hurst)
+            whole = Surface.from_spectrum(realised_spectrum(heights, SIDE))
+            patches = {
+                f"{parts}{contact}": take_patch(seed, parts, hurst, contact)[1]
+                for parts in (2, 4, 8)
+                for contact in (SIDE, None)
+            }
+            judged = judge([TAPE], {"whole": whole} | patches, curves=False, thresholds=False)
+            judged = judged.isel(material=0)
+            low, high = find_limits(judged, "modulus_threshold")
+            truth = float(find_value(judged, "modulus_threshold").sel(surface="whole"))
+            contains = (low <= truth) & (truth <= high)
+            inside += [bool(contains.sel(surface=f"{parts}{SIDE}")) for parts in (2, 4, 8)]
+            without += [bool(contains.sel(surface=f"{parts}None")) for parts in (2, 4, 8)]
+    assert np.mean(inside) >= 0.9
+    assert np.mean(without) < 0.6, without
