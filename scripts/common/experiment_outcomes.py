@@ -3,9 +3,9 @@
 import numpy as np
 
 from common.config.conditions import CONDITIONS, OBSERVED, conditions_of
-from common.formatting import number, percent, quantity
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
+from stickiness.formatting import number, percent, quantity
 
 GRADES = ("measured", "read", "recalled", "assumed")
 OUTCOMES = ("missed", "compatible for some inputs", "compatible")

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from common.formatting import number, unit_for
+from stickiness.formatting import number, unit_for
 from stickiness.plausibility import LIMITS
 from stickiness.units import si
 
@@ -17,7 +17,8 @@ def find_doubts(entry: Mapping[str, Any]) -> Iterator[str]:
     """Sentences about values that hardly any real pair has, as the configuration states them."""
     for key, limits in LIMITS.items():
         value = entry.get(key)
-        if value is not None and value > limits.usual:
+        is_measured = key == "work_of_adhesion" and entry.get("work_on_smooth")
+        if value is not None and value > limits.usual and not is_measured:
             name = f"{entry['label']}: {key.replace('_', ' ')}"
             yield f"{name} = {value} is improbable: {limits.reason}"
 

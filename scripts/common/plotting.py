@@ -13,8 +13,8 @@ import numpy as np
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullFormatter
 
-from common.formatting import number
 from stickiness import datasets
+from stickiness.formatting import number
 from stickiness.statistics import COVERS
 
 # Okabe & Ito, Color Universal Design (2008).

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from common import formatting, provided
+from common import provided
 from common import verdict_texts as texts
-from common.formatting import NOTHING, amount, interval, number, percent, quantity, with_error
 from common.materials import show_modulus
+from stickiness import formatting
 from stickiness.criteria.formulas import PRINTED_A_V
 from stickiness.criteria.pair import (
     BROAD_A_V,
@@ -17,10 +17,21 @@ from stickiness.criteria.pair import (
     WORDS,
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.formatting import (
+    FAR,
+    NOTHING,
+    amount,
+    interval,
+    number,
+    percent,
+    quantity,
+    with_error,
+)
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
 from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.verdict import LEAST_SHOWN
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
 NEAR = 0.1  # relative, within which more digits tell a modulus from its threshold
@@ -89,9 +100,9 @@ def describe_pair(pair, entry):
     row["unknown"] = find_largest_unknown(pair) if code == DEPENDS else ""
     row |= describe_bounds(pair, entry)
     row["rates"] = list_rates(pair)
-    row["ends"] = {
-        name: texts.join(*map(show, sorted(pair[name].values)))
-        for name, show in texts.SHOWN.items()
+    shares = [share if share >= LEAST_SHOWN else 0.0 for share in sorted(pair.remaining.values)]
+    row["ends"] = {"remaining": texts.join(*map(percent, shares))} | {
+        name: interval(*(pair[name].values / unit), 2) for name, unit in texts.UNITS.items()
     }
     cells = describe_cells(pair)
     row["text"] = {name: text for name, (text, _) in cells.items()}
@@ -123,7 +134,7 @@ def describe_cells(pair):
         "onset": (interval(*onset.values, 2), onset.mean()),
         "probability": (probability, pair.probability),
         "errors": (errors, np.hypot(pair.error_of_spectrum, pair.error_of_model)),
-        "modulus": (texts.SHOWN["modulus_threshold"](modulus), modulus),
+        "modulus": (number(modulus / texts.MPA, 2), modulus),
     }
 
 
@@ -137,19 +148,34 @@ def describe_bounds(pair, entry):
     bounds = [float(find_value(pair, name)), *map(float, find_limits(pair, name))]
     useful = [bound for bound in bounds if texts.LEAST_STRESS <= bound <= texts.MOST_STRESS]
 
+    far = len(useful) == len(bounds) and max(useful) > FAR * min(useful)
+
     def show(bound):
         if bound not in useful:
             return ""
         digits = 4 if abs(bound / actual - 1) < NEAR else 2
-        return show_modulus(bound, entry, digits, beside=useful)
+        return show_modulus(bound, entry, digits, beside=() if far else useful)
 
     text, low, high = map(show, bounds)
-    least = low.partition(" = ")[2]
+    return {
+        "threshold": tell_bounds(text, low, high, far),
+        "sticks_below": low,
+        "fails_above": high,
+    }
+
+
+def tell_bounds(text, low, high, far):
+    """Value and limits of a threshold in one text; each is empty where nobody can use it."""
     most = high.partition(" = ")[2]
-    unit = most[most.rfind(" ") :]
-    least = least.removesuffix(unit)
-    text = f"{text} ({least or 0} to {most or 'any'})" if text else "none that matters"
-    return {"threshold": text, "sticks_below": low, "fails_above": high}
+    if low and high and (far or not text):
+        return f"{low} to {most}"
+    if text:
+        unit = most[most.rfind(" ") :]
+        least = low.partition(" = ")[2].removesuffix(unit)
+        return f"{text} ({least or 0} to {most or 'any'})"
+    if low or high:
+        return f"at least {low}" if low else f"none, or {high} at most"
+    return "none that matters"
 
 
 def list_rates(pair):

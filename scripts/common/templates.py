@@ -9,8 +9,7 @@ import jinja2
 import numpy as np
 from markupsafe import Markup, escape
 
-from common import formatting
-from stickiness import datasets
+from stickiness import datasets, formatting
 from stickiness.criteria.pair import DEPENDS, TOUCHES
 
 FORMATS = ("number", "percent", "change", "interval", "with_error", "amount", "quantity")
@@ -57,6 +56,10 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     )
     environment.filters |= {name: getattr(formatting, name) for name in FORMATS} | {
         "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
+        "limited": lambda numbers, unit: formatting.limited(
+            *map(float, numbers),
+            formatting.in_unit(unit) if unit else formatting.in_units_of(1.0),
+        ),
         "typeset": typeset,
         "parameters": datasets.parameters,
         "capital": lambda text: text[0].upper() + text[1:],

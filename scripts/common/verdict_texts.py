@@ -2,13 +2,12 @@
 
 import numpy as np
 
-from common.formatting import amount, duration, number, percent
 from stickiness.criteria.pair import SIGNS, WORDS
+from stickiness.formatting import amount, duration, in_units_of, limited, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
 from stickiness.verdicts.limits import find_limits, find_value
-from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS
+from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS, tell_share
 
-LEAST_SHOWN = 1e-3  #: share below which a text says 0 %
 KPA = 1e3  #: [Pa], of the pull-off
 MPA = 1e6  #: [Pa], of moduli
 SHARES = (0.01, 0.1, 0.3)  #: of the work of adhesion, that may be wanted
@@ -22,31 +21,24 @@ def count_pairs(dataset):
 
 def describe_share(pair):
     """Share of the work of adhesion that remains, or a multiple, with the limits that decide."""
-    if find_limits(pair)[1] <= 1:
-        return describe_quantity(pair, "remaining")
-    return f"{describe_quantity(pair, 'remaining', lambda share: number(share, 2))} times"
+    return tell_share(find_value(pair), *find_limits(pair))
 
 
-def describe_quantity(pair, name, show=None):
-    """Value of a quantity with the limits of all that is unknown, or one text where they agree."""
-    show = show or SHOWN[name]
-    low, high = (show(float(limit)) for limit in find_limits(pair, name))
-    value = show(float(find_value(pair, name)))
-    limits = join(low, high, " to ")
-    return value if limits == value or high.startswith("<") else f"{value} ({limits})"
+def describe_quantity(pair, name):
+    """Value of a quantity in its unit, with the limits of all that is unknown."""
+    limits = find_limits(pair, name)
+    return limited(find_value(pair, name), *limits, in_units_of(UNITS[name]), **BOUNDS)
 
 
 def describe_larger(pair):
     """Verdict and share for a contact larger than the scan, as texts; None where none is judged."""
     if np.isnan(pair.larger_contact):
         return None
-    shares = (float(pair[f"larger_remaining{ending}"]) for ending in SIGNS)
-    value, low, high = map(show_share, shares)
-    limits = join(low, high, " to ")
+    shares = [float(pair[f"larger_remaining{ending}"]) for ending in SIGNS]
     return {
         "contact": amount(float(pair.larger_contact), "m", 2),
         "word": WORDS[int(pair.larger_verdict)],
-        "remaining": value if value == limits else f"{value} ({limits})",
+        "remaining": tell_share(*shares),
     }
 
 
@@ -58,11 +50,6 @@ def describe_moment(judged):
     if judged.dwell is None or np.isnan(judged.dwell):
         return f"at {rate}"
     return f"after {duration(judged.dwell)} of dwell, broken at {rate}"
-
-
-def show_share(share):
-    """A share as a percentage, 0 where it is too small to be shown."""
-    return percent(share if share >= LEAST_SHOWN else 0.0)
 
 
 def join(low, high, between=" … "):
@@ -77,7 +64,7 @@ def describe_pull_off(pair):
     """
     low = float(find_limits(pair, "pull_off")[0])
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
-        return f"at least {show_stress(low, KPA)}" if low >= LEAST_STRESS else "not known"
+        return f"at least {number(low / KPA, 2)}" if low >= LEAST_STRESS else "not known"
     return describe_quantity(pair, "pull_off")
 
 
@@ -96,17 +83,5 @@ def show_probability(pair):
     return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
 
 
-def show_stress(value, unit):
-    """A stress [Pa] in a unit [Pa], or the bound that it is beyond."""
-    if 0 < value < LEAST_STRESS:
-        return f"< {number(LEAST_STRESS / unit)}"
-    if value > MOST_STRESS:
-        return f"> {number(MOST_STRESS / unit)}"
-    return number(value / unit, 2)
-
-
-SHOWN = {  # how quantities are shown
-    "remaining": show_share,
-    "pull_off": lambda stress: show_stress(stress, KPA),
-    "modulus_threshold": lambda stress: show_stress(stress, MPA),
-}
+BOUNDS = {"least": LEAST_STRESS, "most": MOST_STRESS}  #: of stresses, for `limited`
+UNITS = {"pull_off": KPA, "modulus_threshold": MPA}  #: that head the columns of stresses

@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from common.formatting import percent
 from common.job import start
 from common.materials import find_doubts
 from common.table_rows import arrange_pairs
@@ -16,6 +15,7 @@ from stickiness import datasets
 from stickiness.criteria.a_v_table import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.formatting import percent
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
 from stickiness.verdicts.limits import find_limits, find_value
 

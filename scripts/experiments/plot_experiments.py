@@ -91,8 +91,9 @@ def draw_works(ax, dataset, experiments):
 
 
 def draw_criteria(ax, dataset, experiments):
-    """Every criterion on every case: right, right for some inputs, wrong, nothing decided."""
-    outcomes = dataset.criterion_outcome.transpose("case", "criterion").values
+    """Every case: outcome of the predicted value, and of every criterion's answer on sticking."""
+    by_criterion = dataset.criterion_outcome.transpose("case", "criterion").values
+    outcomes = np.column_stack([dataset.outcome.values, by_criterion])
     limits = {"vmin": SILENT - 0.5, "vmax": COMPATIBLE + 0.5}
     # From wrong to right, grey where nothing is decided; light enough for the marks.
     outcome_colours = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
@@ -100,9 +101,11 @@ def draw_criteria(ax, dataset, experiments):
     for (row, column), code in np.ndenumerate(outcomes):
         ax.text(column, row, MARKS[int(code)], ha="center", va="center", fontsize=8)
     labels = [criterion.label.replace("a_V", "$a_V$") for criterion in CRITERIA.values()]
+    labels.insert(0, "value predicted")
     ax.set_xticks(range(len(labels)), labels, rotation=35, ha="right", rotation_mode="anchor")
     ax.set_yticks(range(len(outcomes)), [name_case(c, experiments) for c in dataset.case.values])
-    ax.get_xticklabels()[list(CRITERIA).index(REMAINING)].set_fontweight("bold")
+    ax.axvline(0.5, color="white", linewidth=3)
+    ax.get_xticklabels()[1 + list(CRITERIA).index(REMAINING)].set_fontweight("bold")
     ax.tick_params(length=0)
     starts = np.array([case.split("/")[0] for case in dataset.case.values])
     for row in np.flatnonzero(starts[1:] != starts[:-1]):

@@ -4,10 +4,10 @@ import numpy as np
 from scipy import stats
 
 from common import plotting
-from common.formatting import number
 from common.job import start
 from common.plotting import BLACK, BLUE, GREY, ORANGE, RED
 from stickiness import datasets
+from stickiness.formatting import number
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 VARIABLES = ("height", "height_skewness", "theory", "bound", "states", "simulated")

@@ -4,11 +4,11 @@ import numpy as np
 
 from common import plotting
 from common.conventions import LOAD, VARIANT
-from common.formatting import number
 from common.job import start
 from common.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
 from common.theory_variants import between_corrections
 from stickiness import criteria, datasets
+from stickiness.formatting import number
 
 EXPONENT = 2 / 3
 SIMULATED_RANGES = slice(3e-3, 0.3)  # over h_rms, of the points of panel A

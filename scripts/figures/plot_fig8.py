@@ -6,10 +6,10 @@ import numpy as np
 
 from common import plotting
 from common.conventions import LOAD, VARIANT
-from common.formatting import interval
 from common.job import start
 from common.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
 from stickiness import datasets
+from stickiness.formatting import interval
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 SYMBOLS = {

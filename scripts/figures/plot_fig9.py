@@ -5,11 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from common import plotting
-from common.formatting import number
 from common.job import start
 from common.plotting import GREY, RED, make_key
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT, REMAINING
+from stickiness.formatting import number
 
 
 @dataclass(frozen=True)

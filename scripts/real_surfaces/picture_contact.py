@@ -20,12 +20,11 @@ from common import conventions
 from common.adhesion_sets import STATE
 from common.contact_curves import load_curve, measure
 from common.contact_picture import draw_still
-from common.formatting import amount, percent
 from common.job import start
-from common.verdict_texts import LEAST_SHOWN
 from real_surfaces.measured_maps import read_map
 from stickiness import datasets, remaining
 from stickiness.entries import list_measurements
+from stickiness.formatting import amount, percent
 from stickiness.measured import periodic
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.measurement import measure as measure_remaining
@@ -36,6 +35,7 @@ from stickiness.solids import HALF_SPACE
 from stickiness.traction_laws import LAWS, find_strength
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.simulated_surface import read_simulated
+from stickiness.verdicts.verdict import LEAST_SHOWN
 
 PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
 MOST_PIXELS = 8  # per shortest wavelength

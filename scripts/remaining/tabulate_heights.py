@@ -9,10 +9,10 @@ import pandas as pd
 
 from common import heights_table
 from common.conventions import Q0
-from common.formatting import number, percent, table
 from common.job import start
 from common.model_surfaces import skewness_of
 from stickiness import __version__, datasets
+from stickiness.formatting import number, percent, table
 from stickiness.remaining.height_shape import find_height_shape
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.verdicts.simulated_surface import read_simulated

@@ -5,9 +5,9 @@ from pathlib import Path
 import pandas as pd
 
 from common.conventions import Q0
-from common.formatting import number, table
 from common.job import start
 from stickiness import datasets
+from stickiness.formatting import number, table
 from stickiness.remaining.prediction import Roughness
 
 QUOTED = ("approach", "separation", "bound", "pull_off")

@@ -10,9 +10,9 @@ from bokeh.resources import Resources
 from markupsafe import Markup
 
 from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sides_of
-from common.formatting import unit_for
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, find_scale
+from stickiness.formatting import unit_for
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
 from stickiness.verdicts.limits import find_limits
 

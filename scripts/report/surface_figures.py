@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 
 from common import plotting
-from common.formatting import unit_for
 from common.plotting import BLACK, COLOURS, GREY, MARKERS
 from common.verdict_texts import MPA
 from stickiness.criteria.pair import NOT_JUDGED
+from stickiness.formatting import unit_for
 from stickiness.remaining.prediction import DEFAULT_SHARE
 
 HURST = 0.8  # of the paper's lines

@@ -3,7 +3,6 @@
 import numpy as np
 
 from common import provided
-from common.formatting import amount, number, quantity_with_error, with_error
 from common.job import start
 from common.materials import find_doubts
 from common.table_rows import describe_pair, describe_surface, explain
@@ -13,7 +12,9 @@ from report import interactive, pages, surface_figures
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
 from stickiness.criteria.pair import NOT_JUDGED, SIGNS
+from stickiness.formatting import amount, number, quantity_with_error, with_error
 from stickiness.measured.stitching import MOST_UNRESOLVED
+from stickiness.plausibility import LIMITS
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 from stickiness.verdicts.material import Material
@@ -56,6 +57,7 @@ def main(job):
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
         contact_area=CONTACT_AREA,
         most_unresolved=MOST_UNRESOLVED,
+        largest_slope=LIMITS["rms_slope"].usual,
         verdicts=[
             describe_verdict(pairs.sel(material=name), entries[name]) | {"mine": name in mine}
             for name in names

@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
-from common.formatting import number
 from common.job import start
 from common.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 from stickiness import datasets
+from stickiness.formatting import number
 
 COLOURS = (BLUE, YELLOW, ORANGE, BLACK)  # of the outcomes, in order
 

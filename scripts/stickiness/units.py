@@ -100,11 +100,6 @@ def write_quantities(entry: Any) -> Any:
     return entry
 
 
-def show(value: float, unit: str, digits: int = 3) -> str:
-    """Return a number in SI units with the prefix that suits it, such as "250 µm"."""
-    return f"{_registry().Quantity(value, unit).to_compact():.{digits}g~P}"
-
-
 def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 

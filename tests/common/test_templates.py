@@ -41,3 +41,7 @@ def test_numbers_do_not_break_on_pages_of_html(tmp_path, text, pieces):
 )
 def test_symbols_are_set(text, html):
     assert typeset(text) == html
+
+
+def test_pages_leave_out_solids_that_form_in_place():
+    assert "from a liquid" in make_environment("report").get_template("left_out.j2").render()

@@ -349,5 +349,7 @@ def test_the_figure_shows_the_curve_the_observations_and_every_mark(dataset, mon
     np.testing.assert_allclose(np.vstack(points), [[30.0, work]])
     plot_experiments.draw_criteria(axes[2], dataset, EXPERIMENTS)
     marks = [text.get_text() for text in axes[2].texts]
-    assert marks == [outcomes.MARKS[int(c)] for c in dataset.criterion_outcome.values.ravel()]
+    # A case has the mark of its value first, which a right answer on sticking must not hide.
+    rows = np.column_stack([dataset.outcome, dataset.criterion_outcome])
+    assert marks == [outcomes.MARKS[int(code)] for code in rows.ravel()]
     plt.close("all")

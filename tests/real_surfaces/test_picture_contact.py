@@ -23,7 +23,7 @@ from stickiness.spectrum import SelfAffine
 SIDE, Q0 = 1e-4, 2 * np.pi * 4 / 1e-4
 Q1 = 4 * Q0
 CUTOFF = 2 * np.pi / SIDE * 16
-GEL = Material(modulus=1e5, work_of_adhesion=0.02, range=3e-10)
+GEL = Material(modulus=1e5, poisson=None, work_of_adhesion=0.02, range=3e-10)  # E*
 
 
 def plate(n=128, seed=1, width=None):

@@ -4,15 +4,20 @@ import bz2
 import gzip
 import io
 import lzma
+import re
+import warnings
 import zipfile
 
 import h5py
 import numpy as np
+import openpyxl
 import pytest
 import xarray as xr
 
 from common.templates import make_environment
 from stickiness import Surface, surface
+from stickiness.measured import topography
+from stickiness.plausibility import PlausibilityWarning
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.rough_surface import NEEDED
 
@@ -75,6 +80,41 @@ def archive(name):
     return raw.getvalue()
 
 
+def x3p(drop=None, axis="I"):
+    """An X3P file of the rough heights; without a member, or with another kind of axis."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what it imports
+        from SurfaceTopography import Topography
+    raw = io.BytesIO()
+    Topography(ROUGH, (2.0, 2.0), unit="mm").scale(1e-3).to_x3p(raw)
+    changed = io.BytesIO()
+    with zipfile.ZipFile(raw) as old, zipfile.ZipFile(changed, "w") as new:
+        for member in old.namelist():
+            content = old.read(member)
+            if member == "main.xml":
+                content = content.replace(b"<AxisType>I", f"<AxisType>{axis}".encode())
+            if member != drop:
+                new.writestr(member, content)
+    return changed.getvalue()
+
+
+def mitutoyo():
+    """A workbook of a Mitutoyo SurfTest: positions in mm and heights in um of a profile."""
+    book = openpyxl.Workbook()
+    data = book.active
+    data.title = "DATA"
+    data["A1"] = "Ra 0.8 um"
+    for row, height in enumerate(ROUGH[:4].ravel(), start=1):
+        data.cell(row, 5, row * 2e-3)
+        data.cell(row, 6, float(height))
+    certificate = book.create_sheet("Certificate")
+    certificate["E2"] = "24 Nov 2025"
+    certificate["E48"] = "0.8 mm"
+    raw = io.BytesIO()
+    book.save(raw)
+    return raw.getvalue()
+
+
 def hdf5(**arrays):
     """An HDF5 file, which SurfaceTopography reads as an instrument's."""
     raw = io.BytesIO()
@@ -104,6 +144,11 @@ REFUSED = {
     "few x y z": (points(slice(None, None, 40)), ENTRY, "three columns"),
     "x y z twice": (points() + "\n0 0 1", ENTRY, "two points at one place"),
     "x y z without a unit": (points(), {"height_unit": "um"}, "give position_unit"),
+    "numbered rows": (
+        table(np.vstack([np.arange(N), ROUGH])),
+        ENTRY,
+        "the first column rises in even steps of 1",
+    ),
     "ragged rows": (table() + "\n1.0\t2.0", ENTRY, "line 129: 2 numbers"),
     "words among numbers": ("1 2\n3 x\n", ENTRY, "line 2:"),
     "no numbers": ("nothing\n", ENTRY, "no line of numbers found"),
@@ -129,6 +174,8 @@ REFUSED = {
     "7z": (b"7z\xbc\xaf\x27\x1c\0", ENTRY, "compressed (7z): unpack it"),
     "compress": (b"\x1f\x9d\x90", ENTRY, "compressed (compress): unpack it"),
     "a zip": (archive("a.txt"), ENTRY, "is a zip archive: unpack it"),
+    "an X3P with absolute axes": (x3p(axis="A"), {"name": "a.x3p"}, "export the heights"),
+    "an X3P without data": (x3p(drop="bindata/data.bin"), {"name": "a.x3p"}, "X3P file cannot be"),
     "half a zip": (archive("a.txt")[:40], ENTRY, "its end is missing: copy it again"),
     "an Excel sheet as text": (archive("xl/workbook.xml"), {"name": "a.csv"}, "as text (CSV)"),
     "old Excel": (b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1", ENTRY, "Excel workbook: save"),
@@ -155,7 +202,15 @@ WITHHELD = {
     "half missing": (HALF, {}, "more than 10 %"),
     "a profile of noise": (NOISE.ravel(), {}, "goes as q^"),
     "a profile that grows": (np.diff(NOISE.ravel()), {}, "no fit to the spectrum"),
-    "one wave": (WAVE, {"window": "none"}, "the spectrum"),  # of rounding errors, or none
+    "one wave": (WAVE, {"window": "none"}, "a period of 0.00025 m"),
+    "a grating": (np.sign(WAVE + 1e-3) + 0.1 * ROUGH, {}, "a period of 0.00025 m"),
+    "heights in m as um": (ROUGH * 1e-5, {}, "m, below 5e-11 m: atoms are larger"),
+    "a picture scaled to 1": ((ROUGH - ROUGH.min()) / np.ptp(ROUGH), {}, "exactly 0 to 1, as"),
+    "grey levels": (
+        np.rint(30 * ROUGH + 128),
+        {"length": "0.3 mm"},
+        "whole numbers with an rms slope of",
+    ),
     "noise extended": (NOISE, {"extend_to": "1 nm"}, "cannot extrapolate"),
     "noise": (NOISE, {}, "outside 0 < H <= 1"),
     "blurred": (BLURRED, {}, "it falls as blur does"),
@@ -184,6 +239,74 @@ def test_an_implausible_measurement_is_not_judged(tmp_path, name):
     told = analyse(tmp_path, content, **entry, plausibility="ignore")
     assert told.not_judged == ""
     assert "(plausibility: ignore)" in told.remarks
+
+
+def test_tiles_that_repeat_are_used_once(tmp_path):
+    single = analyse(tmp_path, ROUGH)
+    tiled = analyse(tmp_path, np.tile(ROUGH, (2, 2)), length="4 mm")
+    for name in ("h_rms", "q0", "elastic_energy", "h_rms_measured"):
+        np.testing.assert_array_equal(tiled[name], single[name])
+    assert "2 x 2 copies or mirror images of one tile of 128 x 128 points" in tiled.remarks
+    assert "of one tile" in " ".join(Surface(tiled).remarks)
+    mirrored = np.block([[ROUGH, ROUGH[:, ::-1]], [ROUGH[::-1], ROUGH[::-1, ::-1]]])
+    mirrored = analyse(tmp_path, mirrored, length="4 mm")
+    enlarged = analyse(tmp_path, np.kron(ROUGH, np.ones((3, 3))))
+    for same in (mirrored, enlarged):
+        np.testing.assert_array_equal(same.elastic_energy, single.elastic_energy)
+    assert "repeated 3 x 3 times" in enlarged.remarks
+    assert analyse(tmp_path, np.tile(ROUGH, (1, 3)), length=["2 mm", "6 mm"]).remarks != ""
+    assert single.remarks == ""
+
+
+@pytest.mark.parametrize("axis", ["map", "profile"])
+def test_the_form_of_a_lens_is_subtracted_and_told(tmp_path, axis):
+    points = 4 * N if axis == "profile" else N
+    x = (2 * np.arange(points) + 1) / points - 1  # over half a side of 1 mm
+    if axis == "profile":
+        content = ROUGH[:4].ravel() + 250.0 * x**2
+    else:
+        content = ROUGH + 250.0 * x[:, None] ** 2 + 125.0 * x**2  # um: radii of 2 mm and 4 mm
+    found = analyse(tmp_path, content)
+    same = analyse(tmp_path, content, detrend="quadratic")
+    for name in ("h_rms", "elastic_energy"):
+        np.testing.assert_array_equal(found[name], same[name])
+    radius = float(re.search(r"radius (\S+) m", found.remarks)[1])
+    assert radius == pytest.approx(0.002, rel=0.02)
+    assert "subtracted" in remarks(found)
+    kept = analyse(tmp_path, content, detrend="plane")
+    assert float(kept.h_rms_measured) > 5 * float(found.h_rms_measured)
+    assert (kept.remarks, same.remarks) == ("", "")
+
+
+def test_pixels_that_are_not_square_are_told_unless_the_file_has_them(tmp_path):
+    sides = {"length": ["2 mm", "1 mm"], "height_unit": "um"}
+    (told,) = Surface(analyse(tmp_path, ROUGH, **sides)).remarks
+    assert "sides of 0.002 x 0.001 m mean pixels of 1.56e-05 x 7.81e-06 m" in told
+    header = GWYDDION.replace("Height: 2 mm", "Height: 1 mm")
+    assert Surface(analyse(tmp_path, header + table(), **sides)).remarks == ()
+    with pytest.warns(PlausibilityWarning, match=r"pixels of 1.56e-05 x 7.81e-06 m"):
+        Surface.from_heights(1e-6 * ROUGH, (2e-3, 1e-3))
+
+
+def test_workbooks_of_mitutoyo_and_x3p_are_read(tmp_path):
+    profile = topography.from_array(1e-6 * ROUGH[:4].ravel(), 2e-6)
+    (tmp_path / "a.xlsx").write_bytes(mitutoyo())
+    for options in ({}, {"format": "mitutoyo"}):
+        found = topography.read(tmp_path / "a.xlsx", **options)
+        np.testing.assert_allclose(found.heights, profile.heights, rtol=1e-9, atol=1e-15)
+        assert found.dx == pytest.approx(2e-6)
+    (tmp_path / "a.x3p").write_bytes(x3p())
+    found = topography.read(tmp_path / "a.x3p")
+    np.testing.assert_allclose(found.heights, 1e-6 * ROUGH, atol=1e-15)
+    assert found.steps == pytest.approx((2e-3 / N,) * 2)
+
+
+def test_headers_of_gwyddion_in_german_are_read(tmp_path):
+    header = "# Kanal: Höhe\n# Breite: 2,5 mm\n# Höhe: 2,5 mm\n# Werteinheiten: µm\n"
+    (tmp_path / "a.txt").write_text(header + table(comma=True), encoding="utf-8")
+    found = topography.read(tmp_path / "a.txt")
+    assert found.size == pytest.approx((2.5e-3, 2.5e-3))
+    np.testing.assert_allclose(found.heights, 1e-6 * ROUGH, atol=1e-10)
 
 
 HARMLESS = ("X Resolution: 0.15625 um", "Lines: 500/mm", "columns: 128, rows: 128", "x scale: 2")

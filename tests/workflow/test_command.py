@@ -70,7 +70,8 @@ def test_the_answer_is_that_of_the_library(folder, verdict):
     assert (answer.status, answer.errors) == (0, [])
     assert answer.lines == f"The material: {verdict}".splitlines()
     assert answer.lines[0].startswith(f"The material: {verdict.word}: ")
-    assert f"E = {0.75e-6 * verdict.modulus_threshold:.3g} MPa" in answer.lines[2]
+    assert answer.lines[1].endswith("µm")
+    assert f"E = {0.75e-3 * verdict.modulus_threshold:.3g} kPa" in answer.lines[3]
     assert not (folder / RESULTS.parts[0]).exists()
 
 

@@ -98,7 +98,11 @@ def read_materials(path: str | Path) -> dict[str, dict[str, Any]]:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise EntryError(str(path), None, f"not valid YAML: {error}") from None
-    return _check(Materials, content, numbers=False)["materials"]
+    try:
+        return _check(Materials, content, numbers=False)["materials"]
+    except EntryError as error:
+        key = f"{path}: {error.key}" if error.key else str(path)
+        raise EntryError(key, error.value, error.message) from None
 
 
 def list_measurements(entry: Mapping[str, Any]) -> list[dict[str, Any]]:

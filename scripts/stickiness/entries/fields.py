@@ -148,6 +148,7 @@ Modulus = quantity("modulus", "Pa", "modulus")
 Energy = quantity("energy per area", "J/m^2", "work_of_adhesion")
 Range = quantity("length", "m", "range")
 Thickness = quantity("length", "m", "thickness")
+SkinThickness = quantity("length", "m", "skin_thickness")
 
 
 class Labelled(Section):

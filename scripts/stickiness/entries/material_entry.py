@@ -7,7 +7,12 @@ from pydantic import Discriminator, Field, Strict, Tag, ValidationInfo, model_va
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.entries.fields import Section, needed, optional
-from stickiness.solids.moduli import REFERENCE_FREQUENCY, relaxation_frequency
+from stickiness.solids.moduli import (
+    REFERENCE_FREQUENCY,
+    find_fall,
+    find_rise,
+    relaxation_frequency,
+)
 from stickiness.traction_laws import EXPONENTIAL
 from stickiness.units import Quantity
 
@@ -46,7 +51,7 @@ class Film(Section):
 class Skin(Section):
     """Thin skin of another modulus, bonded to the material: an oxide, a paint, an aged surface."""
 
-    thickness: f.Thickness = needed('thickness of the skin, e.g. "90 nm"')
+    thickness: f.SkinThickness = needed('thickness of the skin, e.g. "90 nm"')
     modulus: f.Modulus = needed('Young\'s modulus of the skin, e.g. "3 GPa"')
     poisson: f.Poisson = needed("Poisson's ratio of the skin")
 
@@ -82,6 +87,11 @@ class Material(ElasticPair, f.Labelled):
     backing: Backing = optional(
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
     )
+    work_on_smooth: bool = optional(
+        "true: the work of adhesion is that of smooth surfaces, without dissipation, and may "
+        "exceed 0.2 J/m^2",
+        False,
+    )
     skin: Skin = optional("stiff skin of an infinitely deep material")
     surface: str = optional("name of the rough surface of the solid itself, added to the other")
     pressed: f.Pressure = optional('pressure before separation, e.g. "10 kPa"; a touch without it')
@@ -96,6 +106,22 @@ class Material(ElasticPair, f.Labelled):
         if frequencies != sorted(set(frequencies)):
             listed = ", ".join(frequency.text for frequency in frequencies)
             raise EntryError("youngs_modulus_table", listed, "frequencies must ascend")
+        moduli = [modulus for _, modulus in self.youngs_modulus_table or []]
+        rise = find_rise(frequencies, moduli) if moduli else None
+        if rise is not None:
+            text = (
+                f"at {frequencies[rise].text} is too high: a storage modulus rises with the square "
+                "of the frequency at most; correct this row or the one before"
+            )
+            raise EntryError(f"youngs_modulus_table[{rise}]", moduli[rise], text)
+        fall = find_fall(moduli)
+        if fall is not None:
+            frequency, modulus = self.youngs_modulus_table[fall]
+            text = (
+                f"at {frequency.text} is below the modulus at lower frequencies: a storage modulus "
+                "does not fall with frequency; correct this row"
+            )
+            raise EntryError(f"youngs_modulus_table[{fall}]", modulus, text)
         if self.dwell is None and self.broken_at is not None:
             raise EntryError("broken_at", self.broken_at, "belongs to a dwell: give it, too")
         quoted = Quantity(REFERENCE_FREQUENCY, f"{REFERENCE_FREQUENCY:g} Hz")

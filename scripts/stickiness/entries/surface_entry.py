@@ -89,7 +89,7 @@ class SelfAffine(f.Labelled, f.Direction):
 
     @model_validator(mode="after")
     def check_heights(self) -> Self:
-        """Check the order of both ends, and that the rough end is not too steep."""
+        """Check the order of both ends, and that the rough end is possible."""
         key = "h_rms" if self.C0 is None else "C0"
         _check_order(self, key)
         roughest = _as_list(getattr(self, key))[-1]
@@ -101,6 +101,8 @@ class SelfAffine(f.Labelled, f.Direction):
             h_rms=float(roughest) if key == "h_rms" else None,
             C0=float(roughest) if key == "C0" else None,
         )
+        if rough.h_rms < plausibility.LIMITS["h_rms"].least:
+            raise EntryError(key, roughest, _tell_flat(rough.h_rms))
         if rough.rms_slope > plausibility.LARGEST_SLOPE:
             text = (
                 f"means an rms slope of {rough.rms_slope:.3g}, above "
@@ -139,6 +141,9 @@ class SurfaceTexture(f.Labelled):
         if any(width >= (self.lambda_c or 8e-3) for width in widths):
             raise EntryError("RSm", self.RSm, "must be below lambda_c, at most 8 mm")
         rq = _as_list(self.Rq) or [texture.RQ_OVER_RA * ra for ra in _as_list(self.Ra)]
+        if rq[-1] < plausibility.LIMITS["h_rms"].least:
+            key = "Ra" if self.Rq is None else "Rq"
+            raise EntryError(key, getattr(self, key), _tell_flat(rq[-1]))
         if widths and 2 * math.pi * rq[0] > plausibility.LARGEST_SLOPE * max(widths):
             text = "is too narrow for such heights: no surface is as steep"
             raise EntryError("RSm", self.RSm, text)
@@ -153,6 +158,14 @@ class SurfaceTexture(f.Labelled):
             )
             raise EntryError("Rz", self.Rz, text)
         return self
+
+
+LEAST_WAVE = 1e-10  #: [m]; no wave of a surface is shorter than an atom
+
+
+def _tell_flat(h_rms: float) -> str:
+    least = plausibility.LIMITS["h_rms"].least
+    return f"means an rms height of {h_rms:.2g} m, below {least:g} m: atoms are larger; correct it"
 
 
 def _check_length_unit(unit: str) -> str:
@@ -189,8 +202,10 @@ class Reading(Section):
     spikes: Literal["mask", "keep"] = optional(
         "mask (default) points far off their neighbours", "mask"
     )
-    detrend: Literal["mean", "plane", "quadratic"] = optional(
-        "what to subtract from the heights", "plane"
+    detrend: Literal["detect", "mean", "plane", "quadratic"] = optional(
+        "what to subtract from the heights; default detect: a plane, or the form of a lens where "
+        "that is nearly all of the heights",
+        "detect",
     )
     window: Literal["none", "hann", "hann_radial"] = optional(
         "taper; none for periodic heights", "hann"
@@ -330,6 +345,9 @@ class Measured(f.Labelled, Reading):
     @model_validator(mode="after")
     def check_sides(self, info: ValidationInfo) -> Self:
         """Check the sides of what was measured, which are mistyped most often."""
+        if self.extend_to is not None and self.extend_to < LEAST_WAVE:
+            text = f"is shorter than {LEAST_WAVE:g} m, an atom: correct it"
+            raise EntryError("extend_to", self.extend_to, text)
         if self.plausibility == "ignore" or (info.context or {}).get("unread"):
             return self
         for index, measurement in enumerate(self.measurements or [self]):
@@ -356,7 +374,7 @@ class Measured(f.Labelled, Reading):
             raise EntryError("bem.measurement", self.bem.measurement, text)
         pressed = measurements[self.bem.measurement]
         breaks = "would break the period that bem.periodic states; give"
-        levelled = "detrend" in pressed.model_fields_set and pressed.detrend != "mean"
+        levelled = pressed.detrend not in ("detect", "mean")
         if self.bem.periodic and levelled:
             raise EntryError("detrend", pressed.detrend, f"{breaks} detrend: mean")
         if self.bem.periodic and pressed.missing == "crop":

@@ -25,8 +25,11 @@ Length = str | float  # "10 um", or metres
 INSTRUMENT = "instrument"
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 _EXCEL = (
-    "the file is an Excel workbook: save its sheet of heights as text (CSV), without other columns"
+    "the file is an Excel workbook: save its sheet of heights as text (CSV), without other "
+    "columns; a profile of Mitutoyo SurfTest may stay an .xlsx with its sheets DATA and Certificate"
 )
+_MITUTOYO = (b'name="DATA"', b'name="Certificate"')  # sheets
+_X3P = "main.xml"  # in the archive
 _SLACK = 0.01  # of a step, by which positions may be off the grid
 _MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points
 
@@ -39,7 +42,17 @@ _NO_HEIGHTS = re.compile(
 _HEIGHTS = re.compile(r"height|topo", re.IGNORECASE)
 # How a row begins: with a number, or with missing points before one.
 _NUMERIC = re.compile(r"(?:(?:-{1,3}|\*{1,3})?[\s;,]+)*(?:-?nan\b|[-+]?\.?\d)", re.IGNORECASE)
-_FIELD = re.compile(r"^\W*(width|height|value unit|lateral unit)s?\s*[:=]\s*(.+?)\s*$", re.I)
+_FIELD = re.compile(
+    r"^\W*(width|height|value unit|lateral unit|breite|höhe|werteinheit|laterale einheit)(?:s|en)?"
+    r"\s*[:=]\s*(.+?)\s*$",
+    re.I,
+)
+_GERMAN = {  # fields as Gwyddion writes them in German
+    "breite": "width",
+    "höhe": "height",
+    "werteinheit": "value unit",
+    "laterale einheit": "lateral unit",
+}
 # What SurfaceTopography takes from headers and this reader does not.
 _OF_INSTRUMENTS = re.compile(
     r"pixel\s+size\s*=|height\s+conversion\s+factor|\b[xy]-length\b|\b[xyz]-unit\b|\bbit2nm\b"
@@ -104,7 +117,10 @@ def find_packing(path: str | Path) -> str:
         if not zipfile.is_zipfile(path):
             return "the file is incomplete, its end is missing: copy it again"
         with zipfile.ZipFile(path) as archive:
-            return _EXCEL if "xl/workbook.xml" in archive.namelist() else ""
+            if "xl/workbook.xml" not in archive.namelist():
+                return ""
+            book = archive.read("xl/workbook.xml")
+            return "" if all(sheet in book for sheet in _MITUTOYO) else _EXCEL
     if head.startswith(b"\xd0\xcf\x11\xe0"):  # of an old version
         return _EXCEL
     packings = {
@@ -266,11 +282,16 @@ def _read_text(path: Path) -> Raw:
                 f"its header says {line!r}, which is not read; apply it to the heights and remove "
                 "the line, or try format: instrument"
             )
-    fields = {match[1].lower(): match[2] for match in map(_FIELD.match, header) if match}
+    matches = [match for match in map(_FIELD.match, header) if match]
+    fields = {_GERMAN.get(match[1].lower(), match[1].lower()): match[2] for match in matches}
+    if matches and matches[0][1].lower() in _GERMAN:
+        fields = {name: text.replace(",", ".") for name, text in fields.items()}
     heights = _read_rows(rows).T
     places = None
     place_unit = fields.get("lateral unit")
     columns, count = heights.shape
+    if columns > 3 and count > 3:
+        _refuse_positions(heights)
     shapes = [heights.shape]  # (columns, rows) that the header may mean
     if columns == 3 and count >= 16:  # fewer rows of three numbers are a matrix
         heights, places = _map_points(heights)
@@ -288,6 +309,20 @@ def _read_text(path: Path) -> Raw:
         place_unit = "m"
     _check_counts(header, shapes)
     return Raw(heights, str(path), fields.get("value unit"), (), places, place_unit)
+
+
+def _refuse_positions(heights: NDArray) -> None:
+    """Refuse a matrix whose first column or row has even steps, unlike the next: positions."""
+    for name, lines in (("column", heights), ("row", heights.T)):
+        steps = np.diff(lines[:2, 1:], axis=1)
+        if not np.all(np.isfinite(steps)):
+            continue
+        is_even = np.ptp(steps, axis=1) <= 1e-3 * np.abs(steps.mean(axis=1))
+        if is_even[0] and not is_even[1]:
+            raise ValueError(
+                f"the first {name} rises in even steps of {steps[0].mean():g}, as positions do: "
+                "remove it if it holds no heights"
+            )
 
 
 def _check_counts(header: list[str], shapes: list[tuple[int, ...]]) -> None:
@@ -456,11 +491,28 @@ def _call(path: Path, call: Callable):
             raise ValueError(_find_damage(path, error)) from error
 
 
+def _find_reason(path: Path, fmt: str) -> str:
+    """What the reader of a format says of a file; empty if it takes it."""
+    from SurfaceTopography import IO
+
+    try:
+        reader = IO.lookup_reader_by_format[fmt](str(path))
+        reader.topography(channel_index=0)
+    except Exception as error:  # readers of broken files raise nearly anything
+        return f"{type(error).__name__}: {' '.join(str(error).split())[:200]}".removesuffix(": ")
+    return ""
+
+
 def _find_damage(path: Path, error: Exception) -> str:
     """What is wrong with a file that SurfaceTopography cannot read, and what helps."""
     from SurfaceTopography import IO
 
     words = " ".join(re.sub("'?<_io[^>]*>'?", "", str(error)).split())[:200]
+    if zipfile.is_zipfile(path) and _X3P in zipfile.ZipFile(path).namelist():
+        return (
+            f"the X3P file cannot be read ({_find_reason(path, 'x3p') or words}): export the "
+            "heights as a text matrix, .sur, .nc or .npy"
+        )
     if isinstance(error, IO.CorruptFile):
         return f"the file is incomplete or damaged ({words}): copy it again"
     reason = f"{type(error).__name__}: {words}".removesuffix(": ")

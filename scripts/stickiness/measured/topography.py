@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive
 from stickiness.measured import levelling, readers
-from stickiness.measured.doubts import doubt_sizes, doubt_values
+from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.readers import Length, Raw, metres, sides
 
@@ -36,6 +36,8 @@ class _Heights:
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
     others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
     contradictions: tuple[str, ...] = ()  #: what the caller said otherwise than the file
+    remarks: tuple[str, ...] = ()  #: what was done to the heights that the caller did not ask for
+    trend: Detrend = "mean"  #: what was subtracted from the heights
 
     @property
     def h_rms(self) -> float:
@@ -70,13 +72,30 @@ class _Heights:
             labelled[axis].attrs = {"units": "m", "long_name": f"position along {axis}"}
         return labelled
 
-    def h_rms_as_read(self, kind: Detrend = "plane") -> float:
+    def h_rms_as_read(self) -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
-        return self.h_rms if self.as_read is None else levelling.rms_of_known(self.as_read, kind)
+        if self.as_read is None:
+            return self.h_rms
+        return levelling.rms_of_known(self.as_read, self.trend)
 
     def detrended(self, kind: Detrend = "plane") -> Self:
-        """Return the same measurement less its mean, plane (line) or quadratic trend."""
-        return replace(self, heights=levelling.detrend(self.heights, kind))
+        """Return the same measurement less its mean, plane (line) or quadratic trend.
+
+        "detect" chooses a plane, or a quadratic trend with a remark; see `levelling.find_form`.
+        """
+        remarks = self.remarks
+        if kind == "detect":
+            share = levelling.find_form(self.heights)
+            kind = "plane" if share is None else "quadratic"
+            if share is not None:
+                curvature = max(map(abs, levelling.find_curvatures(self.heights, self.steps)))
+                remarks += (
+                    f"{self.source}: a curved form (radius {1 / curvature:.3g} m), which is "
+                    f"{100 * share:.3g} % of the variance of the heights, was subtracted; to keep "
+                    "it, give detrend: plane",
+                )
+        levelled = levelling.detrend(self.heights, kind)
+        return replace(self, heights=levelled, trend=kind, remarks=remarks)
 
 
 @dataclass(frozen=True)
@@ -212,6 +231,9 @@ def read(
     # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
     in_metres = raw.unit == "m" and readers.format_of(path, format) == readers.INSTRUMENT
     contradictions = tuple(_contradict(raw, size, places, height_unit, in_metres))
+    if size is not None and heights.ndim == 2:
+        told = None if raw.places is None else raw.places[0] / raw.places[1]
+        contradictions += tuple(doubt_pixels(raw.source, heights.shape, places, told))
     scale = _scale(raw.source, "height_unit", None if in_metres else height_unit, raw.unit)
     measurement = from_array(
         heights,
@@ -286,6 +308,27 @@ def from_array(
     else:
         steps = np.broadcast_to(positive(steps=steps)[0], 2)
 
+    # Of copies of one tile, one is kept: the others tell nothing more of the surface.
+    remarks: tuple[str, ...] = ()
+    if heights.ndim == 2 and np.isfinite(heights).any():
+        tile = levelling.find_tile(heights)
+        if tile != heights.shape:
+            copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
+            points = " x ".join(map(str, tile))
+            remarks += (
+                f"{source}: the map is {copies} copies or mirror images of one tile of {points} "
+                "points; one is used",
+            )
+            heights = heights[: tile[0], : tile[1]]
+        repeats = levelling.find_repeats(heights)
+        if max(repeats) > 1:
+            remarks += (
+                f"{source}: every point is repeated {repeats[0]} x {repeats[1]} times; it is used "
+                "once",
+            )
+            heights = heights[:: repeats[0], :: repeats[1]]
+            steps = np.multiply(steps, repeats)
+
     # Spikes and points beside missing ones are taken for missing.
     usable, dropped = levelling.without_rims(heights, missing_rim)
     masked = 0
@@ -315,7 +358,8 @@ def from_array(
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
-    doubts += doubt_sizes(filled, steps)
+    known = usable[np.isfinite(usable)]
+    doubts += doubt_sizes(filled, steps, are_whole=bool(np.all(known == np.rint(known))))
     record = {
         "missing": filled_count,
         "cropped": 1 - usable.size / heights.size,
@@ -323,6 +367,7 @@ def from_array(
         "spikes": masked,
         "as_read": heights * scale if dropped or masked else None,
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
+        "remarks": remarks,
     }
     if positions is not None:
         return Profile(filled, steps[0], source, largest_gap, **record)

@@ -7,6 +7,7 @@ separation. Moduli in Pa, frequencies in Hz, times in s.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import number, plain, positive
 
 REFERENCE_FREQUENCY = 1.0  #: Hz, Dahlquist's
+NOISE = 0.05  #: relative, by which a measured storage modulus may fall with frequency
 STEEPEST = 0.9  # power of a table with the frequency, up to which its losses follow from it
 
 
@@ -107,6 +109,18 @@ class Table:
             raise ValueError("a table needs two pairs of frequency and modulus at least")
         if not np.all(np.diff(frequencies) > 0):
             raise ValueError(f"frequencies must increase, got {self.frequencies!r}")
+        fall = find_fall(self.moduli)
+        rise = find_rise(self.frequencies, self.moduli)
+        if rise is not None:
+            raise ValueError(
+                f"moduli[{rise}] = {self.moduli[rise]:g} Pa at {self.frequencies[rise]:g} Hz is "
+                "too high: a storage modulus rises with the square of the frequency at most"
+            )
+        if fall is not None:
+            raise ValueError(
+                f"moduli[{fall}] = {self.moduli[fall]:g} Pa at {self.frequencies[fall]:g} Hz is "
+                "below a modulus at a lower frequency: a storage modulus does not fall"
+            )
 
     def scaled(self, factor: float) -> Table:
         """Return the table with all moduli times a factor."""
@@ -188,6 +202,28 @@ def _find_edge_factor(relaxed: float, moduli: NDArray, times: NDArray, frequency
 
 
 Modulus = Constant | Prony | Table
+
+
+def find_fall(moduli: Sequence[float]) -> int | None:
+    """Index of the first storage modulus that is below one before it by more than `NOISE`.
+
+    The storage modulus of a solid that only relaxes does not fall with frequency.
+    """
+    if not len(moduli):
+        return None
+    highest = np.maximum.accumulate(np.asarray(moduli, dtype=float))
+    falls = np.flatnonzero(np.asarray(moduli) < (1 - NOISE) * highest)
+    return int(falls[0]) if falls.size else None
+
+
+def find_rise(frequencies: Sequence[float], moduli: Sequence[float]) -> int | None:
+    """Index of the first storage modulus that rises faster than the square of the frequency.
+
+    That is how a single relaxation begins; a sum of several rises more slowly.
+    """
+    steepest = np.divide(frequencies[1:], frequencies[:-1]) ** 2
+    rises = np.flatnonzero(np.divide(moduli[1:], moduli[:-1]) > (1 + NOISE) * steepest)
+    return int(rises[0]) + 1 if rises.size else None
 
 
 def relaxation_frequency(time: ArrayLike) -> ArrayLike:

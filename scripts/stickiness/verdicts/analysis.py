@@ -15,7 +15,7 @@ from scipy import stats
 
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
 from stickiness.measured import stitching
-from stickiness.measured.doubts import doubt_fit
+from stickiness.measured.doubts import doubt_fit, doubt_pattern
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
@@ -75,8 +75,12 @@ def analyse(
     unfitted = [doubt for _, doubt in analysed if doubt]
     is_fitted = len(unfitted) < len(analysed)
 
-    # Doubts: no fit, a fit that no surface has, or heights that no instrument measures.
+    # Doubts: no fit, a fit that no surface has, or heights that no instrument measures. A periodic
+    # pattern has no such fit either, and is told by its period.
     doubts = [*doubt_fit(fit)] if is_fitted else unfitted.copy()
+    if doubts:
+        patterns = [text for each in heights for text in doubt_pattern(each)]
+        doubts = patterns or doubts
     q_extended = None if extend_to is None else 2 * np.pi / extend_to
     if q_extended is not None and not fit.is_self_affine:
         doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
@@ -115,6 +119,7 @@ def analyse(
     dataset = _add_budgets(describe_variables(dataset), fit)
     remarks = [f"{LEFT_OUT}: {doubt}" for doubt in unfitted if is_fitted]
     remarks += [f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged]
+    remarks += [remark for each in heights for remark in each.remarks]
     return dataset.assign_attrs(
         remarks="\n".join(remarks),
         cutoff=spectrum.cutoff.reason,
@@ -214,7 +219,7 @@ def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
             "kurtosis": stats.kurtosis(first.heights, axis=None, fisher=False),
             "shape": shape.shape,
             "shape_error": shape.error,
-            "h_rms_as_read": first.h_rms_as_read(measurements[0].detrend),
+            "h_rms_as_read": first.h_rms_as_read(),
             "missing_fraction": max(heights.missing_fraction for heights in every),
             "dropped_points": sum(heights.dropped for heights in every),
             "masked_spikes": sum(heights.spikes for heights in every),

@@ -26,12 +26,16 @@ class Material:
     Parameters
     ----------
     modulus : float or solids.moduli.Prony or solids.moduli.Table
-        Young's modulus [Pa], or the plane-strain modulus E* if `poisson` is not given. A Prony
-        series or a table gives it as a function of time or frequency.
-    poisson : float, optional
-        Poisson's ratio; then E* = modulus/(1 - poisson^2).
+        Young's modulus [Pa], or the plane-strain modulus E* if `poisson` is None. A Prony series
+        or a table gives it as a function of time or frequency.
+    poisson : float or None
+        Poisson's ratio, 0.5 by default, so that E* = modulus/(1 - poisson^2). None: `modulus` is
+        E* itself.
     work_of_adhesion : float
         Work of adhesion of the pair [J/m^2].
+    work_on_smooth : bool
+        Whether the work of adhesion is that of smooth surfaces, without dissipation. Else one above
+        0.2 J/m^2 is doubted, because energies of peeling contain dissipation.
     range : float
         Range of the attraction [m].
     solid : HalfSpace, Layer or Skin
@@ -60,7 +64,7 @@ class Material:
 
     Examples
     --------
-    >>> tape = Material(modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    >>> tape = Material(modulus=2e5, work_of_adhesion=0.06, range=3e-10)
     >>> print(f"E* = {tape.plane_strain_modulus / 1e3:.0f} kPa")
     E* = 267 kPa
     """
@@ -68,13 +72,14 @@ class Material:
     modulus: float | Prony | Table
     work_of_adhesion: float
     range: float
-    poisson: float | None = None
+    poisson: float | None = 0.5
     solid: Solid = HALF_SPACE
     law: str = EXPONENTIAL
     pressed: float = 0.0
     dwell: float | None = None
     broken_at: float = REFERENCE_FREQUENCY
     surface: Surface | None = None
+    work_on_smooth: bool = False
     label: str = "the material"
 
     def __post_init__(self):
@@ -134,6 +139,7 @@ class Material:
             dwell=entry.get("dwell"),
             broken_at=float(entry.get("broken_at") or REFERENCE_FREQUENCY),
             surface=_find_surface(entry.get("surface"), surfaces),
+            work_on_smooth=bool(entry.get("work_on_smooth")),
             label=entry.get("label") or cls.label,
         )
         return replace(material, solid=_read_solid(entry, material))
@@ -195,10 +201,15 @@ class Material:
         """Warn of values that hardly any real pair has, with a `PlausibilityWarning`."""
         warn_of_si(
             modulus=self.plane_strain_modulus * (1 - (self.poisson or 0.0) ** 2),
-            work_of_adhesion=self.work_of_adhesion,
             range=self.range,
         )
-        if not isinstance(self.solid, HalfSpace):
+        if self.poisson is not None:
+            warn_of_si(poisson=self.poisson)
+        if not self.work_on_smooth:
+            warn_of_si(work_of_adhesion=self.work_of_adhesion)
+        if isinstance(self.solid, Skin):
+            warn_of_si(skin_thickness=self.solid.thickness)
+        elif not isinstance(self.solid, HalfSpace):
             warn_of_si(thickness=self.solid.thickness)
 
 

@@ -23,7 +23,6 @@ class Measurement:
     """Levelled heights of one measurement, and how its spectrum is to be found."""
 
     heights: Topography | Profile
-    detrend: str = "plane"  #: what was subtracted from the heights
     window: Taper = "hann"  #: taper of the heights before they are transformed
     limits: Limits = field(default_factory=Limits)  #: of the instrument
 
@@ -40,7 +39,6 @@ class Measurement:
         lengths = {key: float(entry[key]) for key in LIMIT_KEYS if entry.get(key) is not None}
         return cls(
             heights=heights.detrended(entry["detrend"]),
-            detrend=entry["detrend"],
             window=entry["window"],
             limits=Limits(**lengths, detect=entry["cutoff"] == "detect"),
         )

@@ -22,6 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness import datasets
 from stickiness.arguments import positive
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
+from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
 from stickiness.remaining.prediction import FILM_FACTORS, Roughness, find_anisotropy_error_factor
@@ -140,6 +141,8 @@ class Surface:
         for side in dict.fromkeys(map(float, sides)):
             warn_of_si(length=side)
         steps = tuple(float(side) / n for side, n in zip(sides, heights.shape, strict=True))
+        for doubt in doubt_pixels("heights", heights.shape, steps):
+            warnings.warn(doubt, PlausibilityWarning, stacklevel=2)
         return cls._from_array(heights, steps, options)
 
     @classmethod
@@ -185,9 +188,9 @@ class Surface:
         lengths = {key: options.pop(key) for key in LIMIT_KEYS & options.keys()}
         limits = Limits(**lengths, detect=options.pop("cutoff", "detect") == "detect")
         window = options.pop("window", "hann")
-        detrend = options.pop("detrend", "plane")
+        detrend = options.pop("detrend", "detect")
         levelled = topography.from_array(heights, steps, **options).detrended(detrend)
-        measurement = Measurement(levelled, detrend=detrend, window=window, limits=limits)
+        measurement = Measurement(levelled, window=window, limits=limits)
         return cls(analyse([measurement], ignore_doubts=ignore_doubts, **waves))
 
     @classmethod
@@ -323,6 +326,11 @@ class Surface:
         return f"Surface(h_rms = {h_rms[0]:.3g} to {h_rms[1]:.3g} m{draws})"
 
     @property
+    def rms_height(self) -> float:
+        """Rms height [m], of measured heights as they are levelled, else of the rough end."""
+        return float(self.data.get("h_rms_measured", self.data.h_rms[-1]))
+
+    @property
     def draw_count(self) -> int:
         """Number of draws; 0 of a surface that was not measured."""
         return self.data.sizes.get("draw", 0)
@@ -455,8 +463,8 @@ class Surface:
         return float(self.data["unresolved_energy"].max()) if self.draw_count else 0.0
 
     def warn(self) -> None:
-        """Warn of slopes that are not small, and of unresolved waves that decide."""
-        warn_of_si(rms_slope=float(self.data.rms_slope[-1]))
+        """Warn of heights and slopes that are improbable, and of unresolved waves that decide."""
+        warn_of_si(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
         if self.unresolved_energy > MOST_UNRESOLVED:
             warnings.warn(
                 "waves that the instrument does not resolve decide: if the fitted law goes on to "

@@ -11,10 +11,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike
 
-from stickiness import __version__, units
+from stickiness import __version__
 from stickiness.criteria.pair import FACTORS, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
-from stickiness.plausibility import PlausibilityWarning
+from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
+from stickiness.plausibility import LIMITS, PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE, LEAST_LENGTH, PULL_OFF_UNKNOWN
 from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.judgement import DECIDED_BY, LARGER, judge
@@ -25,6 +26,7 @@ from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN, Threshold
 
 LEAST_STRESS = 1.0  #: [Pa]; beyond these two nobody can use a stress or a modulus
 MOST_STRESS = 1e13
+LEAST_SHOWN = 1e-3  #: share of the work of adhesion below which texts say 0 %
 
 
 class Limited(NamedTuple):
@@ -86,6 +88,7 @@ class StickinessVerdict:
     material: Material = field(repr=False)  #: that was judged
     surface: Surface = field(repr=False)  #: on which it was judged
     doubts: tuple[str, ...]  #: why the answer is probably to another question
+    not_judged: tuple[str, ...] = ()  #: why there is no answer; they are doubts, too
 
     def to_dict(self) -> dict[str, Any]:
         """Return verdict, threshold and the effective attraction for DEM and FE models.
@@ -109,98 +112,92 @@ class StickinessVerdict:
         return {"version": __version__, **contact_law, "warnings": list(self.doubts)}
 
     def __str__(self) -> str:
-        doubts = [f"warning: {doubt}" for doubt in self.doubts]
-        if self.word == WORDS[NOT_JUDGED]:
-            return "\n".join([self.word, *doubts])
-        return "\n".join(
-            [
-                f"{self.word}: {self._describe_remaining()}",
+        height = f"rms height of the surface: {amount(self.surface.rms_height, 'm')}"
+        if self.not_judged:
+            doubts = [doubt for doubt in self.doubts if doubt != self.not_judged[0]]
+            headline = [f"{self.word}: {self.not_judged[0]}", height]
+        else:
+            doubts = list(self.doubts)
+            slope = float(self.surface.data.rms_slope[-1])
+            is_steep = slope > LIMITS["rms_slope"].usual
+            steep = f"; doubtful, for the rms slope is {number(slope, 2)}" if is_steep else ""
+            headline = [
+                f"{self.word}: {self._describe_remaining()}{steep}",
+                height,
                 f"pull-off stress: {self._describe_pull_off()}",
                 self._describe_threshold(),
                 *self._describe_contact(),
                 f"decided by {self.decided_by}",
                 *self._describe_dwell(),
-                *doubts,
             ]
-        )
+        return "\n".join([*headline, *(f"warning: {doubt}" for doubt in doubts)])
 
     def _describe_remaining(self) -> str:
-        shares = [self.remaining, *self.remaining_limits]
+        share = tell_share(self.remaining, *self.remaining_limits)
+        of = "" if share.endswith("times") else " of"
         wanted = f"{100 * self.wanted_share:g} % is wanted"
-        if max(shares) <= 1:
-            value, low, high = (_round(100 * share) for share in shares)
-            limits = f" ({low} to {high} %)" if low != high else ""
-            return f"{value} % of the work of adhesion remains{limits}; {wanted}"
-        value, low, high = map(_round, shares)
-        return f"{value} times the work of adhesion remains ({low} to {high} times); {wanted}"
+        return f"{share}{of} the work of adhesion remains; {wanted}"
 
     def _describe_pull_off(self) -> str:
         low, high = self.pull_off_limits
         if self.energy_ratio <= PULL_OFF_UNKNOWN:
-            value, low, high = (_round(stress / 1e3) for stress in (self.pull_off, low, high))
-            return f"{value} kPa ({low} to {high} kPa)"
+            return limited(self.pull_off, low, high, in_unit("Pa"), least=LEAST_STRESS)
         if low < LEAST_STRESS:
             return "not known (contact is nearly full, which was not simulated)"
-        return f"at least {_round(low / 1e3)} kPa (contact is nearly full, which was not simulated)"
+        return f"at least {amount(low, 'Pa', 2)} (contact is nearly full, which was not simulated)"
 
     def _describe_threshold(self) -> str:
-        """Threshold of the modulus, as the modulus was given: E, or E* without Poisson's ratio."""
+        """Threshold of the modulus, as the modulus was given: E, or E*."""
         poisson = self.material.poisson
         name = "E*" if poisson is None else "E"
         as_given = 1.0 if poisson is None else 1 - poisson**2
-
-        def show(modulus: float) -> str:
-            return "any" if modulus > MOST_STRESS else _round(as_given * modulus / 1e6, digits=3)
-
-        value = show(self.modulus_threshold)
-        low, high = map(show, self.modulus_threshold_limits)
-        actual = f"it is {show(self.material.plane_strain_modulus)} MPa"
-        if low == "any":
+        actual = f"it is {amount(as_given * self.material.plane_strain_modulus, 'Pa')}"
+        value = as_given * self.modulus_threshold
+        low, high = (as_given * modulus for modulus in self.modulus_threshold_limits)
+        if low > MOST_STRESS:
             return f"sticks at any modulus; {actual}"
-        if max(self.modulus_threshold_limits) == 0:
+        if high < LEAST_STRESS:
             return f"sticks at no modulus; {actual}"
-        if value == "any":
-            return f"sticks below {name} = {low} MPa, and probably at any modulus; {actual}"
-        high = "any" if high == "any" else f"{high} MPa"
-        return f"sticks below {name} = {value} MPa ({low} to {high}); {actual}"
+        if value > MOST_STRESS:
+            below = f"sticks below {name} = {amount(low, 'Pa')}"
+            return f"{below}, and probably at any modulus; {actual}"
+        if value < LEAST_STRESS:
+            return f"sticks at no modulus, or below {name} = {amount(high, 'Pa')}; {actual}"
+        text = limited(value, low, high, in_unit("Pa", 3), least=LEAST_STRESS, most=MOST_STRESS)
+        return f"sticks below {name} = {text}; {actual}"
 
     def _describe_contact(self) -> list[str]:
         """Size of the contact, and the answer for a larger one; none if nothing was measured."""
         if np.isnan(self.contact):
             return []
-        size = units.show(self.contact, "m")
+        size = amount(self.contact, "m")
         if self.larger is None:
             return [f"for a contact of {size}"]
-        value, low, high = (_round(100 * share) for share in self.larger.remaining)
+        larger = amount(self.larger.contact, "m")
+        share = tell_share(*self.larger.remaining)
         return [
-            f"for contacts up to {size}, the size of the scan; if longer waves follow the fitted "
-            f"law, at {units.show(self.larger.contact, 'm')}: {self.larger.word}, "
-            f"{value} % remains ({low} to {high} %)"
+            f"for contacts up to the size of the scan, {size}; for {larger}, if longer waves "
+            f"follow the fitted law: {self.larger.word}, {share} remains"
         ]
 
     def _describe_dwell(self) -> list[str]:
         """What a dwell does, in one line; none without one."""
         if self.material.dwell is None:
             return []
-
-        def show(value: float, limits: tuple[float, float]) -> str:
-            interval = " to ".join(map(_round, limits))
-            return interval if np.isnan(value) else f"{_round(value)} ({interval})"
-
-        work = show(self.separation_factor, self.separation_factor_limits)
-        pull_off = show(self.pull_off_factor, self.pull_off_factor_limits)
+        as_number = in_units_of(1.0)
+        work = limited(self.separation_factor, *self.separation_factor_limits, as_number)
+        pull_off = limited(self.pull_off_factor, *self.pull_off_factor_limits, as_number)
         return [
             f"after a dwell of {self.material.dwell:g} s; dissipation multiplies the work of "
             f"separation by {work}, the pull-off by {pull_off}"
         ]
 
 
-def _round(value: float, digits: int = 2) -> str:
-    """Show a number with so many digits, without an exponent where a reader needs none."""
-    rounded = float(f"{value:.{digits}g}")
-    if rounded and not 1e-4 <= abs(rounded) < 1e6:
-        return f"{rounded:g}"
-    return f"{rounded:.10f}".rstrip("0").rstrip(".")
+def tell_share(value: float, low: float, high: float) -> str:
+    """Share of the work of adhesion that remains, or a multiple, with its limits."""
+    if high <= 1:
+        return limited(value, low, high, in_percent, least=LEAST_SHOWN)
+    return f"{limited(value, low, high, in_units_of(1.0), least=LEAST_SHOWN)} times"
 
 
 def verdict(
@@ -228,7 +225,7 @@ def verdict(
         Share of the work of adhesion that must remain for a pair to stick, between 0 and 1.
     **properties
         Parameters of `Material`: at least `modulus`, `work_of_adhesion` and `range`; also
-        `poisson`, `solid`, `law`, `pressed`, `dwell` and others.
+        `poisson` (0.5 by default), `solid`, `law`, `pressed`, `dwell` and others.
 
     Returns
     -------
@@ -268,7 +265,7 @@ def verdict(
 class Thresholds:
     """What would make a material stick to a surface, all else being as it is."""
 
-    modulus: Threshold  #: sticks below [Pa]; Young's modulus if Poisson's ratio was given, else E*
+    modulus: Threshold  #: sticks below [Pa]; Young's modulus, or E* if `poisson` is None
     rms_height: Threshold  #: sticks below [m]
     thickness: Threshold | None  #: sticks above [m]; None of a half-space
     pressure: Threshold  #: mean pressure [Pa] that makes the area of contact, without adhesion
@@ -441,6 +438,7 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
         material=pair.material,
         surface=pair.surface,
         doubts=(*pair.doubts, *remarks, *reasons),
+        not_judged=tuple(reasons),
     )
 
 

@@ -63,6 +63,12 @@ def test_measurements_share_the_keys_beside_their_list():
         (entries.check_material, TAPE | {"range": "0.3 mm"}, "range", "0.3 mm"),
         (entries.check_material, TAPE | {"tickness": "1 mm"}, "tickness", None),
         (entries.check_material, {}, "", None),
+        (
+            entries.check_surface,
+            {"kind": "measured", "file": "a", "extend_to": "1 pm"},
+            "extend_to",
+            "1 pm",
+        ),
         (entries.check_surface, {"kind": "measure"}, "kind", "measure"),
         (entries.check_surface, {}, "kind", None),
     ],
@@ -70,7 +76,7 @@ def test_measurements_share_the_keys_beside_their_list():
 def test_an_error_has_a_key_and_a_value(check, entry, key, value):
     with pytest.raises(entries.EntryError) as caught:
         check(entry)
-    assert (caught.value.key, caught.value.value) == (key, value)
+    assert (caught.value.key, str(caught.value.value)) == (key, str(value))
 
 
 def test_materials_are_read_from_a_file(tmp_path):
@@ -81,6 +87,23 @@ def test_materials_are_read_from_a_file(tmp_path):
         encoding="utf-8",
     )
     assert entries.read_materials(path)["tape"]["plane_strain_modulus"] == 1e6
+
+
+def test_a_storage_modulus_that_falls_is_refused_by_file_and_row(tmp_path):
+    path = tmp_path / "tape.yaml"
+    text = (
+        "materials: {tape: {label: tape, source: own, poisson_ratio: 0.5, "
+        "work_of_adhesion: 50 mJ/m^2, range: 0.3 nm, youngs_modulus_table: "
+        "[[0.1 Hz, 50 kPa], [1 Hz, 49 kPa], [10 Hz, LAST]]}}"
+    )
+    path.write_text(text.replace("LAST", "48 kPa"), encoding="utf-8")
+    assert len(entries.read_materials(path)["tape"]["youngs_modulus_table"]) == 3
+    # Small falls must not add up to a large one.
+    path.write_text(text.replace("LAST", "47 kPa"), encoding="utf-8")
+    with pytest.raises(entries.EntryError, match=r"at 10 Hz .* does not fall") as caught:
+        entries.read_materials(path)
+    assert caught.value.key == f"{path}: materials.tape.youngs_modulus_table[2]"
+    assert str(caught.value.value) == "47 kPa"
 
 
 def test_quantities_are_pickled_and_written():

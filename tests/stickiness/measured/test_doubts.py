@@ -65,6 +65,32 @@ def test_sizes_of_scans_and_profiles_are_not_doubted():
     assert "the side of 1.28e-10 m is shorter than 1e-09 m" in atoms
 
 
+def test_slopes_and_heights_that_no_instrument_measures_are_doubted():
+    noise = np.random.default_rng(0).standard_normal((128, 128))
+    per_step = np.sqrt(sum(np.mean(np.diff(noise, axis=axis) ** 2) for axis in (0, 1)))
+    for slope, whole, count in ((4.9, False, 0), (5.1, False, 1), (0.9, True, 0), (1.1, True, 1)):
+        heights = 1e-6 * slope / per_step * noise
+        assert len(list(doubts.doubt_sizes(heights, (1e-6, 1e-6), whole))) == count, slope
+    for h_rms, count in ((4e-11, 1), (6e-11, 0)):
+        assert len(list(doubts.doubt_sizes(h_rms * rough(), (1e-9, 1e-9)))) == count, h_rms
+
+
+@pytest.mark.parametrize("wave", [(20.3, 0.0), (12.0, 9.0)])
+def test_a_grating_has_a_period_and_random_surfaces_none(wave):
+    x = 2 * np.pi * np.arange(128) / 128
+    grating = np.sign(np.sin(wave[0] * x[:, None] + wave[1] * x + 0.1)) + 0.1 * rough()
+    found = doubts.find_pattern(grating)
+    np.testing.assert_allclose(np.abs(found), wave, atol=0.1)
+    (text,) = doubts.doubt_pattern(topography.Topography(grating, 1e-6, 1e-6, "here"))
+    period = float(re.search(r"period of (\S+) m", text)[1])
+    assert period == pytest.approx(128e-6 / np.hypot(*wave), rel=0.01)
+    for lowest in (1.0, 6.0):
+        spectrum = SelfAffine(hurst=0.8, q0=lowest, q1=64.0, h_rms=1.0)
+        for seed in range(10):
+            heights = surface.synthesise(spectrum, 128, 2 * np.pi, seed)
+            assert doubts.find_pattern(heights) is None
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("hurst", "blur", "count"),

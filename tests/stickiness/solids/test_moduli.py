@@ -157,6 +157,16 @@ def test_a_factor_between_its_limits():
     np.testing.assert_allclose(choose_factor((np.nan, 1, 9), [-1, 0, 0.5, 1]), [1, 1, 3, 9])
 
 
+def test_a_storage_modulus_neither_falls_nor_rises_faster_than_one_relaxation():
+    frequencies = np.geomspace(1e-4, 1e4, 33)
+    single = Prony(1e-6, ((1e6, 1.0),)).storage(frequencies)
+    Table(tuple(frequencies), tuple(single))
+    with pytest.raises(ValueError, match=r"moduli\[1\] = 1e\+06 .* square of the frequency"):
+        Table((1.0, 10.0), (9e3, 1e6))
+    with pytest.raises(ValueError, match=r"moduli\[1\] = 94 Pa at 10 Hz .* does not fall"):
+        Table((1.0, 10.0), (100.0, 94.0))
+
+
 def test_limits_of_a_prony_series():
     extremes = SERIES.storage([1e-300, 1e160, 1e300])
     np.testing.assert_allclose(extremes, [1e4, 2.4e5, 2.4e5], rtol=1e-15)

@@ -1,5 +1,6 @@
 """Materials in every form: by properties, and by entries of the configuration."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 
 from stickiness import Material, Surface
 from stickiness.entries import check_material
-from stickiness.solids import HALF_SPACE, Film, Layer
+from stickiness.solids import HALF_SPACE, Film, Layer, Skin
 from stickiness.solids.moduli import Prony, Table
 from stickiness.spectrum import SelfAffine
 
@@ -132,3 +133,27 @@ def test_a_dwell_decides_by_the_relaxed_modulus():
 def test_impossible_materials_are_refused(properties, message):
     with pytest.raises(ValueError, match=message):
         replace(TAPE, **properties)
+
+
+def test_a_modulus_is_young_s_of_an_incompressible_solid_by_default():
+    bare = {"modulus": 2e5, "work_of_adhesion": 0.06, "range": 3e-10}
+    assert Material(**bare).plane_strain_modulus == pytest.approx(2e5 / 0.75)
+    assert Material(**bare, poisson=None).plane_strain_modulus == pytest.approx(2e5)
+
+
+@pytest.mark.parametrize(
+    ("properties", "doubted"),
+    [
+        ({"work_of_adhesion": 2.0}, "work_of_adhesion = 2 is outside"),
+        ({"work_of_adhesion": 2.0, "work_on_smooth": True}, ""),
+        ({"work_of_adhesion": 0.19}, ""),
+        ({"poisson": -0.9}, "poisson = -0.9 is outside 0 to 0.5"),
+        ({"solid": Skin(2e-3, 10.0, 0.3, 0.5)}, "skin_thickness = 0.002 is outside"),
+    ],
+)
+def test_improbable_properties_are_doubted(properties, doubted):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        replace(TAPE, **properties).warn()
+    assert [str(warning.message)[: len(doubted)] for warning in caught] == [doubted] * bool(doubted)
+    assert not any("adhesives" in str(warning.message) for warning in caught)

@@ -7,6 +7,7 @@ from helpers.analysed import wall
 from stickiness import Material, Surface, judge, thresholds, verdict
 from stickiness.adhesive import solve
 from stickiness.criteria.pair import NOT_JUDGED
+from stickiness.plausibility import PlausibilityWarning
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum, realised_spectrum, synthesise
@@ -110,7 +111,8 @@ def test_nothing_is_said_of_a_pair_that_is_not_judged():
         answer = thresholds(noise, length=1e-5, **TAPE)
     assert np.isnan(answer.modulus).all()
     rough = Surface.from_spectrum(SelfAffine(**BAND, h_rms=1e-12))
-    answer = verdict(rough, Material(**TAPE))
+    with pytest.warns(PlausibilityWarning, match="h_rms = 1e-12 .* atoms are larger"):
+        answer = verdict(rough, Material(**TAPE))
     assert judge([Material(**TAPE)], [rough]).verdict == NOT_JUDGED
     assert "modulus_threshold" not in answer.to_dict()
 

@@ -113,9 +113,12 @@ def test_no_thickness_or_rate_sticks_or_every_one_does():
     between = thresholds(make_wall(), replace(TAPE, modulus=table, solid=LAYER))
     assert table.storage(between.rate.value) == pytest.approx(between.modulus.value, rel=1e-4)
     assert find_rate(table, (0.0, 9e4, 2e7)) == (0.0, 0.0, np.inf)
-    peak = Table((0.01, 1.0, 100.0), (1e4, 1e6, 1e4))
-    rate = find_rate(peak, (1e5,) * 3)
-    assert rate == (pytest.approx(0.1, rel=1e-4), pytest.approx(0.1, rel=1e-4), np.inf)
+    # Within noise a modulus may fall, and be equal to another one several times.
+    dip = Table((0.01, 1.0, 10.0, 100.0), (1e4, 1e5, 0.97e5, 1e6))
+    first = 0.01 * 9.9**2
+    last = 10 * (99 / 97) ** (1 / np.log10(1 / 0.097))
+    rate = find_rate(dip, (0.99e5,) * 3)
+    assert rate == pytest.approx((first, first, last), rel=1e-4)
 
 
 def test_several_crossings_widen_the_limits():

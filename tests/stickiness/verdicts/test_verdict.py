@@ -190,6 +190,7 @@ def test_improbable_values_are_warned_of_and_kept_as_doubts(change, message):
     assert len(doubtful.doubts) == 1
     first, *others = str(doubtful).splitlines()
     assert first.startswith(f"{doubtful.word}: ")
+    assert others[0].endswith(": 1 µm")
     assert others[-1] == f"warning: {doubtful.doubts[0]}"
     sound = verdict(ROUGH, **GEL)
     assert sound.doubts == ()
@@ -203,7 +204,9 @@ def test_a_range_far_above_the_heights_is_not_judged():
     numbers = [answer.remaining, answer.pull_off, answer.margin, answer.modulus_threshold]
     assert np.isnan(numbers).all()
     assert np.isnan(answer.remaining_limits).all()
-    assert str(answer).splitlines() == ["not judged", f"warning: {answer.doubts[0]}"]
+    first, height = str(answer).splitlines()
+    assert first == f"not judged: {answer.doubts[0]}"
+    assert height.endswith(": 5 nm")
     contact_law = answer.to_dict()
     assert contact_law["verdict"] == "not judged"
     assert "modulus_threshold" not in contact_law
@@ -256,9 +259,10 @@ def test_slopes_that_are_not_small_are_warned_of(slope, warned):
     s = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6 * slope / ROUGH.rms_slope)
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        verdict(s, **GEL)
+        answer = verdict(s, **GEL)
     text = "rms_slope = 1.02 is outside 1e-07 to 1: small slopes are assumed; give heights and"
     assert [str(one.message) for one in caught] == warned * [f"{text} lengths both in m"]
+    assert ("doubtful" in str(answer).splitlines()[0]) == warned
 
 
 def test_lengths_scale():
@@ -302,5 +306,32 @@ def test_a_layer_that_cannot_take_the_heights_may_keep_nothing():
         assert getattr(thick, f"{name}_limits")[0] > 0
     assert (thin.word, thick.word) == ("depends", "sticks fully")
     # Moduli are printed as Young's, as it was given.
-    assert f"E = {0.75e-6 * thick.modulus_threshold:.3g} MPa" in str(thick)
-    assert "it is 0.001 MPa" in str(thick)
+    assert f"E = {0.75e-3 * thick.modulus_threshold:.3g} kPa" in str(thick)
+    assert "it is 1 kPa" in str(thick)
+
+
+@pytest.mark.parametrize(
+    ("modulus", "threshold", "limits", "words"),
+    [
+        (2e5, 0.0, (0.0, 2.867e9), "sticks at no modulus, or below E = 2.15 GPa; it is 200 kPa"),
+        (2e5, 0.0, (0.0, 0.0), "sticks at no modulus; it is 200 kPa"),
+        (1e14, 1e20, (1e20, 1e20), "sticks at any modulus; it is 10⁵ GPa"),
+        (2e5, 4e4, (3e3, 8e6), "sticks below E = 2.25 kPa to 6 MPa; it is 200 kPa"),
+    ],
+)
+def test_thresholds_beyond_use_are_told_in_words(modulus, threshold, limits, words):
+    answer = verdict(ROUGH, **GEL)
+    material = replace(answer.material, modulus=modulus, poisson=0.5)
+    told = replace(
+        answer,
+        material=material,
+        modulus_threshold=threshold,
+        modulus_threshold_limits=limits,
+        remaining=1.8e-8,
+        remaining_limits=(0.0, 17.0),
+    )
+    lines = str(told).splitlines()
+    assert words in lines
+    assert "below 17 times the work of adhesion remains" in lines[0]
+    none = replace(told, remaining=5.3e-8, remaining_limits=(0.0, 1e-4))
+    assert ": 0 % of the work of adhesion remains" in str(none)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from common import formatting
+from stickiness import formatting
 
 INF, NAN = np.inf, np.nan
 CASES = {
@@ -42,8 +42,32 @@ CASES = {
         ((1.0,), "100 %"),
         ((NAN,), "–"),
     ],
+    "limited": [
+        ((1.8e-8, 0.0, 17.0, formatting.in_units_of(1.0)), "below 17"),
+        ((8.7e3, 4.8e3, 9.1e6, formatting.in_unit("Pa")), "4.8 kPa to 9.1 MPa"),
+        ((4.5e4, 3.3e4, 8.7e4, formatting.in_unit("Pa")), "45 kPa (33 to 87 kPa)"),
+        ((0.6, 0.31, 0.77, formatting.in_percent), "60 % (31 to 77 %)"),
+        ((0.0, 0.0, 0.0, formatting.in_percent), "0 %"),
+        ((0.5, 0.0, 0.7, formatting.in_percent), "50 % (0 to 70 %)"),
+        ((NAN, 1.0, 3.3, formatting.in_units_of(1.0)), "1 to 3.3"),
+        ((1.0, 1.0, 1.0, formatting.in_units_of(1.0)), "1"),
+        ((5e6, 3e6, INF, formatting.in_units_of(1e6)), "5 (at least 3)"),
+        ((INF, 3e6, INF, formatting.in_units_of(1e6)), "at least 3"),
+        ((INF, 0.0, INF, formatting.in_units_of(1e6)), "no limits"),
+        ((NAN, NAN, NAN, formatting.in_unit("Hz")), "–"),
+    ],
     "change": [((0.034,), "+3 %"), ((-0.4,), "−40 %"), ((-0.004,), "0 %")],
 }
+
+
+def test_what_is_too_small_or_too_large_to_use_is_nothing_or_no_bound():
+    bounds = {"least": 1.0, "most": 1e13}
+    in_mpa = formatting.in_units_of(1e6)
+    assert formatting.limited(0.2, 0.1, 0.9, in_mpa, **bounds) == "0"
+    assert formatting.limited(2e12, 1.5e11, 1e21, in_mpa, **bounds).endswith(
+        " (at least 1.5 × 10⁵)"
+    )
+    assert formatting.limited(5.3e-8, 0, 1e-4, formatting.in_percent, least=1e-3) == "0 %"
 
 
 @pytest.mark.parametrize(

@@ -1,12 +1,16 @@
 """Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
 
 import math
+from collections.abc import Callable, Sequence
 
 NOTHING = "–"
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 _PLAIN = range(-3, 5)  # decimal exponents written without a power of ten
 _LEAST_SHARE = 1e-4  # that a percentage tells from none
+FAR = 1e3  #: ratio of limits beyond which a value between them says nothing
+
+Write = Callable[[Sequence[float]], tuple[list[str], str]]  # texts of values, and their unit
 
 
 def number(value: float, digits: int = 3) -> str:
@@ -72,6 +76,68 @@ def unit_for(largest: float, unit: str, digits: int = 3) -> tuple[float, str]:
     power = 3 * (_exponent(largest, digits) // 3)
     power = min(max(power, min(_PREFIXES)), max(_PREFIXES))
     return 10.0**-power, _PREFIXES[power] + unit
+
+
+def in_unit(unit: str, digits: int = 2) -> Write:
+    """Writer of values in the SI prefix that suits the largest of them, for `limited`."""
+
+    def write(values: Sequence[float]) -> tuple[list[str], str]:
+        factor, prefixed = unit_for(max(map(abs, values)), unit, digits)
+        return [number(value * factor, digits) for value in values], f" {prefixed}"
+
+    return write
+
+
+def in_units_of(size: float, unit: str = "", digits: int = 2) -> Write:
+    """Writer of values over a fixed size, for `limited`."""
+    return lambda values: ([number(value / size, digits) for value in values], unit)
+
+
+in_percent = in_units_of(0.01, " %")
+
+
+def limited(
+    value: float,
+    low: float,
+    high: float,
+    write: Write,
+    *,
+    least: float = 0.0,
+    most: float = math.inf,
+) -> str:
+    """Value with its limits, ``x (a to b)``, or what of these a reader can use.
+
+    Numbers below `least` are nothing, those above `most` have no bound. A value that is nothing
+    beside its high limit is left out ("below b"), as is one that is not known, and one between
+    limits more than `FAR` apart ("a to b").
+    """
+    value, low, high = (
+        0.0 if x < least else math.inf if x > most else float(x) for x in (value, low, high)
+    )
+
+    def show(*numbers: float) -> str:
+        texts, unit = write([x for x in numbers if math.isfinite(x)])
+        return " to ".join(dict.fromkeys(texts)) + unit
+
+    if math.isnan(low) or math.isnan(high):
+        return NOTHING
+    if high == 0:
+        return show(0.0)
+    if low == high == math.inf:
+        return "any"
+    if high == math.inf:
+        bound = "no limits" if low == 0 else f"at least {show(low)}"
+        return f"{show(value)} ({bound})" if 0 < value < math.inf else bound
+    if low == 0 and not value * FAR >= high:
+        return f"below {show(high)}"
+    if low > 0 and high > FAR * low:
+        return f"{show(low)} to {show(high)}"
+    if math.isnan(value):
+        return show(low, high)
+    texts, unit = write([value, low, high])
+    if len(set(texts)) == 1:
+        return f"{texts[0]}{unit}"
+    return f"{texts[0]}{unit} ({texts[1]} to {texts[2]}{unit})"
 
 
 def duration(seconds: float) -> str:
