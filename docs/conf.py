@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import bokeh
+from sphinx.util.inspect import TypeAliasForwardRef
 
 SCRIPTS = str(Path(__file__).parents[1] / "scripts")
 sys.path.insert(0, SCRIPTS)
@@ -40,6 +41,8 @@ default_role = "code"
 autodoc_member_order = "bysource"
 autodoc_preserve_defaults = True
 autodoc_type_aliases = {name: name for name in ("ArrayLike", "NDArray")}
+# Within other types, such as tuples, it would be shown as a reference.
+TypeAliasForwardRef.__repr__ = lambda alias: alias.name
 autodoc_typehints_format = "short"
 autosummary_generate = False
 napoleon_google_docstring = False

@@ -66,7 +66,7 @@ def judge_wall() -> Path:
     size = ("--length", "2 mm", "--height-unit", "um")
     tape = ("--modulus", "0.2 MPa", "--work", "60 mJ/m^2", "--label", "painted wall")
     for command in (
-        ("examples/make_wall.py", wall),
+        ("-m", "stickiness.example_wall", wall),
         ("-m", "stickiness", wall, *size, *tape, "--output", folder / "run"),
     ):
         environment = os.environ | {"PYTHONPATH": "scripts"}

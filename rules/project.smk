@@ -32,8 +32,19 @@ def find_project():
 
 
 PROJECT = find_project()
+
+
+def is_main():
+    """Whether the Snakefile of this project is the one that runs, from a folder or from a git host."""
+    if os.path.isdir(str(workflow.basedir)):
+        return os.path.samefile(workflow.basedir, PROJECT)
+    # Snakemake names the folder of a remote Snakefile by its address.
+    rules_address = workflow.current_basedir.get_path_or_uri(secret_free=True)
+    return rules_address == f"{workflow.basedir}/rules"
+
+
 # Another workflow may use this one as a module.
-MODULE = None if os.path.samefile(workflow.basedir, PROJECT) else "stickiness"
+MODULE = None if is_main() else "stickiness"
 
 
 def project_file(path):

@@ -6,6 +6,7 @@ from common.config.conditions import CONDITIONS, OBSERVED, conditions_of
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA
 from stickiness.formatting import number, percent, quantity
+from stickiness.remaining.sphere import FEWEST_WAVES
 
 GRADES = ("measured", "read", "recalled", "assumed")
 OUTCOMES = ("missed", "compatible for some inputs", "compatible")
@@ -13,7 +14,6 @@ MISSED, SOME, COMPATIBLE = range(3)
 SILENT = -1  # of a criterion, on an observation that does not test it
 MARKS = {SILENT: "–", MISSED: "✗", SOME: "≈", COMPATIBLE: "✓"}
 TONES = {SILENT: "open", MISSED: "no", SOME: "partly", COMPATIBLE: "yes"}
-FEWEST_WAVES = 5.0  # across the contact of a sphere, from which the model of a sphere applies
 LEAST_EFFECT = 1.1  # factor by which an input must change a prediction to be named
 MOST_EFFECT = 1e3  # factor beyond which it goes from nothing to something
 LEAST = 5e-8  # J/m²; less is written as none

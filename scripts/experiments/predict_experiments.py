@@ -81,7 +81,7 @@ def main(job):
         **outcomes.describe(dataset, experiments),
         wanted=DEFAULT_SHARE,
         factor=FACTOR,
-        fewest_waves=outcomes.FEWEST_WAVES,
+        fewest_waves=sphere.FEWEST_WAVES,
         criteria=[criterion.label for criterion in CRITERIA.values()],
         survivals=[
             (experiments[name]["label"], *map(MARKS.get, codes))

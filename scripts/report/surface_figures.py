@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+from matplotlib.colors import ListedColormap
 
 from common import plotting
 from common.plotting import BLACK, COLOURS, GREY, MARKERS
@@ -36,6 +37,22 @@ def draw_surface(surface, output):
         if pictured:
             draw_heights(panels["A"], surface[pictured[0]])
         draw_spectrum(panels[row[1]], surface)
+
+
+def draw_reading(surface, output):
+    """Write small pictures of a map as it was read, with what is not used, and as it is used."""
+    with plotting.open_figure([output], "AB", 2.2) as panels:
+        before = surface.heights_as_read.values
+        per_h, unit = unit_for(np.nanmax(np.abs(before)), "m")
+        look = {"origin": "lower", "interpolation": "nearest"}
+        panels["A"].set_facecolor(GREY)  # seen where points are missing
+        image = panels["A"].imshow(before.T * per_h, cmap="cividis", **look)
+        panels["A"].figure.colorbar(image, ax=panels["A"], label=f"height [{unit}]", shrink=0.8)
+        unused = np.ma.masked_equal(surface.unused.values.T, 0)
+        panels["A"].imshow(unused, cmap=ListedColormap([COLOURS[1]]), **look)
+        panels["A"].set(xticks=[], yticks=[])
+        thin = max(1, max(surface.heights.shape) // max(before.shape))
+        draw_heights(panels["B"], surface.heights[::thin, ::thin])
 
 
 def draw_heights(ax, heights):

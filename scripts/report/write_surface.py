@@ -1,5 +1,7 @@
 """The page of one surface: verdicts and their reasons, curves, contact, parameters, spectrum."""
 
+import tempfile
+
 import numpy as np
 
 from common import provided
@@ -52,6 +54,7 @@ def main(job):
         sizes=describe_surface(surface),
         covers=COVERS,
         figure=pages.embed_png(job.output.figure),
+        reading=embed_reading(surface),
         wanted=DEFAULT_SHARE,
         labels=job.params.labels,
         doubts=[doubt for name in names for doubt in find_doubts(entries[name])],
@@ -68,6 +71,15 @@ def main(job):
         bem=bem and describe_measured_contact(datasets.read(bem, ["a_v"])),
         library=interactive.library() if curves or contact else "",
     )
+
+
+def embed_reading(surface):
+    """Pictures of a map before and after it is levelled; None of other surfaces."""
+    if "heights_as_read" not in surface:
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        surface_figures.draw_reading(surface, f"{folder}/reading.png")
+        return pages.embed_png(f"{folder}/reading.png")
 
 
 def describe_verdict(pair, entry):

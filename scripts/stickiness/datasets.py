@@ -19,6 +19,18 @@ import xarray as xr
 from stickiness import __version__
 from stickiness.units import write_quantities
 
+__all__ = [
+    "DatasetError",
+    "WriteError",
+    "annotate",
+    "flags",
+    "parameters",
+    "provenance",
+    "read",
+    "whole_file",
+    "write",
+]
+
 # Sign conventions by names of variables; every file states them.
 _SIGNS = {
     r"(\w+_)?mean_gap(_mean)?": "not negative; rigid displacement, distance of the mean planes of "

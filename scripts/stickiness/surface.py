@@ -20,6 +20,8 @@ from stickiness.spectrum.direction import find_ratio_of_modes
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_spectrum
 from stickiness.spectrum.kinds import Shells
 
+__all__ = ["Moments", "lattice_spectrum", "moments", "realised_spectrum", "resample", "synthesise"]
+
 Amplitudes = Literal["gaussian", "fixed"]
 
 

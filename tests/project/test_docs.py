@@ -2,6 +2,7 @@
 
 import os
 import re
+import runpy
 import subprocess
 import sys
 import tomllib
@@ -11,6 +12,8 @@ import pytest
 import yaml
 
 import stickiness
+from stickiness import dmt, spectrum, surface
+from stickiness.remaining import Roughness
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "config/README.md"]
@@ -45,6 +48,19 @@ def test_places_of_the_version_agree():
     assert stickiness.__version__ == project["version"] == cited
 
 
+def test_the_example_for_dem_gives_less_work_than_that_of_smooth_balls():
+    done = subprocess.run(
+        [sys.executable, ROOT / "examples/rough_ball.py"],
+        env=os.environ | {"PYTHONPATH": str(ROOT / "scripts"), "OMP_NUM_THREADS": "1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    value, low, high = map(float, re.findall(r"[\d.]+", done.stdout.partition("limits:")[2]))
+    assert low <= value < high
+    assert 35 < value < 70  # of 70 mJ/m^2
+
+
 @pytest.mark.slow
 def test_the_example_of_the_library_runs(tmp_path):
     done = subprocess.run(
@@ -59,6 +75,29 @@ def test_the_example_of_the_library_runs(tmp_path):
     found = dict(line.split(" = ", 1) for line in done.stdout.splitlines() if " = " in line)
     area, theory = (float(found[name].split()[0]) for name in ("contact area", "predicted area"))
     assert area == pytest.approx(theory, rel=0.3)
+
+
+@pytest.mark.parametrize("page", sorted(ROOT.glob("docs/example/*.html")), ids=lambda p: p.name)
+def test_examples_hold_no_path_of_a_machine(page):
+    text = page.read_text(encoding="utf-8")
+    for folder in ("home", "root", "tmp", "work", "Users", "mnt", "opt", "srv", "var"):
+        assert re.findall(rf"(?<![\w.:/])/{folder}/[\w./-]{{1,80}}", text) == []
+
+
+def test_signatures_have_readable_types(monkeypatch):
+    """As Sphinx shows them, with names for arrays."""
+    inspection = pytest.importorskip("sphinx.util.inspect")
+    monkeypatch.setenv("PYTHONPATH", "")  # the settings set it
+    settings = runpy.run_path(str(ROOT / "docs/conf.py"))
+    aliases = settings["autodoc_type_aliases"]
+    shown = [
+        inspection.stringify_signature(inspection.signature(function, type_aliases=aliases))
+        for function in (dmt.attractive_area, Roughness.threshold, surface.realised_spectrum)
+    ]
+    shown.append(str(inspection.signature(spectrum.Shells.integrate, type_aliases=aliases)))
+    assert "ArrayLike | None" in shown[1]
+    assert "Callable[[NDArray], NDArray]" in shown[3]
+    assert not any("Ref(" in text for text in shown)
 
 
 @pytest.mark.parametrize("page", ["docs/inputs.md", "docs/tutorial.md", "docs/running.md"])

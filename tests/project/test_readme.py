@@ -1,7 +1,5 @@
 """The numbers in README.md lie within their errors of the results of a run."""
 
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +9,7 @@ from common import heights_table
 from common.conventions import at_load
 from common.edge_points import select_certain
 from report import write_findings
-from stickiness import Material, Surface, datasets, error_budget, verdict
+from stickiness import Material, Surface, datasets, error_budget, example_wall, verdict
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
 
@@ -120,9 +118,7 @@ def test_number_lies_within_its_error(results, text, number, rounding, read):
 
 def test_the_verdict_shown_is_that_of_the_tutorials_wall(tmp_path):
     """Printed by the library, as the command prints it."""
-    subprocess.run(
-        [sys.executable, ROOT / "examples/make_wall.py", tmp_path / "wall.txt"], check=True
-    )
+    example_wall.write(tmp_path / "wall.txt")
     wall = Surface.read(tmp_path / "wall.txt", length="2 mm", height_unit="um")
     tape = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=0.3e-9)
     assert f"The material: {verdict(wall, tape)}\n" in (ROOT / "README.md").read_text(

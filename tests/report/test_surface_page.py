@@ -296,6 +296,33 @@ def test_page_has_all_rms_heights_and_the_spikes(single, folder):
 
 
 @pytest.mark.slow
+def test_the_page_has_pictures_of_a_map_as_read_and_as_used(page, folder):
+    assert 'id="reading"' in page.html
+    profile = folder / "profile.txt"
+    heights = surface.synthesise(SelfAffine(hurst=0.8, q0=1, q1=50, h_rms=9), 512, 6.3, seed=1)
+    np.savetxt(profile, heights[0])
+    line = analyse(folder / "line.nc", file=str(profile), length="40 um", height_unit="nm")
+    assert 'id="reading"' not in write_page(line, folder).html
+
+
+def test_heights_as_read_are_kept_with_what_is_not_used():
+    s = SelfAffine(hurst=0.8, q0=1.0, q1=25.0, h_rms=1.0)
+    heights = surface.synthesise(s, n=200, length=2 * np.pi, seed=4)[:180, :150]
+    heights[20:24, 40:45] = np.nan
+    heights[101, 71] = 40.0  # a spike
+    read = topography.from_array(heights, 1.0, missing="crop", missing_rim=0, scale=1e-6)
+    np.testing.assert_array_equal(read.as_read, 1e-6 * heights)
+    assert read.unused.sum() == heights.size - 20 - read.heights.size
+    kept = topography.from_array(heights, 1.0, missing_rim=0)
+    assert np.argwhere(kept.unused).tolist() == [[101, 71]]
+    # Thinned to every second point, the spike is still there.
+    data = Surface.from_heights(1e-6 * heights, (180e-6, 150e-6), missing_rim=0).data
+    assert data.heights_as_read.shape == data.unused.shape == (90, 75)
+    assert np.argwhere(data.unused.values).tolist() == [[50, 35]]
+    np.testing.assert_allclose(data.heights_as_read, 1e-6 * heights[::2, ::2], rtol=1e-6)
+
+
+@pytest.mark.slow
 def test_curves_pass_through_the_pair_as_it_is(pairs):
     labels = {name: MATERIALS[name]["label"] for name in ("steel", "gel")}
     curves_by_axis = surface_figures.find_curves(pairs, labels, ["gel"])

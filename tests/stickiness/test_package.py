@@ -34,6 +34,22 @@ def test_public_functions_and_methods_are_annotated(name):
         assert needed <= inspect.get_annotations(function).keys(), function.__qualname__
 
 
+PACKAGES = [file.parent for file in SCRIPTS.glob("stickiness/**/__init__.py")]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [".".join(folder.relative_to(SCRIPTS).parts) for folder in PACKAGES]
+    + ["stickiness.surface", "stickiness.dmt", "stickiness.datasets"],
+)
+def test_what_is_public_is_listed_and_there(name):
+    module = importlib.import_module(name)
+    assert module.__all__
+    names = {}
+    exec(f"from {name} import *", names)
+    assert {*module.__all__} <= names.keys()
+
+
 def test_verdict_is_the_function_whatever_was_imported_before():
     from stickiness import verdict
     from stickiness.verdicts.verdict import verdict as defined

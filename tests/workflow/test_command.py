@@ -1,9 +1,13 @@
 """``python -m stickiness``: from a file of heights to a verdict and a page, or to an error."""
 
+import argparse
+import errno
+import fcntl
 import json
 import os
 import re
 import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -25,6 +29,7 @@ TAPE = ["--modulus", "0.2 MPa", "--work", "60 mJ/m^2"]
 SIZE = ["--length", "2 mm", "--height-unit", "um"]
 RESULTS = Path("stickiness-results/results/draft")
 STARTS = 12  #: of Python with its libraries, that a verdict may take in processor time; it takes 5
+CACHES = ("XDG_CACHE_HOME", "HOME", "NUMBA_CACHE_DIR", "MPLCONFIGDIR")
 LIBRARIES = "import numpy, scipy.optimize, xarray, netCDF4"
 
 
@@ -36,10 +41,10 @@ class Answer(NamedTuple):
     errors: list[str]
 
 
-def run(folder, *arguments, scripts=ROOT / "scripts"):
+def run(folder, *arguments, scripts=ROOT / "scripts", **environment):
     """Run the command in a folder."""
     command = [sys.executable, "-m", "stickiness", *map(str, arguments)]
-    environment = os.environ | {"PYTHONPATH": str(scripts)}
+    environment = os.environ | {"PYTHONPATH": str(scripts)} | environment
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
     return Answer(done.returncode, done.stdout.splitlines(), done.stderr.splitlines())
 
@@ -75,10 +80,55 @@ def test_the_answer_is_that_of_the_library(folder, verdict):
     assert not (folder / RESULTS.parts[0]).exists()
 
 
+def test_the_first_block_of_the_readme_gives_the_verdict_shown_there(tmp_path):
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    *_, command = re.search("```\n(.*?)\n```", readme, re.S)[1].splitlines()
+    shown = re.search("```text\n(.*?)\n```", readme, re.S)[1].splitlines()
+    python, module, name, *arguments = shlex.split(command)
+    assert (python, module, name) == ("python", "-m", "stickiness")
+    answer = run(tmp_path, *arguments, "--no-page")
+    assert (answer.status, answer.errors, answer.lines[1:]) == (0, [], shown)
+    # The first line is a command that says the same without the option.
+    _, spelt_out = answer.lines[0].split("python -m stickiness ")
+    assert "--example" not in spelt_out
+    assert run(tmp_path, *shlex.split(spelt_out)).lines == shown
+    assert os.listdir(tmp_path) == ["example_wall.txt"]
+
+
+def test_the_example_takes_another_material_and_leaves_a_file_alone(folder, tmp_path):
+    shutil.copy(folder / "wall#1.npy", tmp_path / "example_wall.txt")
+    answer = run(tmp_path, "--example", "--modulus", "1 kPa", "--work", "60 mJ/m^2", "--no-page")
+    assert (answer.status, answer.lines[0].count("--modulus")) == (0, 1)
+    assert (tmp_path / "example_wall.txt").read_bytes() == (folder / "wall#1.npy").read_bytes()
+
+
 def test_json_has_the_numbers_of_the_library(folder, verdict):
     answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--no-page", "--json")
     assert (answer.status, answer.errors) == (0, [])
     assert json.loads("\n".join(answer.lines)) == verdict.to_dict()
+
+
+def test_a_common_material_stands_for_its_values_and_a_ball_has_a_force(folder):
+    arguments = ["wall#1.npy", *SIZE, "--no-page", "--json", "--radius", "1 mm"]
+    common = run(folder, *arguments, "--material", "pdms", "--poisson", "0.4")
+    values = ["--modulus", "0.7 MPa", "--work", "40 mJ/m^2", "--poisson", "0.4"]
+    assert common == run(folder, *arguments, *values)
+    force = json.loads("\n".join(common.lines))["ball"]["smooth_pull_off_force"]
+    assert force["value"] == pytest.approx(1.5 * np.pi * 40e-3 * 1e-3, rel=2e-3)  # JKR
+
+
+def test_the_common_materials_are_listed_with_their_values(folder):
+    answer = run(folder, "--materials")
+    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 12)
+    (line,) = [line for line in answer.lines if line.startswith("steel ")]
+    for value in ("210 GPa", "0.3", "100 mJ/m^2", "0.3 nm", "Johnson"):
+        assert value in line
+
+
+def test_the_version_is_one_line(folder):
+    answer = run(folder, "--version")
+    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 1)
+    assert answer.lines[0].startswith(f"stickiness {stickiness.__version__} ")
 
 
 def test_several_materials_are_a_list_with_their_names(folder):
@@ -119,6 +169,7 @@ def test_page_and_answer_from_relative_paths(folder, first, verdict):
     assert first.lines[-1] == f"Page: {page.relative_to(folder)}"
     shown = Page(page.read_text(encoding="utf-8"))
     shown.check("E = 0.2 MPa", "measured · wall#1.npy")
+    assert str(folder) not in page.read_text(encoding="utf-8")
     local = [link for link in shown.links if not link.startswith(("#", "https://doi.org/"))]
     assert len(local) > 1
     assert [link for link in local if not (page.parent / link).exists()] == []
@@ -154,6 +205,8 @@ def test_another_tape_repeats_the_verdict_alone(folder, first):
         (["wall#1.npy", "--modulus", "1 MPa"], 'give --modulus "0.2 MPa" and --work "60 mJ/m^2"'),
         (["wall#1.npy", *TAPE, "--modulos", 1], "unrecognized arguments: --modulos 1"),
         (["wall#1.npy", *TAPE, "--work", "60 J/m^2"], "--work '60 J/m^2': "),
+        (["wall#1.npy", "--material", "stel"], "--material 'stel': "),
+        (["wall#1.npy", *TAPE, "--radius", "1"], "--radius '1' "),
         (["wall#1.npy", *TAPE, "--length", 2], "--length 2: "),
         (["wall#1.npy", *TAPE, "--detrend", "cubic"], "--detrend 'cubic': "),
         (["wall#1.npy", *TAPE, "--backing", "slip"], "--backing 'slip': "),
@@ -201,6 +254,60 @@ def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
     values = re.findall(r'"(\d[^"]*)"', "\n".join(lines))
     assert len(values) > 10
     assert all(re.match(r"[\d.]+ [a-zA-Z]", value) for value in values)
+
+
+def test_a_second_run_in_a_folder_says_how_to_go_on(folder, tmp_path):
+    """The lock goes with the run that has it; that of a killed Snakemake is no lock."""
+    output = tmp_path / "page"
+    output.mkdir()
+    arguments = ["wall#1.npy", "--tape", "tape.yaml", *SIZE, "--output", output]
+    other = os.open(output, os.O_RDONLY)
+    fcntl.flock(other, fcntl.LOCK_EX)
+    refused = run(folder, *arguments)
+    assert (refused.status, len(refused.errors)) == (1, 1)
+    assert f"another run of this command holds --output {output}" in refused.errors[0]
+    assert os.listdir(output) == []
+    os.close(other)
+    # Neither a lock that was left behind nor caches of no use keep it from a page.
+    answer = run(folder, *arguments, **dict.fromkeys(CACHES, "/proc/nowhere"))
+    assert (answer.status, answer.errors) == (0, [])
+    for name in ("0.input.lock", "0.output.lock"):
+        (output / ".snakemake/locks" / name).write_text("results/draft\n")
+    assert run(folder, *arguments).status == 0
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="a file that is always full")
+def test_a_full_disk_is_one_line(folder):
+    arguments = ["wall#1.npy", "--tape", "tape.yaml", *SIZE, "--no-page"]
+    command = [sys.executable, "-m", "stickiness", *arguments]
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "scripts")}
+    with open("/dev/full", "w") as full:
+        done = subprocess.run(
+            command, cwd=folder, env=environment, stdout=full, stderr=subprocess.PIPE, text=True
+        )
+    assert done.returncode == 1
+    assert done.stderr.splitlines() == [f"stickiness: [Errno 28] {os.strerror(errno.ENOSPC)}"]
+
+
+def test_a_configuration_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
+    """Also where the disk is full after its first file."""
+    import stickiness.__main__ as command
+
+    def write(path, text, encoding):
+        if "surfaces" in path.name:
+            path.write_bytes(b"half")
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        path.write_bytes(text.encode(encoding))
+
+    monkeypatch.setattr(Path, "write_text", write)
+    options = argparse.Namespace(output=tmp_path, tape=None, file=tmp_path / "wall.txt")
+    with pytest.raises(SystemExit) as caught:
+        command.write_configuration(options, "wall", {}, {})
+    assert os.strerror(errno.ENOSPC) in caught.value.code
+    assert "\n" not in caught.value.code
+    assert sorted(os.listdir(tmp_path / "config")) == ["config.yaml", "materials.yaml"]
+    reason = command.find_reason(f"…\nOSError: {os.strerror(errno.ENOSPC)}\n\n", tmp_path)
+    assert f"--output {tmp_path}" in reason
 
 
 def test_a_command_that_failed_can_be_mended(folder, tmp_path):

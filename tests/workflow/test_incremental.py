@@ -25,13 +25,13 @@ def test_a_complete_run_has_no_warnings_and_leaves_nothing_to_do(finished):
 CHANGES = {
     "material": (
         "config/materials.yaml",
-        ('"40 mJ/m^2"', '"45 mJ/m^2"'),
+        ("{common: pdms}", '{common: pdms, work_of_adhesion: "45 mJ/m^2"}'),
         {"judge", "write_surface", "plot_fig9", "check_claims", "write_report"},
         {"analyse_surface", *SOLUTIONS},
     ),
     "label of a material": (
         "config/materials.yaml",
-        ("label: silicone (PDMS)", "label: silicone"),
+        ("{common: pdms}", "{common: pdms, label: silicone}"),
         {"judge", "write_surface", "write_report"},
         {"analyse_surface", "picture_contact", *SOLUTIONS},
     ),

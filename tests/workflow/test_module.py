@@ -42,7 +42,7 @@ def test_example_runs_from_a_hosted_repository(folder, cache, monkeypatch):
     text = (EXAMPLE / "Snakefile").read_text(encoding="utf-8")
     text = text.replace(
         '"../../Snakefile"', 'github("someone/stickiness", path="Snakefile", tag="v1")'
-    ).replace("{workflow.basedir}/..", str(EXAMPLE.parent))
+    )
     monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
     (folder / "workflow").mkdir()
     (folder / "workflow/Snakefile").write_text(text, encoding="utf-8")
@@ -91,6 +91,14 @@ def test_a_wrong_key_names_the_module(folder):
     assert done.returncode != 0
     (line,) = done.stdout.strip().splitlines()
     assert line.startswith("config of module stickiness: sedes: ")
+
+
+def test_the_snakefile_itself_may_come_from_a_git_host(tmp_path, cache, monkeypatch):
+    """It is then no module: its rules have no prefix, and files are those of the clone."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(cache))
+    page = "results/standard/report/surfaces/asphalt.html"
+    done = dry_run(tmp_path, "-s", "gh:someone/stickiness@v1:Snakefile", page)
+    assert jobs(done) == {"analyse_surface": 1, "judge_surface": 1, "write_surface": 1}
 
 
 def test_from_any_folder(tmp_path):

@@ -1,15 +1,11 @@
-"""Write docs/configuration.md, the reference of every key, from the JSON schemas of the models.
+"""Write docs/configuration.md, the reference of every key, and config/schema.json for editors.
 
 PYTHONPATH=scripts python -m common.config.reference
-PYTHONPATH=scripts python -m common.config.reference --json-schema materials
-
-The second prints a JSON schema of config, materials, surfaces or experiments, by which editors
-check and complete a file.
 """
 
 import json
-import sys
 from pathlib import Path
+from typing import Any
 
 from common.config.load import TABLES
 from common.config.models import MODELS
@@ -17,6 +13,7 @@ from common.templates import make_environment
 
 PROJECT = Path(__file__).parents[3]
 PAGE = PROJECT / "docs/configuration.md"
+SCHEMA = PROJECT / "config/schema.json"
 
 
 def page() -> str:
@@ -32,11 +29,41 @@ def page() -> str:
     return environment.get_template("configuration.md.j2").render(files=files)
 
 
+def schema() -> dict[str, Any]:
+    """Return the JSON schema of all files of users, by which editors check and complete them.
+
+    A file of materials, surfaces or experiments is told by its key, which has entries below it. Any
+    other is a configuration, in which a user gives the keys that differ from the project's.
+    """
+    models = {
+        name: MODELS[name].model_json_schema(ref_template=f"#/$defs/{name}/$defs/{{model}}")
+        for name in ("config", *TABLES)
+    }
+    models["config"] = _without_required(models["config"])
+    holds = {
+        name: {"required": [name], "properties": {name: {"type": "object"}}} for name in TABLES
+    }
+    branches = [{"if": holds[name], "then": {"$ref": f"#/$defs/{name}"}} for name in TABLES]
+    others = {"if": {"anyOf": list(holds.values())}, "else": {"$ref": "#/$defs/config"}}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "type": "object",
+        "allOf": [*branches, others],
+        "$defs": models,
+    }
+
+
+def _without_required(part: Any) -> Any:
+    """Return a schema in which no key is required, nor one of several."""
+    if isinstance(part, list):
+        return [_without_required(item) for item in part]
+    if not isinstance(part, dict):
+        return part
+    is_section = part.get("type") == "object" and "properties" in part
+    left_out = ("required", "allOf") if is_section else ()
+    return {key: _without_required(value) for key, value in part.items() if key not in left_out}
+
+
 if __name__ == "__main__":
-    match sys.argv[1:]:
-        case []:
-            PAGE.write_text(page(), encoding="utf-8")
-        case ["--json-schema", name] if name in MODELS:
-            print(json.dumps(MODELS[name].model_json_schema(), indent=1))
-        case _:
-            sys.exit(__doc__)
+    PAGE.write_text(page(), encoding="utf-8")
+    SCHEMA.write_text(json.dumps(schema(), indent=1) + "\n", encoding="utf-8")

@@ -7,3 +7,12 @@
 - `multilevel`: means over random surfaces, with control variates on two levels
 - `model_choice`: whether the DMT sum is accurate enough, or full adhesion is needed
 """
+
+__all__ = [
+    "error_models",
+    "model_choice",
+    "multilevel",
+    "plan",
+    "quantities",
+    "settings",
+]

@@ -16,7 +16,14 @@ from typing import Any
 
 from stickiness.entries.errors import EntryError
 
-__all__ = ["EntryError", "check_material", "check_surface", "list_measurements", "read_materials"]
+__all__ = [
+    "EntryError",
+    "check_material",
+    "check_surface",
+    "list_common_materials",
+    "list_measurements",
+    "read_materials",
+]
 
 
 def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[str, Any]:
@@ -26,7 +33,8 @@ def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[st
     ----------
     entry : mapping
         Keys of a material as in docs/configuration.md. `label` and `source` may be missing, and
-        None stands for what is absent, so that a checked entry may be checked again.
+        None stands for what is absent, so that a checked entry may be checked again. `common`
+        names one of `list_common_materials`, whose values other keys replace.
     numbers : bool
         Whether values with units may also be numbers in SI units. In files they are texts.
 
@@ -55,7 +63,9 @@ def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[st
     """
     from stickiness.entries.material_entry import Material
 
-    entry = {"label": "the material", "source": "not stated"} | dict(entry)
+    entry = dict(entry)
+    if entry.get("common") is None:
+        entry = {"label": "the material", "source": "not stated"} | entry
     return _check(Material, entry, numbers)
 
 
@@ -103,6 +113,19 @@ def read_materials(path: str | Path) -> dict[str, dict[str, Any]]:
     except EntryError as error:
         key = f"{path}: {error.key}" if error.key else str(path)
         raise EntryError(key, error.value, error.message) from None
+
+
+def list_common_materials() -> dict[str, dict[str, Any]]:
+    """Return the entries of common materials by name, checked.
+
+    Examples
+    --------
+    >>> print(list_common_materials()["natural_rubber"]["youngs_modulus"])
+    1 MPa
+    """
+    from stickiness.entries.common_materials import read_common_materials
+
+    return {name: check_material(entry) for name, entry in read_common_materials().items()}
 
 
 def list_measurements(entry: Mapping[str, Any]) -> list[dict[str, Any]]:

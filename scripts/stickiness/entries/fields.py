@@ -27,7 +27,7 @@ from stickiness.units import Quantity
 T = TypeVar("T")
 
 
-def _complete_schema(schema: dict[str, Any], section: type["Section"]) -> None:
+def complete_schema(schema: dict[str, Any], section: type["Section"]) -> None:
     """Give a JSON schema a title, a docstring, and groups of keys that exclude each other."""
     schema["title"] = re.sub("(?<=[a-z])(?=[A-Z])", " ", section.__name__).capitalize()
     schema["description"] = inspect.getdoc(section)
@@ -44,7 +44,7 @@ class Section(BaseModel):
     absent. The docstring of a model introduces its table in docs/configuration.md.
     """
 
-    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=_complete_schema)
+    model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=complete_schema)
     #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
 

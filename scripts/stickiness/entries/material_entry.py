@@ -1,10 +1,11 @@
 """Models of a material in the configuration."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import Discriminator, Field, Strict, Tag, ValidationInfo, model_validator
+from pydantic import ConfigDict, Discriminator, Field, Strict, Tag, ValidationInfo, model_validator
 
 from stickiness.entries import fields as f
+from stickiness.entries.common_materials import find_common_material
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.entries.fields import Section, needed, optional
 from stickiness.solids.moduli import (
@@ -66,9 +67,20 @@ Backing = Annotated[
 ]
 
 
-class Material(ElasticPair, f.Labelled):
-    """An elastic solid against a rigid rough counterface."""
+def _let_common_complete(schema: dict[str, Any], section: type[Section]) -> None:
+    """Complete the JSON schema of a material, which `common` frees of the required keys."""
+    f.complete_schema(schema, section)
+    alone = {key: schema.pop(key) for key in ("required", "allOf")}
+    schema["anyOf"] = [{"required": ["common"]}, alone]
 
+
+class Material(ElasticPair, f.Labelled):
+    """An elastic solid against a rigid rough counterface.
+
+    A common material gives the values of all keys that are not there.
+    """
+
+    model_config = ConfigDict(json_schema_extra=_let_common_complete)
     one_of = (
         (
             *_MODULI,
@@ -77,6 +89,11 @@ class Material(ElasticPair, f.Labelled):
         ),
     )
 
+    common: str = Field(
+        None,
+        exclude=True,  # a checked entry has the values
+        description="name of a common material, see `python -m stickiness --materials`",
+    )
     youngs_modulus_table: f.AtLeastTwo[Annotated[tuple[f.Frequency, f.Modulus], Strict(False)]] = (
         optional('pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]')
     )
@@ -98,6 +115,17 @@ class Material(ElasticPair, f.Labelled):
     law: f.PredictedLaw = optional(
         "traction law; default exponential. The range of van_der_waals is D0", EXPONENTIAL
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def take_common(cls, entry: Any) -> Any:
+        """Take the values of a common material for keys that are not given."""
+        if not isinstance(entry, dict) or "common" not in entry:
+            return entry
+        common = find_common_material(entry["common"])
+        depends_on_rate = entry.keys() & {"youngs_modulus_table", "youngs_modulus_prony"}
+        left_out = "youngs_modulus" if depends_on_rate else None
+        return {key: value for key, value in common.items() if key != left_out} | entry
 
     @model_validator(mode="after")
     def check_rates(self) -> Self:

@@ -32,7 +32,8 @@ class _Heights:
     cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
     dropped: int = 0  #: number of points that were measured beside missing ones and not used
     spikes: int = 0  #: number of points far off their neighbours, not used
-    as_read: NDArray | None = None  #: heights before points were dropped or masked, if any were
+    as_read: NDArray | None = None  #: heights [m] before anything was done to them
+    unused: NDArray | None = None  #: whether a point that was read is masked, dropped or cut off
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
     others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
     contradictions: tuple[str, ...] = ()  #: what the caller said otherwise than the file
@@ -74,7 +75,7 @@ class _Heights:
 
     def h_rms_as_read(self) -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
-        if self.as_read is None:
+        if not (self.dropped or self.spikes):
             return self.h_rms
         return levelling.rms_of_known(self.as_read, self.trend)
 
@@ -337,11 +338,15 @@ def from_array(
         masked = int(np.count_nonzero(is_spike))
         usable = np.where(is_spike, np.nan, usable)
     doubts = [*doubt_values(usable)]
+    unused = np.isnan(usable)
 
     # Missing points are cut off or filled.
     if missing == "crop":
         kept = levelling.complete_rectangle(np.isfinite(usable), source)
         usable = usable[kept]
+        is_cut_off = np.ones(heights.shape, dtype=bool)
+        is_cut_off[kept] = False
+        unused |= is_cut_off
         positions = None if positions is None else positions[kept]
     losses = f", {dropped} points beside missing ones dropped" if dropped else ""
     losses += f", {masked} spikes masked" if masked else ""
@@ -365,7 +370,8 @@ def from_array(
         "cropped": 1 - usable.size / heights.size,
         "dropped": dropped,
         "spikes": masked,
-        "as_read": heights * scale if dropped or masked else None,
+        "as_read": heights * scale,
+        "unused": unused & np.isfinite(heights),
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
         "remarks": remarks,
     }

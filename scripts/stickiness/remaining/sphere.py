@@ -17,6 +17,7 @@ from stickiness.arguments import plain, positive
 from stickiness.remaining.prediction import Roughness
 from stickiness.traction_laws import find_strength
 
+FEWEST_WAVES = 5.0  #: longest waves across the contact, from which the model applies
 _LEAST_PARAMETER = 1e-3  # of Maugis; below DMT to 0.2 %
 _POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 
@@ -26,6 +27,7 @@ class SpherePullOff:
     """Pull-off of a sphere from a rough surface; numbers or arrays."""
 
     force: float | NDArray  #: [E* length^2], positive
+    smooth_force: float | NDArray  #: from a smooth surface [E* length^2]
     relative: float | NDArray  #: force over the pull-off force from a smooth surface
     work: float | NDArray  #: of separation per area over the work of adhesion of smooth surfaces
     #: Radius [length] of what is in contact or attracts at pull-off: the larger of JKR's contact
@@ -38,9 +40,9 @@ def pull_off(
     radius: ArrayLike,
     adhesion_length: ArrayLike,
     range: ArrayLike,
-    sign: int = 0,
+    sign: ArrayLike = 0,
 ) -> SpherePullOff:
-    """Pull-off after a contact formed by load; `sign` is -1 or +1 for the low or high limit."""
+    """Pull-off after a contact formed by load; `sign` as of `Roughness.share`."""
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     work = np.asarray(rough.separation(length, range, sign))
     remaining_length = np.maximum(work, 1e-200) * length  # that may be divided by
@@ -51,6 +53,7 @@ def pull_off(
     derjaguin_zone = np.sqrt(2 * radius * reach)
     return SpherePullOff(
         force=plain(np.pi * radius * force),
+        smooth_force=plain(np.pi * radius * smooth),
         relative=plain(force / smooth),
         work=plain(work),
         zone_radius=plain(np.maximum(jkr_contact, derjaguin_zone)),

@@ -13,6 +13,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +24,13 @@ from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.spectrum.direction import CIRCLE, Ellipse
 
 LATTICE_ROUNDING = 1e-9  #: relative slack on band limits that coincide with lattice wave numbers
+
+
+def _freeze(value: Any) -> Any:
+    """Numbers of an array, and of arrays in a tuple, as something that can be compared."""
+    if isinstance(value, tuple):
+        return tuple(_freeze(item) for item in value)
+    return tuple(value.tolist()) if isinstance(value, np.ndarray) else value
 
 
 class Spectrum(ABC):
@@ -39,6 +48,22 @@ class Spectrum(ABC):
     q: NDArray
     variance: NDArray
     ellipse: Ellipse = CIRCLE
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        return self._state() == other._state()
+
+    def __hash__(self) -> int:
+        return hash((type(self), self._state()))
+
+    def _state(self) -> tuple:
+        """Attributes that can be compared, without what is computed of the others."""
+        return tuple(
+            (name, _freeze(value))
+            for name, value in sorted(vars(self).items())
+            if not isinstance(getattr(type(self), name, None), cached_property)
+        )
 
     @abstractmethod
     def psd(self, q: ArrayLike) -> NDArray:

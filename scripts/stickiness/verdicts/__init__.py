@@ -17,3 +17,22 @@ What happens to them:
 - `limits`: the value and the limits that decide
 - `verdict`: `verdict` and `thresholds` of one pair
 """
+
+__all__ = [
+    "analysis",
+    "budgets",
+    "curves",
+    "draws",
+    "judgement",
+    "limits",
+    "material",
+    "measured_surface",
+    "pair_roughness",
+    "parametric",
+    "rough_ball",
+    "rough_surface",
+    "simulated_surface",
+    "surface_variables",
+    "thresholds",
+    "verdict",
+]

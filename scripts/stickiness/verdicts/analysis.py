@@ -36,6 +36,7 @@ from stickiness.verdicts.simulated_surface import simulate_surface, stands_alone
 DRAWS = 200  #: spectra that are drawn
 SEED = 1  #: of the draws
 PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
+READING_POINTS = 100  #: along a side of the picture of the heights as read
 LEFT_OUT = "left out of the spectrum"
 IGNORED = "judged all the same (plausibility: ignore)"
 
@@ -100,6 +101,7 @@ def analyse(
         [
             _tabulate_spectrum(spectrum, q_extended),
             _thin_picture(heights[0]),
+            _thin_reading(heights[0]),
             _describe_fit(spectrum, q_extended),
             _describe_heights(measurements),
             _tabulate_draws(draws),
@@ -171,6 +173,18 @@ def _thin_picture(heights: Topography | Profile) -> xr.DataArray:
         return picture.rename("profile")
     thin = max(1, *(n // PICTURE_POINTS for n in picture.shape))
     return picture[::thin, ::thin].astype("f4").rename("heights")
+
+
+def _thin_reading(heights: Topography | Profile) -> xr.Dataset:
+    """Heights of a map before anything was done to them, and what is not used, thinned."""
+    if heights.heights.ndim == 1 or heights.as_read is None:
+        return xr.Dataset()
+    thin = max(1, -(-max(heights.as_read.shape) // READING_POINTS))
+    # One unused point in a block is shown.
+    unused = xr.DataArray(heights.unused, dims=("x_read", "y_read"))
+    unused = unused.coarsen(x_read=thin, y_read=thin, boundary="pad").max()
+    picture = heights.as_read[::thin, ::thin].astype("f4")
+    return xr.Dataset({"heights_as_read": (unused.dims, picture), "unused": unused.astype("i1")})
 
 
 def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Dataset:

@@ -69,6 +69,8 @@ SURFACE_VARIABLES = {
     "dropped_points": ("1", "points measured beside missing ones, not used"),
     "cropped_fraction": ("1", "share of points cut off to leave no missing ones"),
     "heights": ("m", "levelled heights of the first measurement, thinned"),
+    "heights_as_read": ("m", "heights of the first measurement as read, thinned", "missing"),
+    "unused": ("1", "1 if a point that was read is masked, dropped or cut off, thinned"),
     "profile": ("m", "levelled heights of the first measurement"),
     "x": ("m", "position along x"),
     "y": ("m", "position along y"),

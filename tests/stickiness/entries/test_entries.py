@@ -3,12 +3,19 @@
 import pickle
 import subprocess
 import sys
+import tomllib
+from pathlib import Path
 
+import jsonschema
 import pytest
 
-from stickiness import entries
+import stickiness
+from stickiness import Material, entries
+from stickiness.entries.material_entry import Materials
+from stickiness.solids import HALF_SPACE
 from stickiness.units import Quantity, write_quantities
 
+SCRIPTS = Path(stickiness.__file__).parents[1]
 TAPE = {
     "youngs_modulus": "0.2 MPa",
     "poisson_ratio": 0.5,
@@ -118,3 +125,56 @@ def test_importing_the_library_needs_neither_pydantic_nor_yaml():
     code = "import sys, stickiness.entries; print({'pydantic', 'yaml'} & {*sys.modules})"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "set()"
+
+
+def test_common_materials_are_a_dozen_that_can_be_judged():
+    common = entries.list_common_materials()
+    assert len(common) == 12
+    for entry in common.values():
+        material = Material.from_entry(entry)
+        assert material.solid == HALF_SPACE
+        assert entry["source"] == "typical" or "19" in entry["source"] or "20" in entry["source"]
+
+
+def test_keys_beside_a_common_material_replace_its_values():
+    common = entries.list_common_materials()["psa"]
+    assert entries.check_material({"common": "psa"}) == common
+    tape = entries.check_material({"common": "psa", "thickness": "50 um", "label": "my tape"})
+    assert tape == common | {
+        "thickness": tape["thickness"],
+        "label": "my tape",
+        "backing": "bonded",
+    }
+    table = [["0.1 Hz", "50 kPa"], ["10 Hz", "0.2 MPa"]]
+    slow = entries.check_material({"common": "psa", "youngs_modulus_table": table})
+    assert slow["youngs_modulus"] is None
+    assert slow["work_of_adhesion"] == common["work_of_adhesion"]
+    assert entries.check_material(slow) == slow
+
+
+def test_an_unknown_common_material_has_a_close_match():
+    with pytest.raises(entries.EntryError, match="'steel'") as caught:
+        entries.check_material({"common": "stel"})
+    assert (caught.value.key, caught.value.value) == ("common", "stel")
+
+
+def test_the_json_schema_knows_that_a_common_material_gives_the_rest():
+    schema = jsonschema.Draft202012Validator(Materials.model_json_schema())
+    complete = {"label": "tape", "source": "own", **TAPE}
+    for entry, right in (
+        ({"common": "psa"}, True),
+        ({"common": "psa", "thickness": "50 um"}, True),
+        (complete, True),
+        ({"label": "tape", "source": "own"}, False),
+        ({"common": "psa", "tickness": "50 um"}, False),
+    ):
+        assert schema.is_valid({"materials": {"tape": entry}}) == right, entry
+
+
+def test_a_wheel_has_all_files_that_are_no_code():
+    project = tomllib.loads((SCRIPTS.parent / "pyproject.toml").read_text(encoding="utf-8"))
+    packed = {*project["tool"]["setuptools"]["package-data"]["stickiness"]}
+    package = SCRIPTS / "stickiness"
+    files = [path for path in package.rglob("*.*") if path.suffix not in (".py", ".pyc")]
+    kept = [path.relative_to(package).as_posix() for path in files if path.is_file()]
+    assert {path for path in kept if "__pycache__" not in path} == packed

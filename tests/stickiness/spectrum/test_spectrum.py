@@ -1,11 +1,14 @@
 """Spectra: closed forms against quadrature and multiprecision, inverses, limits, errors."""
 
+import pickle
+from copy import deepcopy
+
 import mpmath
 import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.spectrum import SelfAffine, Shells, Tabulated, kinds
+from stickiness.spectrum import SelfAffine, Shells, Tabulated, combine, kinds
 
 pytestmark = pytest.mark.processors
 
@@ -160,3 +163,24 @@ def test_elastic_energy():
 
 
 GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 10.0, "h_rms": 1.0}
+
+
+def test_spectra_are_equal_to_their_copies_and_to_no_others():
+    wall = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0)
+    ground = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, h_rms=1.0, anisotropy=4.0)
+    kinds_of_spectra = [
+        wall,
+        ground,
+        SelfAffine(hurst=0.8, q0=1.0, q1=64.0, C0=wall.C0),
+        Tabulated([1.0, 2.0, 4.0], [3.0, 2.0, 1.0]),
+        Tabulated([1.0, 2.0, 4.0], [3.0, 2.0, 1.5]),
+        Shells([1.0, 2.0], [3.0, 2.0]),
+        combine(wall, ground),
+    ]
+    ground.averaged()  # kept, and no part of what the spectrum is
+    for i, rough in enumerate(kinds_of_spectra):
+        for copied in (deepcopy(rough), pickle.loads(pickle.dumps(rough))):
+            assert copied == rough
+            assert hash(copied) == hash(rough)
+        assert [other == rough for other in kinds_of_spectra].count(True) == 1, i
+    assert wall != "wall"

@@ -1,0 +1,76 @@
+"""Pull-off force of a rough ball: JKR, the energy of full contact, measured heights."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stickiness import Material, Surface, full_contact_energy, surface
+from stickiness.solids import Layer
+from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.rough_ball import pull_off_of_ball
+
+TAPE = Material(modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+RADIUS = 1e-3
+LARGE = 0.1  #: beside which the distance of the attraction is small: JKR
+
+
+def wall(h_rms):
+    return SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=h_rms)
+
+
+def test_a_hardly_rough_ball_has_the_force_of_jkr():
+    ball = pull_off_of_ball(Surface.from_spectrum(wall(1e-10)), TAPE, RADIUS)
+    jkr = 1.5 * np.pi * TAPE.work_of_adhesion * RADIUS
+    assert ball.force == pytest.approx(jkr, rel=1e-3)
+    assert ball.smooth_force == pytest.approx(jkr, rel=1e-3)
+
+
+@pytest.mark.parametrize("h_rms", [3e-7, 1e-6])
+def test_near_full_contact_the_energy_of_the_roughness_is_lost(h_rms):
+    """Persson and Tosatti (2001): the work of adhesion less the elastic energy of full contact."""
+    ball = pull_off_of_ball(Surface.from_spectrum(wall(h_rms)), TAPE, LARGE)
+    stored = full_contact_energy(wall(h_rms), TAPE.plane_strain_modulus)
+    expected = 1.5 * np.pi * LARGE * (TAPE.work_of_adhesion - stored)
+    assert ball.force == pytest.approx(expected, rel=2e-3)
+    low, high = ball.force_limits
+    assert low <= ball.force < high
+    assert not ball.few_waves
+
+
+def test_a_larger_ball_has_more_waves_in_contact_and_force_in_proportion():
+    rough = Surface.from_spectrum(wall(1e-6))
+    small, large = (pull_off_of_ball(rough, TAPE, radius) for radius in (LARGE, 8 * LARGE))
+    assert large.waves == pytest.approx(4 * small.waves)  # the contact grows with R^(2/3)
+    assert large.force == pytest.approx(8 * small.force, rel=1e-3)
+
+
+def test_limits_on_measured_heights_are_those_of_the_draws():
+    rough = SelfAffine(hurst=0.8, q0=2 * np.pi / 1e-3, q1=2 * np.pi / 64e-6, h_rms=3e-6)
+    heights = surface.synthesise(rough, 64, 2e-3, seed=3)
+    measured = Surface.from_heights(heights, 2e-3)
+    ball = pull_off_of_ball(measured, TAPE, RADIUS)
+    low, high = ball.force_limits
+    assert 0 <= low < ball.force < high
+    assert ball.force < ball.smooth_force
+    contents = ball.to_dict()
+    assert contents["pull_off_force"]["value"] == ball.force
+    assert contents["radius"] == {"value": RADIUS, "unit": "m"}
+
+
+def test_what_is_not_judged_has_no_force():
+    ball = pull_off_of_ball(Surface.from_spectrum(wall(1e-12)), TAPE, RADIUS)
+    assert np.isnan([ball.force, *ball.force_limits]).all()
+    assert "pull_off_force" not in ball.to_dict()
+
+
+@pytest.mark.parametrize("radius", [0.0, -1.0, np.nan])
+def test_a_radius_that_is_none_is_named(radius):
+    with pytest.raises(ValueError, match="^radius must be"):
+        pull_off_of_ball(Surface.from_spectrum(wall(1e-6)), TAPE, radius)
+
+
+def test_a_ball_on_a_layer_is_refused():
+    layer = replace(TAPE, solid=Layer(thickness=1e-5, poisson=0.5))
+    with pytest.raises(ValueError, match="thickness"):
+        pull_off_of_ball(Surface.from_spectrum(wall(1e-6)), layer, RADIUS)
