@@ -98,7 +98,7 @@ rule average_adhesive:
     conda:
         "../envs/environment.yaml"
     params:
-        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        adhesion=lambda wildcards: {**ADHESION[wildcards.adhesion], "maps": None},
         full=points_in_full,
         dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
         jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
@@ -137,9 +137,13 @@ rule adhesive_maps:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
+        mem_mb=memory(36, lambda wildcards: FIDELITY["map_points"] ** 2 / 1e6),
+        runtime=60,
     params:
-        adhesion=lambda wildcards: ADHESION[wildcards.adhesion],
+        adhesion=lambda wildcards: {
+            key: ADHESION[wildcards.adhesion][key] for key in ("law", "q0_h_rms", "maps")
+        },
+        points=FIDELITY["map_points"],
         code=source_hash("adhesion/adhesive_maps.py"),
     script:
         "../scripts/adhesion/adhesive_maps.py"

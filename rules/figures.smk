@@ -1,23 +1,28 @@
-# The paper's six figures with what was measured added, and seven on what the models are good for:
-# 7 the DMT sum, 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much
-# adhesion remains, 12 what of it heights decide.
+# The paper's six figures, panel by panel, and seven on what the models are good for: 7 the DMT sum,
+# 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much adhesion remains, 12
+# what of it heights decide, 13 what remains with sharp edges. scripts/common/paper_panels.py
+# lists the parameters of the paper.
 
 
 MAGNIFICATIONS = [f"H0.8_zeta{magnification}" for magnification in (32, 64, 128)]
 FIG4B = ("rough", "rough_near", "smooth")  # its adhesive sets, without "fig4b_"
+WITH_EXPONENTS = [*MAGNIFICATIONS, "H0.8_zeta32_wide"]
+FIG2_CASE = ADHESION["fig2"]["case"]
+# Cases on the surface of Figure 4A, whose theory on the spectrum of the cell it shows.
+FIG4A_CASES = [case for case in COMPLETE if CASES[case]["surface"] == LOOPS["fig4a"]["surface"]]
+# The paper's Figure 6: PMMA, ground steel and asphalt.
+FIG6_SURFACES = [
+    name for name in ("sandblasted_pmma", "ground_steel", "asphalt") if name in REAL_SURFACES
+]
 SIMULATED_IN_FULL = [adhesion for adhesion in ADHESION if seeds_in_full(adhesion)]
 FIGURE_INPUTS = {
     "fig1": {
         "density": f"{RESULTS}/persson/sweeps/fig1a.nc",
         "convergence": f"{RESULTS}/persson/sweeps/fig1b.nc",
-        "ensemble": f"{RESULTS}/contact/ensembles/H0.8_zeta64.nc",
-        "lattice": f"{RESULTS}/persson/lattice/H0.8_zeta64.nc",
     },
     "fig2": {
-        "kappa": several("fits/kappa/{case}.nc", case=MAGNIFICATIONS),
-        "ensembles": several("contact/ensembles/{case}.nc", case=MAGNIFICATIONS),
-        "lattices": several("persson/lattice/{case}.nc", case=MAGNIFICATIONS),
-        "maps": f"{RESULTS}/contact/H0.8_zeta64/maps.nc",
+        "surface": surfaces_of(FIG2_CASE),
+        "maps": f"{RESULTS}/contact/{FIG2_CASE}/maps.nc",
         "adhesion": f"{RESULTS}/adhesion/dmt/fig2.nc",
         "adhesive": f"{RESULTS}/adhesion/full/fig2.nc",
         "adhesive_maps": f"{RESULTS}/adhesion/full/fig2/maps.nc",
@@ -31,22 +36,31 @@ FIGURE_INPUTS = {
     },
     "fig4": {
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
+        "theory": several("persson/lattice/{case}.nc", case=FIG4A_CASES[:1]),
         "rough": several("adhesion/full/fig4b_{name}.nc", name=FIG4B[:2]),
         "smooth": f"{RESULTS}/adhesion/full/fig4b_smooth.nc",
         "a_v": several("fits/a_v/ensembles/{case}.nc", case=MAGNIFICATIONS[1:]),
     },
     "fig5": {"map": f"{RESULTS}/criteria/map.nc"},
-    "fig6": {"surfaces": several("real_surfaces/{surface}.nc", surface=REAL_SURFACES)},
+    "fig6": {"surfaces": several("real_surfaces/{surface}.nc", surface=FIG6_SURFACES)},
     "fig7": {"adhesive": f"{RESULTS}/adhesion/full/dmt_error.nc"},
     "fig8": {
         "comparisons": several("fits/theory/{compared}.nc", compared=SIMULATED),
         "gamma": f"{RESULTS}/fits/gamma.nc",
+        "kappa": several("fits/kappa/{case}.nc", case=MAGNIFICATIONS),
+        "lattices": several("persson/lattice/{case}.nc", case=MAGNIFICATIONS),
     },
     "fig9": {
         "compared": f"{RESULTS}/criteria/compared.nc",
         "verdicts": f"{RESULTS}/criteria/verdicts.nc",
     },
-    "fig10": {"edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL)},
+    "fig10": {
+        "edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL),
+        "ensemble": f"{RESULTS}/contact/ensembles/H0.8_zeta64.nc",
+        "lattice": f"{RESULTS}/persson/lattice/H0.8_zeta64.nc",
+        "sweep": f"{RESULTS}/fits/a_v/sweeps/fig3a.nc",
+        "fits": several("fits/a_v/ensembles/{case}.nc", case=WITH_EXPONENTS),
+    },
     "fig11": {"table": REMAINING_TABLE},
     "fig12": {"compared": f"{RESULTS}/remaining/heights.nc"},
     "fig13": {"table": REMAINING_TABLE},
@@ -76,7 +90,7 @@ for figure, files in FIGURE_INPUTS.items():
             "../envs/environment.yaml"
         params:
             pressure=config["criteria"]["a_v"]["pressure"],
-            labels=LABELS if figure == "fig6" else {},
+            labels={name: LABELS[name] for name in FIG6_SURFACES} if figure == "fig6" else {},
             figure=figure,  # the path of the script is formatted when the job runs
             code=source_hash(f"figures/plot_{figure}.py"),
         script:

@@ -8,8 +8,6 @@ THEORY = {
     "gaps": GAPS,
     "windows": config["a_v"]["windows"],
 }
-# Cases and comparisons that are shown are evaluated together, every other case in a job of its own.
-SHOWN = {"cases": COMPLETE, "comparisons": list(COMPARISONS)}
 
 
 def describe_lattices(names):
@@ -54,8 +52,6 @@ rule persson_lattice:
         f"{RESULTS}/logs/persson_lattice/persson/lattice/{{case}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/persson_lattice/persson/lattice/{{case}}.tsv"
-    wildcard_constraints:
-        case=choices(case for case in CASES if case not in COMPLETE),
     conda:
         "../envs/environment.yaml"
     params:
@@ -66,29 +62,28 @@ rule persson_lattice:
         "../scripts/persson/persson_lattice.py"
 
 
-for shown, names in SHOWN.items():
-    if names:
+# The comparisons of Figure 8 are evaluated together: each takes less time than a job takes to start.
+# A case has a job of its own, so that a new one leaves the others and their figures alone.
+if COMPARISONS:
 
-        rule:
-            name:
-                f"persson_{shown}"
-            input:
-                laws=ERROR_MODELS,
-            output:
-                theory=several("persson/lattice/{name}.nc", name=names),
-                a_v=several("fits/a_v/lattice/{name}.nc", name=names),
-            log:
-                f"{RESULTS}/logs/persson_{shown}/persson/lattice.log",
-            benchmark:
-                f"{RESULTS}/benchmarks/persson_{shown}/persson/lattice.tsv"
-            conda:
-                "../envs/environment.yaml"
-            params:
-                **THEORY,
-                lattices=describe_lattices(names),
-                code=source_hash("persson/persson_lattice.py"),
-            script:
-                "../scripts/persson/persson_lattice.py"
+    rule persson_comparisons:
+        input:
+            laws=ERROR_MODELS,
+        output:
+            theory=several("persson/lattice/{name}.nc", name=COMPARISONS),
+            a_v=several("fits/a_v/lattice/{name}.nc", name=COMPARISONS),
+        log:
+            f"{RESULTS}/logs/persson_comparisons/persson/lattice.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/persson_comparisons/persson/lattice.tsv"
+        conda:
+            "../envs/environment.yaml"
+        params:
+            **THEORY,
+            lattices=describe_lattices(COMPARISONS),
+            code=source_hash("persson/persson_lattice.py"),
+        script:
+            "../scripts/persson/persson_lattice.py"
 
 
 rule persson_table:

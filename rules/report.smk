@@ -1,5 +1,7 @@
 # The report of all results, and for every real surface its verdicts and a page.
 
+from common.paper_panels import compare_panels
+
 
 def figure_sources(wildcards, output):
     """Datasets that each figure shows."""
@@ -31,13 +33,18 @@ def contact_of_surface(wildcards):
 rule write_report:
     input:
         template=project_file("report/report.html.j2"),
-        parts=[*PAGE_PARTS, project_file("report/errata.j2")],
+        parts=[
+            *PAGE_PARTS,
+            project_file("report/errata.j2"),
+            project_file("report/panels.j2"),
+        ],
         figures=several("figures/{figure}.png", figure=FIGURES),
         captions=[project_file(f"report/{figure}.rst") for figure in FIGURES],
         claims=f"{RESULTS}/claims/claims.nc",
         verdicts=f"{RESULTS}/criteria/verdicts.nc",
         criterion=f"{RESULTS}/criteria/map.nc",
         experiments=f"{RESULTS}/experiments/experiments.nc",
+        adhesive_maps=f"{RESULTS}/adhesion/full/fig2/maps.nc",
         experiments_figure=f"{RESULTS}/figures/experiments.png",
         experiments_caption=project_file("report/experiments.rst"),
         ensembles=several("contact/ensembles/{case}.nc", case=COMPLETE),
@@ -67,6 +74,7 @@ rule write_report:
         surfaces=REAL_SURFACES,
         fidelity=config["fidelity"],
         figure_sources=figure_sources,
+        panels=compare_panels(config),
         code=source_hash("report/write_report.py"),
     script:
         "../scripts/report/write_report.py"
@@ -111,7 +119,8 @@ rule write_surface:
 rule write_findings:
     input:
         template=project_file("report/findings.md.j2"),
-        part=project_file("report/left_out.j2"),
+        parts=[project_file("report/left_out.j2"), project_file("report/panels.j2")],
+        adhesive_maps=f"{RESULTS}/adhesion/full/fig2/maps.nc",
         claims=f"{RESULTS}/claims/claims.nc",
         a_v=several("fits/a_v/ensembles/{case}.nc", case=COMPLETE),
         lattices=several("fits/a_v/lattice/{case}.nc", case=COMPLETE),
@@ -134,6 +143,7 @@ rule write_findings:
         "../envs/environment.yaml"
     params:
         fidelity=config["fidelity"],
+        panels=compare_panels(config),
         code=source_hash("report/write_findings.py"),
     script:
         "../scripts/report/write_findings.py"

@@ -137,27 +137,27 @@ def name_measurements(surface):
     return [source.rpartition(": ")[2].rpartition("/")[2] for source in sources]
 
 
-def draw_assumed(ax, surface, colour, power=0):
-    """Band, which covers 90 %, of a measured spectrum times q^power where it is not measured."""
+def draw_assumed(ax, surface, colour):
+    """Band, which covers 90 %, of a measured spectrum where it is not measured."""
     q = surface.wave_number.values
-    low, high = surface.psd.where(~find_rings(surface)).values * q**power  # one standard error off
+    low, high = surface.psd.where(~find_rings(surface)).values  # one standard error off
     middle = np.sqrt(low * high)
     factor = np.sqrt(high / low) ** COVERS
     draw_band(ax, q, middle / factor, middle * factor, colour)
 
 
-def draw_spectrum(ax, surface, colour, label=None, power=0):
-    """Spectrum of a real surface times q^power: rings with bars that cover 90 %, or a band."""
+def draw_spectrum(ax, surface, colour, label=None):
+    """Spectrum of a real surface: rings with bars that cover 90 %, or a band."""
     if "psd_standard_error" not in surface:
         q = surface.wave_number
-        low, high = surface.psd.values * q.values**power
+        low, high = surface.psd.values
         draw_band(ax, q, low, high, colour)
         ax.plot(q, low, q, high, color=colour, linewidth=0.9)
         ax.plot([], [], color=colour, linewidth=4, alpha=0.6, label=label)
         return
     rings = surface.isel(wave_number=find_rings(surface))
-    psd = rings.psd.isel(end=0) * rings.wave_number**power
-    error = COVERS * rings.psd_standard_error * rings.wave_number**power
+    psd = rings.psd.isel(end=0)
+    error = COVERS * rings.psd_standard_error
     below = np.minimum(error, 0.9 * psd)  # a bar down to zero has no end on a log axis
     look = {"marker": "o", "linestyle": "none", "markersize": 2.5, "elinewidth": 0.7}
     ax.errorbar(rings.wave_number, psd, [below, error], color=colour, label=label, **look)

@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from common import plotting
+from common import paper_panels, plotting
 from common.conventions import LOAD, VARIANT
 from common.job import start
 from common.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
-from common.theory_variants import between_corrections
+from figures.theory_curves import draw_theory, name_case
 from stickiness import criteria, datasets
 from stickiness.formatting import number
 
@@ -19,7 +19,7 @@ THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
-    fits = [datasets.read(path, ["a_v", "window_low", "exponent"]) for path in job.input.fits]
+    fits = [datasets.read(path, ["a_v", "window_low"]) for path in job.input.fits]
     cases = []
     files = zip(job.input.bem, job.input.bem_fits, job.input.lattice_fits, strict=True)
     for areas, fit, lattice in files:
@@ -31,13 +31,11 @@ def main(job):
         cases.append(case)
     cases.sort(key=lambda case: case.order)
     alike = [case for case in cases if case.order[0] == float(sweeps[0].hurst[0])]
-    rows = "AB;CD;EE"
-    with plotting.open_figure(job.output, rows, 8.6, height_ratios=[1, 1, 0.85]) as panels:
+    with plotting.open_figure(job.output, "AB;CD", 6.1) as panels:
         draw_magnifications(panels["A"], sweeps[0], alike)
         draw_pressures(panels["B"], sweeps[1])
         draw_a_v(panels["C"], sweeps[2], fits[2], cases)
         draw_a_v_of_pressure(panels["D"], sweeps[3], fits[3], alike)
-        draw_exponents(panels["E"], fits[0], alike)
 
 
 def join(areas, fit, lattice):
@@ -47,10 +45,8 @@ def join(areas, fit, lattice):
     case = areas.merge(fit, join="exact", combine_attrs="override")
     parameters = datasets.parameters(case)
     window = parameters["window"]
-    magnification = parameters["magnification"]
-    side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
-    label = state(magnification=magnification) + side
-    return case.assign_attrs(order=(parameters["hurst"], window, magnification), label=label)
+    order = (parameters["hurst"], window, parameters["magnification"])
+    return case.assign_attrs(order=order, label=name_case(case))
 
 
 def draw_magnifications(ax, theory, cases):
@@ -72,19 +68,11 @@ def draw_magnifications(ax, theory, cases):
         look = pick_look(index, label=case.label)
         plotting.draw_points(ax, x, area, "attractive_area_mean", **look)
     x = np.array([0, LARGEST_RANGE**EXPONENT])
-    converged_a_v = 3.0  # of the paper, for the guides
-    look = {"color": BLACK, "zorder": 5, "label": state(a_v=converged_a_v)}
-    ax.plot(x, 1.5 * converged_a_v * pressure * x, ":", **look)
+    look = {"color": BLACK, "zorder": 5, "label": state(a_v=paper_panels.A_V)}
+    ax.plot(x, 1.5 * paper_panels.A_V * pressure * x, ":", **look)
     handles, _ = ax.get_legend_handles_labels()
     handles = handles[theory.sizes["magnification"] :]
     ax.legend(handles=handles, loc="upper right", title="BEM")
-
-
-def draw_theory(ax, x, values, colour, **look):
-    """Quoted variant of the theory, and a band between its corrections."""
-    low, high = between_corrections(values)
-    plotting.draw_band(ax, x, low, high, colour)
-    ax.plot(x, values.sel(variant=VARIANT), color=colour, **look)
 
 
 def dress_areas(ax, top):
@@ -162,30 +150,6 @@ def draw_a_v_of_pressure(ax, sweep, fit, cases):
     ax.set_title(state(hurst=hurst))
     theory = make_key(f"theory, {state(magnification=float(sweep.magnification))}")
     plotting.add_legend(ax, theory, THEORY_ON_WINDOW, loc="upper right")
-
-
-def draw_exponents(ax, fit, cases):
-    """Local exponents of the areas, by theory and simulation."""
-    hurst = float(fit.hurst[0])
-    exponents = fit.exponent.isel(hurst=0, load=0)
-    for colour, magnification in plotting.shade(fit.magnification.values):
-        curve = exponents.sel(magnification=magnification)
-        draw_theory(ax, curve["range"], curve, colour)
-    for index, case in enumerate(cases):
-        exponent = case.exponent.sel(pressure=LOAD, method="nearest")
-        exponent = exponent.isel(range=slice(None, None, 2))
-        look = pick_look(index, linestyle="none", markersize=3, label=case.label)
-        ax.plot(exponent["range"], exponent, **look)
-    for x, level, text, side in (
-        (9, EXPONENT, "2/3: edges", "right"),
-        (0.05, (1 - hurst) / hurst, r"$(1-H)/H$: fractal", "center"),
-    ):
-        ax.axhline(level, color=BLACK, linestyle=":", linewidth=0.9)
-        ax.text(x, level + 0.015, text, ha=side, fontsize=8)
-    ax.set(xscale="log", xlim=(1e-4, 10), ylim=(0, 1.3), xlabel=plotting.RANGE)
-    ax.set_ylabel(r"$\mathrm{d}\,\ln A_\mathrm{ad}\,/\,\mathrm{d}\,\ln\epsilon$")
-    ax.legend(loc="upper left", title="BEM")
-    ax.set_title(f"{state(hurst=hurst, pressure=LOAD)}, theory as in A")
 
 
 if __name__ == "__main__":

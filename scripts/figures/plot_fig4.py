@@ -1,13 +1,16 @@
 """Figure 4: area against external load with adhesion, and the adhesive part of the slope."""
 
+import numpy as np
 import xarray as xr
 
 from common import plotting
+from common.adhesion_sets import scaled_law
+from common.conventions import VARIANT
 from common.job import start
+from common.paper_panels import A_V_FIG4B
 from common.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state
-from stickiness import criteria, datasets
+from stickiness import criteria, datasets, dmt
 
-PAPER_A_V = 2.8
 SMALL = 3  # size of open markers
 
 
@@ -18,10 +21,14 @@ def main(job):
     # In the fit interval that is quoted.
     fits = (datasets.read(path, ["a_v_mean"]).isel(window=0) for path in job.input.a_v)
     a_v = [float(fit.a_v_mean.sel(**place)) for fit in fits]
-    with plotting.open_figure(job.output, "AB;CB", 5.4, width_ratios=[1, 1.15]) as panels:
-        draw_loops(panels["A"], loop.isel(resolution=-1))
+    lattices = [
+        datasets.read(path, ["attractive_area", "area_fraction"]) for path in job.input.theory
+    ]
+    with plotting.open_figure(job.output, "AB", 4.9, width_ratios=[1, 1.1]) as panels:
+        finest = loop.isel(resolution=-1)
+        draw_loading(panels["A"], finest, lattices)
+        draw_cycle(panels["A"].inset_axes([0.56, 0.6, 0.42, 0.38]), finest)
         draw_lengths(panels["B"], surfaces, a_v)
-        draw_ranges(panels["C"], surfaces, a_v)
 
 
 def read_ranges(paths):
@@ -31,35 +38,81 @@ def read_ranges(paths):
     return data.sortby("range_over_h_rms")
 
 
-def draw_loops(ax, loop):
-    """Repulsive area on approach and separation, at given mean gap and under a press."""
+def draw_loading(ax, loop, lattices):
+    """Repulsive area on loading by simulation, and by Persson's theory with the DMT sum."""
     lengths = loop.adhesion_length_over_range.values
+    press = loop.sel(control="pressure")
     for length, colour in zip(lengths, COLOURS, strict=False):
-        curves = loop.sel(adhesion_length_over_range=length)
-        gap = curves.sel(control="mean_gap")
-        press = curves.sel(control="pressure")
-        turn = int(press.separating.sum("state") and press.separating.argmax("state"))
-        loading = slice(None, turn)
-        unloading = slice(turn - 1, None)
-        for leg, line, look in (
-            (gap, "-", {"linewidth": 0.6}),
-            (press.isel(state=loading), "-", {"label": f"{length:g}"}),
-            (press.isel(state=unloading), "--", {}),
-            (press.dropna("state").isel(state=-1), "o", {}),
-        ):
-            ax.plot(leg.mean_pressure, leg.repulsive_area_fraction, line, color=colour, **look)
-    ax.axvline(0, color=GREY, linewidth=0.7)
+        curve = press.sel(adhesion_length_over_range=length).dropna("state")
+        curve = curve.isel(state=slice(None, turning_point(curve)))
+        ax.plot(
+            curve.mean_pressure, curve.repulsive_area_fraction, color=colour, label=f"{length:g}"
+        )
+        for lattice in lattices:
+            pressure, area = load_by_theory(lattice, loop, length)
+            ax.plot(pressure, area, "x", color=colour, markersize=5, mew=1.4)
     parameters = datasets.parameters(loop)
+    largest = parameters["pressure"]
+    ax.axvline(0, color=GREY, linewidth=0.7)
+    ax.set_xlim(-0.55 * largest, 1.05 * largest)
+    ax.set_ylim(0, 1.75 * float(loop.repulsive_area_fraction.max()))  # room for the inset
     ax.set_xlabel(r"mean pressure $p_\mathrm{ext}/(E^*q_0h_\mathrm{rms})$")
     ax.set_ylabel(plotting.CONTACT_AREA)
-    ax.locator_params(axis="x", nbins=5)
-    ax.set_title(
-        state(magnification=parameters["magnification"], range=parameters["range_over_h_rms"])
+    values = {"magnification": parameters["magnification"], "range": parameters["range_over_h_rms"]}
+    ax.set_title(state(**values, q0_h_rms=parameters["q0_h_rms"]))
+    kinds = [make_key("BEM"), make_dot("theory", marker="x", markersize=5)]
+    ax.add_artist(ax.legend(handles=kinds, loc="upper left", bbox_to_anchor=(0, 0.82)))
+    look = {"title": plotting.SYMBOLS["adhesion_length"], "alignment": "left"}
+    ax.legend(loc="upper left", **look)
+
+
+def turning_point(curve):
+    """Number of the states of a curve on the way to the largest load."""
+    separating = curve.separating.values
+    return int(np.argmax(separating)) if separating.any() else separating.size
+
+
+def load_by_theory(lattice, loop, length):
+    """External pressure and area by Persson's theory, attraction by the DMT sum over its gaps."""
+    parameters = datasets.parameters(loop)
+    law = scaled_law(parameters, parameters["law"], length, parameters["range_over_h_rms"])
+    theory = lattice.sel(variant=VARIANT)
+    areas = theory.attractive_area.transpose("pressure", "range").values
+    attraction = dmt.sum_over_gaps(areas, theory["range"].values, law.traction)
+    return theory.pressure.values - attraction, theory.area_fraction.values
+
+
+def draw_cycle(ax, loop):
+    """The loading cycle of the strongest adhesion near zero load, with jumps and pull-off."""
+    curves = loop.isel(adhesion_length_over_range=-1)
+    colour = COLOURS[loop.sizes["adhesion_length_over_range"] - 1]
+    gap = curves.sel(control="mean_gap")
+    press = curves.sel(control="pressure").dropna("state")
+    turn = turning_point(press)
+    loading = press.isel(state=slice(None, turn))
+    unloading = press.isel(state=slice(turn - 1, None))
+    for leg, line, look in (
+        (gap, "-", {"linewidth": 0.6, "label": "given gap"}),
+        (loading, "-", {"label": "loading"}),
+        (unloading, "--", {"label": "unloading"}),
+        (press.isel(state=[-1]), "o", {"label": "pull-off"}),
+    ):
+        ax.plot(leg.mean_pressure, leg.repulsive_area_fraction, line, color=colour, **look)
+    errors = {
+        "xerr": curves.pull_off_pressure_total_error,
+        "yerr": curves.pull_off_area_total_error,
+    }
+    ax.errorbar(
+        float(curves.pull_off_pressure), float(curves.pull_off_area), color=colour, **errors
     )
-    kinds = [make_key("loading"), make_key("unloading", linestyle="--")]
-    kinds += [make_key("at given gap", linewidth=0.6), make_dot("pull-off")]
-    ax.add_artist(ax.legend(handles=kinds, loc="lower right"))
-    ax.legend(title=r"$l_a/\epsilon$", loc="upper left")
+    ax.axvline(0, color=GREY, linewidth=0.7)
+    tension = -float(press.mean_pressure.min())
+    largest_area = float(
+        unloading.repulsive_area_fraction.where(unloading.mean_pressure < tension).max()
+    )
+    ax.set(xlim=(-1.2 * tension, 2.4 * tension), ylim=(0, 1.1 * largest_area))
+    ax.tick_params(labelsize=7)
+    ax.legend(fontsize=7, loc="lower right", handlelength=1.4)
 
 
 def draw_lengths(ax, surfaces, a_v):
@@ -75,7 +128,7 @@ def draw_lengths(ax, surfaces, a_v):
         lengths = data.adhesion_length_over_range.values
         for colour, range_ in plotting.shade(data.range_over_h_rms.values):
             here = data.sel(range_over_h_rms=range_)
-            for value, line in ((PAPER_A_V, "-"), (measured, "--")):
+            for value, line in ((A_V_FIG4B, "-"), (measured, "--")):
                 formula = by_formula(data, lengths, range_, value)
                 ax.plot(lengths, formula, line, color=colour, linewidth=0.8)
             look = {"color": colour, "marker": marker}
@@ -99,7 +152,7 @@ def draw_lengths(ax, surfaces, a_v):
         make_dot("by fitted slopes", **small),
         make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
         make_dot("DMT sum chosen", marker="x", color=RED),
-        make_key(f"formula, {state(a_v=PAPER_A_V)}"),
+        make_key(f"formula, {state(a_v=A_V_FIG4B)}"),
         make_key("formula, $a_V$ measured", linestyle="--"),
     ]
     ax.legend(handles=keys, loc="lower right")
@@ -115,33 +168,6 @@ def draw_slopes(ax, x, data, name, scale=1.0, **look):
     _, total = plotting.read_errors(data, name)
     data = data[[name, f"{name}_error"]].where(total < data[name])
     plotting.draw_points(ax, x, data, name, scale, **look)
-
-
-def draw_ranges(ax, surfaces, a_v):
-    """Slopes, tractions and DMT sum over the formula, against the range."""
-    for index, (data, measured) in enumerate(zip(surfaces, a_v, strict=True)):
-        length = largest_weak_length(data)
-        data = data.sel(adhesion_length_over_range=length)
-        for colour, range_ in plotting.shade(data.range_over_h_rms.values):
-            here = data.sel(range_over_h_rms=[range_])
-            scale = by_formula(data, length, range_, PAPER_A_V)
-            x = plotting.move_aside(range_, index - 0.5, 1.08)
-            look = {"color": colour, "marker": MARKERS[index]}
-            direct = here.inverse_kappa_ad_direct / scale
-            plotting.draw_hollow(ax, x, direct, **look, markersize=SMALL)
-            draw_slopes(ax, x, here, "inverse_kappa_ad", scale, **look)
-        ax.axhline(measured / PAPER_A_V, color=GREY, linestyle="--", linewidth=0.8)
-    ax.axhline(1, color=GREY, linewidth=0.9)
-    ax.set(xscale="log", xlabel=plotting.RANGE)
-    ax.set_ylim(bottom=0)
-    ax.set_ylabel(rf"$1/\kappa_\mathrm{{ad}}$ over formula, {state(a_v=PAPER_A_V)}")
-
-
-def largest_weak_length(data):
-    """Largest adhesion length whose adhesion is still in proportion to it, at any range."""
-    largest = data.inverse_kappa_ad.max("range_over_h_rms")
-    proportional_up_to = 0.12  # 1/kappa_ad that is in proportion to l_a within the errors
-    return float(data.adhesion_length_over_range.where(largest < proportional_up_to).max())
 
 
 if __name__ == "__main__":

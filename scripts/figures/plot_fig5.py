@@ -1,51 +1,74 @@
-"""Figure 5: largest roughness that sticks, and the slope of the area-load line."""
+"""Figure 5: the plane of the criterion, and the slope of the area-load line."""
+
+import numpy as np
 
 from common import plotting
 from common.job import start
-from common.plotting import BLACK, COLOURS, GREY, RED, interpolate, state
-from stickiness import datasets
+from common.paper_panels import A_V, CRYSTAL, H_RMS_LIMITS
+from common.plotting import BLACK, BLUE, COLOURS, GREEN, GREY, RED, interpolate, state
+from stickiness import criteria, datasets
+from stickiness.formatting import number
 
 LENGTH = "adhesion_length_over_range"
-LENGTHS = [0.001, 0.01, 0.1, 1.0, 10.0]
-EMPHASISED = 0.05  # l_a/range of a crystal on itself
 EDGES = "h_rms_limit_edges"
-LOOKS = {  # line, colour, width and label
-    EDGES: ("-", RED, 2, f"edges, {state(adhesion_length=EMPHASISED)}, with error"),
-    "h_rms_limit": ("-", BLACK, 1.0, "DMT sum, $a_V$ as tabulated"),
-    "h_rms_limit_constant": ("-.", RED, 1.2, "DMT sum, constant $a_V$ = {a_v:.1f}"),
-    "h_rms_limit_printed": ("--", RED, 1.2, "DMT sum, 9/4 as printed"),
-    "jtb_limit": ("-.", BLACK, 1.0, "JTB: DMT valid above"),
-    "weak_limit": (":", BLACK, 1.2, "edges weak above, stronger below"),
-}
+PARAMETER = r"$\epsilon q_0/(l_a/\epsilon)$"
 ROUGHNESS = r"roughness $h_\mathrm{rms}/\epsilon$"
 
 
 def main(job):
-    data = datasets.read(job.input.map, [*LOOKS, "slope_angle", "a_v"])
-    with plotting.open_figure(job.output, "AB", 4.2, width_ratios=[1.35, 1]) as panels:
-        draw_limits(panels["A"], data)
+    names = [EDGES, f"{EDGES}_low", f"{EDGES}_high", "slope_angle", "a_v"]
+    data = datasets.read(job.input.map, names)
+    with plotting.open_figure(job.output, "AB", 4.0, width_ratios=[1.2, 1]) as panels:
+        draw_plane(panels["A"], data)
         draw_angles(panels["B"], data)
 
 
-def draw_limits(ax, data):
-    """Limit of stickiness for a few adhesion lengths, by the edges, and where its forms hold."""
-    x = data.range_times_q0
-    for colour, length in plotting.shade(LENGTHS):
-        ax.plot(x, interpolate(data[EDGES], LENGTH, length), color=colour, label=f"{length:g}")
-    low = interpolate(data[f"{EDGES}_low"], LENGTH, EMPHASISED)
-    high = interpolate(data[f"{EDGES}_high"], LENGTH, EMPHASISED)
-    plotting.draw_band(ax, x, low, high, RED, alpha=0.25)
-    ax.add_artist(ax.legend(title=plotting.SYMBOLS["adhesion_length"], loc="lower left", ncols=2))
-    drawn = []
-    for name, (line, colour, width, text) in LOOKS.items():
-        look = {"color": colour, "linewidth": width, "label": text.format(a_v=float(data.a_v))}
-        drawn += ax.plot(x, interpolate(data[name], LENGTH, EMPHASISED), line, **look)
-    look = {"color": RED, "mfc": "white", "zorder": 5, "label": "the paper's numbers"}
-    claimed = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0 and the paper's limit of h_rms/range
-    drawn[4:4] = ax.plot(claimed.keys(), claimed.values(), "o", **look)
-    ax.legend(handles=drawn, loc="upper right")
-    ax.set(xscale="log", yscale="log", xlim=(4e-13, 1e-2), ylim=(1, 1e14))
-    ax.set(xlabel=r"lowest wave number $\epsilon q_0$", ylabel=f"largest sticky {ROUGHNESS}")
+def draw_plane(ax, data):
+    """The plane in which the criterion is one line, with the validity of DMT and the edges."""
+    h = np.geomspace(1, 1e8, 200)  # h_rms/range
+    measured = [float(data[name]) for name in ("a_v", "a_v_low", "a_v_high")]
+    limit, low, high = (find_parameter(h, a_v) for a_v in measured)
+    bottom, top = 1e-14, 1e2
+    plotting.draw_band(ax, h, bottom, limit, GREY, alpha=0.15)
+    plotting.draw_band(ax, h, low, high, BLACK, alpha=0.35)
+    ax.plot(h, limit, color=BLACK, label=f"measured {state(a_v=measured[0])}, with error")
+    correct = f"{state(a_v=A_V)}: coefficient {number(1.5 * A_V)}"
+    ax.plot(h, find_parameter(h, A_V), "--", color=BLUE, label=correct)
+    printed = f"as printed: coefficient {number(1.5 * criteria.PRINTED_A_V)}"
+    ax.plot(h, find_parameter(h, criteria.PRINTED_A_V), "--", color=RED, label=printed)
+    # The JTB limit of h_rms/range is inversely proportional to the parameter.
+    jtb = criteria.jtb_limit(1.0, 1.0, 1.0) / h
+    ax.plot(h, jtb, "-.", color=BLACK, linewidth=1.0, label="JTB: DMT valid above")
+    look = {"color": RED, "mfc": "white", "linestyle": "none", "marker": "o", "zorder": 5}
+    range_times_q0 = np.array([*H_RMS_LIMITS])
+    parameters = range_times_q0 / CRYSTAL
+    ax.plot([*H_RMS_LIMITS.values()], parameters, label="the paper's numbers", **look)
+    recomputed = criteria.h_rms_limit(range_times_q0, CRYSTAL, 1.0, criteria.PRINTED_A_V)
+    look |= {"marker": "+", "mew": 1.4, "markersize": 6}
+    ax.plot(recomputed, parameters, label="recomputed as printed", **look)
+    draw_edges(ax, data)
+    ax.text(2, 3e-12, "sticky", fontsize=9)
+    ax.set(xscale="log", yscale="log", xlim=(h[0], h[-1]), ylim=(bottom, top))
+    ax.set(xlabel=ROUGHNESS, ylabel=PARAMETER)
+    ax.legend(loc="upper right")
+
+
+def find_parameter(h_over_range, a_v):
+    """Largest range q0/(l_a/range) that sticks by the criterion with a constant a_V."""
+    # The limit of h_rms/range falls as the parameter to the power -3/5.
+    at_one = criteria.h_rms_limit(1.0, 1.0, 1.0, a_v)
+    return (at_one / h_over_range) ** (5 / 3)
+
+
+def draw_edges(ax, data):
+    """Onset of stickiness at the edges of contact for the adhesion length of a crystal."""
+    parameter = data.range_times_q0 / CRYSTAL
+    limit, low, high = (
+        interpolate(data[f"{EDGES}{end}"], LENGTH, CRYSTAL) for end in ("", "_low", "_high")
+    )
+    ax.fill_betweenx(parameter, low, high, color=GREEN, alpha=0.3, linewidth=0)
+    label = f"edges, {state(adhesion_length=CRYSTAL)}, with error"
+    ax.plot(limit, parameter, color=GREEN, label=label)
 
 
 def draw_angles(ax, data):
@@ -59,7 +82,7 @@ def draw_angles(ax, data):
     ax.set(xscale="log", ylim=(60, 180), yticks=range(60, 181, 30))
     ax.set(xlabel=ROUGHNESS, ylabel=r"angle arctan $\kappa$ of the area–load line [°]")
     ax.set_title(state(a_v=datasets.parameters(data)["slope_a_v"]))
-    ax.legend(title=r"$\epsilon q_0/(l_a/\epsilon)$", loc="center right")
+    ax.legend(title=PARAMETER, loc="center right")
 
 
 if __name__ == "__main__":

@@ -1,13 +1,13 @@
-"""Figure 8: Persson's theory over simulation, by surface and by theory, and gamma by simulation."""
+"""Figure 8: Persson's theory against simulation, by surface and by theory, gamma, and kappa."""
 
 from itertools import pairwise
 
 import numpy as np
 
 from common import plotting
-from common.conventions import LOAD, VARIANT
+from common.conventions import LINEAR_UP_TO, LOAD, VARIANT
 from common.job import start
-from common.plotting import BLACK, BLUE, GREY, RED, make_dot, pick_look, state
+from common.plotting import BLACK, BLUE, GREY, RED, make_dot, make_key, pick_look, state
 from stickiness import datasets
 from stickiness.formatting import interval
 
@@ -34,8 +34,10 @@ def main(job):
     shown_range = 0.1  # over h_rms, of the attractive area
     cases = sorted((file.interp({"range": shown_range}) for file in files), key=read_surface)
     gamma = datasets.read(job.input.gamma, ["gamma", "gamma_low", "gamma_high", "quantities_agree"])
-    rows = "AABBCC;DDDEEE;FFFFFF"
-    ratios = [0.3 * len(cases) + 0.6, 2.2, 2.2]
+    kappas = [datasets.read(path, ["kappa", "area_fraction"]) for path in job.input.kappa]
+    lattices = [datasets.read(path, ["kappa"]) for path in job.input.lattices]
+    rows = "AABBCC;DDDEEE;FFFGGG"
+    ratios = [0.3 * len(cases) + 0.6, 2.2, 2.5]
     height = sum(ratios) + 0.9
     with plotting.open_figure(job.output, rows, height, height_ratios=ratios) as panels:
         for letter, name in zip("ABC", TITLES, strict=True):
@@ -49,6 +51,7 @@ def main(job):
         draw_theories(panels["D"], cases)
         draw_gamma(panels["E"], gamma)
         draw_windows(panels["F"], cases)
+        draw_slopes(panels["G"], kappas, lattices)
         keys = []
         for load, (colour, marker) in LOADS.items():
             near = [float(find_nearest(case, load).pressure) for case in cases]
@@ -153,8 +156,8 @@ def draw_gamma(ax, gamma):
         ax.plot(float(fits.own_gamma), count - 0.45, **look, mfc="white", clip_on=False)
     ax.plot([], [], linestyle="none", marker="o", color=BLACK, mfc="white", label="published")
     ax.set_yticks(np.arange(count), [SYMBOLS[str(name)] for name in gamma.quantity.values])
-    ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.15), xlabel=r"best $\gamma$, 95 %, and misfit")
-    ax.legend(loc="lower right")
+    ax.set(ylim=(count - 0.3, -0.5), xlim=(0.25, 1.6), xlabel=r"best $\gamma$, 95 %, and misfit")
+    ax.legend(loc="center right")
 
 
 def draw_windows(ax, cases):
@@ -170,13 +173,35 @@ def draw_windows(ax, cases):
     ax.axhline(1, color=GREY, linewidth=0.7, zorder=0)
     margin = float(cases[0].margin)
     ax.axvline(margin, color=GREY, linestyle=":")
-    ax.text(margin, 0.93, "too few summits ", ha="right", transform=ax.get_xaxis_transform())
+    look = {"rotation": 90, "ha": "right", "va": "top", "fontsize": 8}
+    ax.text(margin, 0.97, "too few summits", transform=ax.get_xaxis_transform(), **look)
     label = f"simulation/theory, {SYMBOLS['attractive_area']}"
     ax.set(yscale="log", xlim=(-0.8, 3.2), ylabel=label)
     plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
     several = make_dot("of several", color=BLUE, marker="s")
-    ax.legend(handles=[make_dot("cell of one longest wave", color=RED), several])
+    keys = [make_dot("cell of one longest wave", color=RED), several]
+    ax.legend(handles=keys, loc="lower right", handletextpad=0.2)
+
+
+def draw_slopes(ax, kappas, lattices):
+    """kappa_rep load by load; open symbols beyond the area that is called linear."""
+    for index, (kappa, lattice) in enumerate(zip(kappas, lattices, strict=True)):
+        look = pick_look(index, markersize=3.5)
+        # Both variants of the theory have the same area.
+        theory = lattice.kappa.sel(variant=VARIANT)
+        ax.plot(theory.pressure, theory, color=look["color"], linewidth=0.9)
+        pressure = plotting.move_aside(kappa.pressure, index - 1)
+        label = state(magnification=datasets.parameters(kappa)["magnification"])
+        plotting.draw_points(ax, pressure, kappa, "kappa", **look, label=label)
+        beyond = kappa.kappa.where(kappa.area_fraction > LINEAR_UP_TO)
+        plotting.draw_hollow(ax, pressure, beyond, **look | {"zorder": plotting.FILLED + 1})
+    ax.axhline(2, color=GREY, linestyle="--", linewidth=0.9)
+    ax.set(xscale="log", ylim=(1.4, 3.7), xlabel=plotting.PRESSURE)
+    ax.set_ylabel(r"slope $\kappa_\mathrm{rep}$")
+    ax.set_title(f"open: area above {100 * LINEAR_UP_TO:.0f} %")
+    straight = make_key(r"$\kappa$ = 2", linestyle="--", linewidth=0.9)
+    plotting.add_legend(ax, make_key("theory"), straight, loc="upper right")
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@ from docutils.core import publish_parts
 from docutils.writers.html5_polyglot import Writer
 from markupsafe import Markup
 
+from stickiness import datasets
+
 RST = {
     "raw_enabled": False,
     "file_insertion_enabled": False,
@@ -36,6 +38,12 @@ def embed_figure(path, caption):
         "caption": shown,
         "alt": re.split(r"(?<=[\w)%]{2}\.)\s(?=[A-Z])", shown.striptags(), maxsplit=1)[0],
     }
+
+
+def find_pixels(maps):
+    """Pixels in the zone of attraction of the strongest adhesion of Figure 2's maps."""
+    strongest = datasets.read(maps, ["pixels_in_zone"]).isel(adhesion_length_over_range=-1)
+    return float(strongest.pixels_in_zone)
 
 
 def convert_rst(text):

@@ -10,6 +10,7 @@ from common.experiment_outcomes import OUTCOMES, describe
 from common.job import start
 from common.templates import write_page
 from common.verdict_texts import count_pairs
+from report.pages import find_pixels
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
@@ -41,6 +42,8 @@ def main(job):
         inputs.template,
         job.output[0],
         fidelity=job.params.fidelity,
+        panels=job.params.panels,
+        pixels_in_zone=find_pixels(inputs.adhesive_maps),
         claims=read(inputs.claims).drop_dims("source").to_dataframe().reset_index(),
         cells=compare_cells(map(read, inputs.a_v), map(read, inputs.lattices)),
         gamma=read(inputs.gamma),

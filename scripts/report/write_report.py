@@ -14,6 +14,7 @@ from common.table_rows import TONES, arrange_pairs, describe_surface
 from common.templates import write_page
 from common.verdict_texts import count_pairs
 from report import interactive, pages
+from report.pages import find_pixels
 from stickiness import datasets, error_budget
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
@@ -57,6 +58,8 @@ def main(job):
         files=files,
         figures=list(map(embed, inputs.figures, inputs.captions)),
         figure_sources=params.figure_sources,
+        panels=params.panels,
+        pixels_in_zone=find_pixels(inputs.adhesive_maps),
         criterion=datasets.read(inputs.criterion, ["a_v"]),
         claims=describe_claims(claims),
         grades=count(map(str, claims.verdict.values), CLAIM_TONES),

@@ -7,10 +7,10 @@ from helpers.entries import model_surface
 from helpers.jobs import make_job
 from scipy import optimize, stats
 
-from adhesion import average_adhesive, solve_adhesive
+from adhesion import adhesive_maps, average_adhesive, solve_adhesive
 from adhesion.dmt_sum import fit_slope, integrate_law, linearity_error, weak_attraction
 from common.adhesion_sets import scaled_law
-from stickiness import datasets, dmt, repulsive, spectrum, surface
+from stickiness import adhesive, datasets, dmt, repulsive, spectrum, surface
 from stickiness.adhesive import edge_zone
 from surfaces import synthesise_surface
 
@@ -203,3 +203,38 @@ def test_dmt_attraction_of_areas_is_that_over_the_gaps(heights):
             at = got.sel(adhesion_length_over_range=length, range_over_h_rms=reach)
             # 16 areas a decade, which count the points one by one
             assert float(at) == pytest.approx(expected, rel=0.01)
+
+
+def test_maps_on_a_finer_grid_agree_with_the_areas_of_direct_solutions(tmp_path):
+    """Zones add up to the areas, which grow with adhesion, and are those of a direct solution."""
+    entry = model_surface(magnification=8)
+    params = {"seeds": [3], "surface": entry, "pixels_per_wavelength": 4}
+    synthesised = make_job(tmp_path / "seeds1-1.nc", params)
+    synthesise_surface.main(synthesised)
+    shown = {"pressures": [0.2, 0.05], "range_over_h_rms": 0.1}
+    shown |= {"adhesion_length_over_range": [0.1, 0.3]}
+    adhesion = {"law": "exponential", "q0_h_rms": 0.1, "maps": shown}
+    job = make_job(
+        tmp_path / "maps.nc", {"adhesion": adhesion, "points": 96}, surfaces=synthesised.output[0]
+    )
+    adhesive_maps.main(job)
+    maps = datasets.read(job.output[0])
+    assert maps.sizes["x"] == 96  # more than the 32 of the surface
+    strongest = maps.isel(adhesion_length_over_range=-1)
+    for zones, name in (
+        ([3], "net_repulsive_area"),
+        ([2, 3], "repulsive_area"),
+        ([1], "attractive_area"),
+    ):
+        np.testing.assert_allclose(maps.zone.isin(zones).mean(["x", "y"]), strongest[name])
+    weaker = maps.repulsive_area.isel(adhesion_length_over_range=0)
+    assert (maps.area_alone < weaker).all()
+    assert (weaker < strongest.repulsive_area).all()
+    # The zone of attraction is range^2/l_a = 0.1 * 0.1/0.3 over q0, a pixel 2 pi/96 over q0.
+    np.testing.assert_allclose(strongest.pixels_in_zone, 0.1 * 0.1 / 0.3 * 96 / LENGTH)
+    heights = datasets.read(synthesised.output[0]).height.values[0]
+    law = scaled_law(adhesion, "exponential", 0.3, 0.1)
+    fine = surface.resample(heights, 96)
+    direct = adhesive.solve(fine, LENGTH, law, pressure=0.05, tol=1e-8)
+    area = strongest.repulsive_area.sel(pressure=0.05)
+    np.testing.assert_allclose(area, direct.repulsive_area_fraction, rtol=0.02)

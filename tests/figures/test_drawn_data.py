@@ -74,7 +74,9 @@ def drawn(ax, x, y, **look):
     found = []
     for line in ax.lines:
         data = np.array(line.get_data(), dtype=float)
-        same = data.shape[1:] == x.shape and np.allclose(data, [x, y], rtol=1e-9, equal_nan=True)
+        same = data.shape[1:] == x.shape and np.allclose(
+            data, [x, y], rtol=1e-9, atol=0, equal_nan=True
+        )
         values = {name: getattr(line, f"get_{name}")() for name in look}
         alike = all(
             same_color(values[name], value) if "color" in name else values[name] == value
@@ -146,15 +148,15 @@ def test_figure_1b_interpolates_gaps_along_a_power_law(ax):
         drawn(ax, [3, 30], (np.array([3, 30]) / gap) ** 0.1, marker=".")
 
 
-def test_figure_1c_shades_errors_and_opens_points_below_the_edge_gap(ax):
+def test_figure_10c_shades_errors_and_opens_points_below_the_edge_gap(ax):
     gap = np.array([1e-3, 1e-2, 0.1, 1.0])
-    coords = {"pressure": plot_fig1.LOADS, "gap": gap}
+    coords = {"pressure": plot_fig10.LOADS, "gap": gap}
     first, *_, last = values = np.outer([1.0, 2.0, 3.0], gap**-0.3)
     variables = {"gap_density_mean*": values, "edge_gap_mean": ("pressure", [0.02] * 3)}
     variables |= {"runs": ("seed", [1, 2])}
     ensemble = dataset(coords, variables, **model_surface(magnification=64))
     theory = {"gap_density": np.multiply.outer(FACTORS, values)}
-    plot_fig1.draw_simulation(ax, ensemble, dataset({"variant": VARIANTS} | coords, theory))
+    plot_fig10.draw_simulation(ax, ensemble, dataset({"variant": VARIANTS} | coords, theory))
     drawn(ax, gap, np.where(gap > 0.02, first, np.nan), marker=".", color=plotting.BLUE)
     drawn(ax, gap, np.where(gap < 0.02, first, np.nan), marker="o", markerfacecolor="white")
     for index, share in enumerate((TOTAL, SAMPLING)):
@@ -165,12 +167,12 @@ def test_figure_1c_shades_errors_and_opens_points_below_the_edge_gap(ax):
     assert "2 realisations" in ax.get_title()
 
 
-def test_figure_2a_opens_points_above_the_linear_area(ax):
+def test_figure_8g_opens_points_above_the_linear_area(ax):
     pressure, kappa = np.array([0.01, 0.1, 0.5]), np.array([2.2, 2.1, 1.9])
     variables = {"kappa*": kappa, "area_fraction": [0.02, 0.2, 0.6]}
     data = dataset({"pressure": pressure}, variables, magnification=32)
     coords = {"variant": VARIANTS, "pressure": pressure}
-    plot_fig2.draw_slopes(ax, [data], [dataset(coords, {"kappa": np.outer(FACTORS, kappa)})])
+    plot_fig8.draw_slopes(ax, [data], [dataset(coords, {"kappa": np.outer(FACTORS, kappa)})])
     drawn(ax, pressure, kappa, marker="None", linestyle="-")
     x = pressure / 1.05
     drawn(ax, x, kappa, markerfacecolor=plotting.BLUE, marker="o")
@@ -178,29 +180,53 @@ def test_figure_2a_opens_points_above_the_linear_area(ax):
     assert_bars(ax, kappa)
 
 
-def test_figure_2b_has_full_solution_fit_compressed_area_and_dmt_limit(ax):
+def loaded_maps(**more):
+    """Areas of one realisation on loading, at two adhesion lengths."""
+    pressure = np.array([0.015, 0.065])
+    coords = {"adhesion_length_over_range": [0.05, 0.2], "pressure": pressure}
+    variables = {"repulsive_area": np.outer([1.0, 2.0], pressure), "area_alone": pressure / 2}
+    variables |= {"range_over_h_rms": ((), 0.0075), "pixels_in_zone": ([*coords][0], [4.8, 1.2])}
+    return dataset(coords, variables | more, q0_h_rms=0.1)
+
+
+def test_figure_2b_has_a_curve_for_every_adhesion_length_and_kappa_of_2(ax):
+    plot_fig2.draw_areas(ax, loaded_maps(), rms_slope=4.0)
+    pressure = np.array([0.015, 0.065])
+    drawn(ax, pressure, pressure / 2, color=plotting.BLACK)
+    drawn(ax, pressure, pressure, color=plotting.BLUE)
+    drawn(ax, pressure, 2 * pressure, color=plotting.RED)
+    drawn(ax, [0, *pressure], [0, *(pressure / 2)], linestyle=":")
+
+
+def test_figure_2c_has_full_solution_fit_compressed_area_and_dmt_limit(ax):
     lengths, value = np.array([0.01, 0.1]), np.array([[[0.4, -0.1]]])
     coords = {"pressure": [0.065], "range_over_h_rms": [0.1], "adhesion_length_over_range": lengths}
     variables = {"inverse_kappa*": value, "inverse_kappa_fit": value + 0.01}
     variables |= {"inverse_kappa_net": value + 0.02, "q0_h_rms": 0.1}
     limit = dataset(coords, {"inverse_kappa": value + 0.03})
-    plot_fig2.draw_threshold(ax, limit, dataset(coords, variables))
+    plot_fig2.draw_threshold(ax, limit, dataset(coords, variables), loaded_maps(), rms_slope=4.0)
     drawn(ax, lengths, [0.4, -0.1], marker="o", linestyle="None")
     drawn(ax, lengths, [0.41, -0.09], linestyle="-")
     drawn(ax, lengths, [0.42, -0.08], markerfacecolor="white")
     drawn(ax, lengths, [0.43, -0.07], linestyle=":")
+    drawn(ax, [0.05, 0.2], [1 / 4, 1 / 8], marker="x")
     assert_bars(ax, [0.4, 0.1])
 
 
-def test_figure_2_maps_show_contact_and_the_zone_of_attraction(ax):
-    gap = xr.DataArray([[0.0, 0.05], [0.2, 0.0]], dims=("x", "y"))
-    plot_fig2.draw_contact(ax, xr.Dataset({"gap": gap, "pressure": 0.2}), 0.1)
+def test_figure_2_maps_show_compression_tension_and_attraction(ax):
+    plot_fig2.draw_zones(ax, np.array([[3, 2], [1, 0]]))
     (image,) = ax.images
     picture = image.get_array()
     assert same_color(picture[0, 0], plotting.BLACK)
-    assert same_color(picture[1, 0], plot_fig2.ATTRACTION_COLOUR)  # row is y
-    assert same_color(picture[0, 1], "white")
-    assert ax.get_title() == r"$\hat{p}$ = 0.2"
+    assert same_color(picture[0, 1], plotting.ORANGE)
+    assert same_color(picture[1, 0], plot_fig2.ZONES[1])
+    assert same_color(picture[1, 1], "white")
+
+
+def test_figure_2_says_how_many_pixels_the_zone_of_attraction_has(ax):
+    plot_fig2.label_zones(ax, loaded_maps().isel(adhesion_length_over_range=-1))
+    (legend,) = ax.figure.legends
+    assert "1.2 pixels" in legend.get_title().get_text()
 
 
 @pytest.fixture
@@ -249,37 +275,54 @@ def test_figure_4b_leaves_out_slopes_below_their_error(ax):
     assert (total[0], sampling[0]) == pytest.approx((TOTAL, SAMPLING))
 
 
-def test_figure_4c_is_in_proportion_to_adhesion_and_over_the_formula(ax):
-    a_v, q0_h_rms = 5.6, 0.1
-    ranges, lengths = np.array([0.1, 1.0]), np.array([0.001, 0.002, 1.0])
-    coords = {"adhesion_length_over_range": lengths, "range_over_h_rms": ranges}
-    # The formula with twice the paper's a_V, so that all is at 2.
-    value = plot_fig4.criteria.inverse_kappa_ad(1, q0_h_rms, lengths[:, None] * ranges, ranges, a_v)
-    variables = {"inverse_kappa_ad*": value, "inverse_kappa_ad_direct": value / 2}
-    data = dataset(coords, variables | {"q0_h_rms": q0_h_rms})
-    assert plot_fig4.largest_weak_length(data) == 0.002
-    plot_fig4.draw_ranges(ax, [data], [1.4])
-    for x in ranges / np.sqrt(1.08):
-        drawn(ax, [x], [2.0], marker="o", linestyle="None", markersize=4)
-        drawn(ax, [x], [1.0], marker="o", markerfacecolor="white")
-    drawn(ax, [0, 1], [0.5, 0.5], linestyle="--")
+def test_figure_4a_theory_is_the_dmt_sum_over_its_gaps():
+    """All gaps lie between 0.3 and 0.5 h_rms, so that the exponential law is nearly constant."""
+    ranges = np.geomspace(0.3, 0.5, 30)
+    coords = {"variant": VARIANTS, "pressure": [0.02, 0.1], "range": ranges}
+    share = np.linspace(0, 1, 30)
+    area = np.broadcast_to(np.outer([0.4, 0.8], share), (3, 2, 30))
+    contact = ("variant", "pressure"), np.outer(FACTORS, [0.1, 0.2])
+    lattice = dataset(coords, {"attractive_area": area, "area_fraction": contact})
+    loop = dataset({}, {}, q0_h_rms=0.1, law="exponential", range_over_h_rms=0.2)
+    pressure, contact_area = plot_fig4.load_by_theory(lattice, loop, 0.01)
+    # Mean of exp(-u/range) over gaps spread evenly in the logarithm's steps of area.
+    middle = np.sqrt(ranges[1:] * ranges[:-1])
+    attraction = 0.01 / 0.1 * np.mean(np.exp(-middle / 0.2))
+    np.testing.assert_allclose(pressure, [0.02 - 0.4 * attraction, 0.1 - 0.8 * attraction])
+    np.testing.assert_allclose(contact_area, [0.1, 0.2])
 
 
-def test_figure_5_interpolates_limits_between_adhesion_lengths(ax):
-    x, lengths = np.array([1e-12, 1e-3]), np.array([1e-3, 1e-1, 10.0])
-    names = [*plot_fig5.LOOKS, f"{plot_fig5.EDGES}_low", f"{plot_fig5.EDGES}_high"]
+def test_figure_4a_ends_loading_where_unloading_begins(ax):
+    loads = [0.0, 0.05, 0.1, 0.04, -0.02]
+    coords = {"control": ["mean_gap", "pressure"], "adhesion_length_over_range": [0.1]}
+    coords |= {"state": np.arange(5)}
+    rows = np.broadcast_to(loads, (2, 1, 5))
+    variables = {"mean_pressure": rows, "repulsive_area_fraction": rows + 0.2}
+    variables |= {"separating": np.broadcast_to([0.0, 0, 0, 1, 1], (2, 1, 5))}
+    parameters = {"magnification": 32, "range_over_h_rms": 0.1, "pressure": 0.1, "q0_h_rms": 0.1}
+    plot_fig4.draw_loading(ax, dataset(coords, variables, **parameters), [])
+    drawn(ax, loads[:3], np.add(loads[:3], 0.2), color=plotting.BLUE, linestyle="-")
+
+
+def test_figure_5_has_the_criterion_its_error_and_what_is_printed(ax):
+    x, lengths = np.array([1e-12, 1e-3]), np.array([1e-3, 1e-1])
     law = np.outer(x**-0.6, lengths**0.5)
-    variables = {name: (1 + k) * law for k, name in enumerate(names)} | {"a_v": 3.7}
+    edges = {f"{plot_fig5.EDGES}{end}": k * law for k, end in ((2, ""), (1, "_low"), (3, "_high"))}
     coords = {"range_times_q0": x, "adhesion_length_over_range": lengths}
-    plot_fig5.draw_limits(ax, dataset(coords, variables))
-    for colour, length in plotting.shade(plot_fig5.LENGTHS):
-        drawn(ax, x, x**-0.6 * length**0.5, color=colour, linewidth=1.2)
-    for k, (line, colour, width, _) in enumerate(plot_fig5.LOOKS.values()):
-        look = {"linestyle": line, "color": colour, "linewidth": width}
-        drawn(ax, x, (1 + k) * x**-0.6 * 0.05**0.5, **look)
-    at, *ends = band_ends(ax)
-    np.testing.assert_allclose(ends, np.outer([7, 8], at**-0.6 * 0.05**0.5))
-    drawn(ax, [1e-6, 1e-9, 1e-12], [1e3, 6.7e4, 1e6], marker="o")
+    of_a_v = {"a_v": 3.6, "a_v_low": 3.0, "a_v_high": 4.0}
+    plot_fig5.draw_plane(ax, dataset(coords, edges | of_a_v, slope_a_v=3.0))
+    h = ax.lines[0].get_xdata()
+    # (range/l_a)(h/range)^(5/3) q0 range^... < 3 a_V/2: the lines of the criterion.
+    drawn(ax, h, 1.5 * 3.6 * h ** (-5 / 3), color=plotting.BLACK, linestyle="-")
+    drawn(ax, h, 4.5 * h ** (-5 / 3), color=plotting.BLUE, linestyle="--")
+    drawn(ax, h, 2.25 * h ** (-5 / 3), color=plotting.RED, linestyle="--")
+    drawn(ax, h, 4 / 75 / h, linestyle="-.")
+    _, low, high = band_ends(ax, 1)
+    np.testing.assert_allclose([low, high], np.outer([4.5, 6.0], h ** (-5 / 3)))
+    drawn(ax, 2 * x**-0.6 * 0.05**0.5, x / 0.05, color=plotting.GREEN)
+    drawn(ax, [1e3, 6.7e4, 1e6], np.array([1e-6, 1e-9, 1e-12]) / 0.05, marker="o")
+    recomputed = (2.25 * 0.05 / np.array([1e-6, 1e-9, 1e-12])) ** 0.6
+    drawn(ax, recomputed, np.array([1e-6, 1e-9, 1e-12]) / 0.05, marker="+")
 
 
 WAVE_NUMBERS = np.geomspace(1e3, 1e6, 4)
@@ -292,10 +335,13 @@ def spectrum(**more):
 
 
 def test_figure_6_fills_between_the_ends_of_a_parametric_surface(ax):
-    plot_fig6.draw_spectra(ax, [("road", spectrum())], plot_fig6.EXPONENT)
-    _, low, high = band_ends(ax)
-    np.testing.assert_allclose([low, high], [[1e-5] * 4, [1e-3] * 4])
-    drawn(ax, [1e1, 1e10], [1e-3, 1e-3], linestyle="--")
+    plot_fig6.draw_surface(ax, spectrum(), plotting.BLUE, "road")
+    plot_fig6.draw_lines(ax)
+    q, low, high = band_ends(ax)
+    np.testing.assert_allclose([low, high], np.outer([1e-5, 1e-3], q**-3.6))
+    q = np.array(plot_fig6.WAVE_NUMBERS)
+    for c0 in (1e-3, 1e-5):
+        drawn(ax, q, c0 * q**-3.6, linestyle="--")
     assert ax.get_legend_handles_labels()[1] == ["road"]
 
 
@@ -303,36 +349,12 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
     q = WAVE_NUMBERS
     more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
     more |= {"fitted": np.array([0, 1, 1, 0], dtype="i1"), "q1": 1e6, "q_cutoff": 1e5}
-    plot_fig6.draw_spectra(ax, [("wafer", spectrum(**more))], plot_fig6.EXPONENT)
-    drawn(ax, q[:3], [1e-5] * 3, marker="o")
-    drawn(ax, q, [np.nan, 2e-5, 2e-5, np.nan], color=plotting.BLACK)
+    plot_fig6.draw_surface(ax, spectrum(**more), plotting.BLUE, "wafer")
+    drawn(ax, q[:3], 1e-5 * q[:3] ** -3.6, marker="o")
+    drawn(ax, q, [np.nan, *(2e-5 * q[1:3] ** -3.6), np.nan], color=plotting.BLACK)
     ((_, halves),) = bar_lengths(ax)
-    np.testing.assert_allclose(halves, 1.645 * 2e-6, rtol=1e-3)  # 90 %, not one standard error
-
-
-def test_figure_6_shows_every_measurement_and_a_band_between_them(ax):
-    q = WAVE_NUMBERS
-    more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
-    more |= {"fitted": np.ones(4, dtype="i1"), "q1": 1e6, "q_cutoff": 1e6}
-    levels = np.where([[1, 0, 0, 0], [0, 0, 0, 1]], q**-3.6, np.nan)
-    film = spectrum(**more).assign(
-        psd_measurement=(("measurement", "wave_number_measured"), levels),
-        is_used=("measurement", [1, 0]),
-        gap=(("gap_between", "side"), [[2e3, 5e5]]),
-        wave_number_measured=q,
-    )
-    film.attrs["files"] = "a.nc: stylus; data/b.spm"
-    plot_fig6.draw_spectra(ax, [("film", film)], plot_fig6.EXPONENT)
-    drawn(ax, q[[0, 3]], [1e-5] * 2, marker="o")
-    drawn(ax, q, [1, np.nan, np.nan, np.nan], marker="^")
-    drawn(ax, q, [np.nan, np.nan, np.nan, 1], marker="s")
-    # Both ends are one standard error off the middle, the band covers 90 %.
-    band = ax.collections[-1].get_paths()[0].vertices[:, 1]
-    np.testing.assert_allclose(
-        np.log([band.min(), band.max()]) - np.log(1e-4), [-3.788, 3.788], 1e-3
-    )
-    names = [text.strip() for text in ax.get_legend_handles_labels()[1]]
-    assert names == ["film", "stylus", "b.spm (not used)"]
+    expected = 1.645 * 2e-6 * q[:3] ** -3.6  # 90 %, not one standard error
+    np.testing.assert_allclose(halves, expected, rtol=1e-3)
 
 
 @pytest.fixture

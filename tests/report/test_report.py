@@ -271,9 +271,17 @@ def page(claims, verdicts, surfaces, tmp_path_factory):
     inputs["figures"], inputs["captions"] = map(list, zip(*figures, strict=True))
     inputs["experiments_figure"], inputs["experiments_caption"] = draw("experiments")
     inputs["trade_figure"], inputs["trade_caption"] = draw("tradeoff")
+    pixels = xr.Dataset(
+        {"pixels_in_zone": ("adhesion_length_over_range", [4.8, 1.234])},
+        coords={"adhesion_length_over_range": [0.05, 0.2]},
+        attrs={"parameters": "{}"},
+    )
+    inputs["adhesive_maps"] = save(pixels, folder / "maps.nc")
     path = folder / "report/report.html"
     settings = {"presets": PRESETS, "fidelity": "draft", "surfaces": SURFACES}
     settings["materials"] = MATERIALS
+    differs = {"text": "ε/h_rms = 0.1", "paper": "0.0075", "equal": False, "key": "adhesion.fig2"}
+    settings["panels"] = [{"panel": "2G–I", "parameters": [differs]}]
     settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
     write_report.main(make_job(inputs, {"page": str(path)}, **settings))
     return Page(path.read_text(encoding="utf-8"))
@@ -297,6 +305,8 @@ def test_the_report_shows_what_is_in_the_files(page):
         "0.3 10.0 ± 3.0 10.0 ± 3.0 10.0 ± 3.0",  # the last load of theory against simulation
         "0.700 ± 0.020",
         "E = 1 kPa, ν = 0.5",
+        "1.2 pixels in the zone of attraction",
+        "ε/h rms = 0.1 (paper: 0.0075) by",
         # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",

@@ -51,6 +51,11 @@ class Fidelity(Section):
         "realisations on the coarse grid only; default 64", FEWEST_COARSE
     )
     comparisons: f.Several[str] = optional("which of comparisons.surfaces to compute; default all")
+    map_points: Annotated[int, Field(ge=16, le=8192)] = optional(
+        "grid points along the side of the maps with adhesion, if the case's grid has fewer; "
+        "default 1024",
+        1024,
+    )
 
 
 class Sampling(Section):
@@ -186,11 +191,14 @@ class Adhesive(Section):
 
 
 class AdhesiveMaps(Section):
-    """States of the first realisation, simulated in full, whose fields are kept."""
+    """States of the first realisation, simulated in full on a finer grid.
+
+    Areas are kept at every adhesion length, the zones of contact and attraction at the largest.
+    """
 
     pressures: Loads
     range_over_h_rms: f.Positive = needed("range over h_rms")
-    adhesion_length_over_range: f.Positive = needed("adhesion length over range")
+    adhesion_length_over_range: Values = needed("adhesion lengths over range")
 
 
 class AdhesionSet(Adhesive):
@@ -212,7 +220,7 @@ class AdhesionSet(Adhesive):
         "range over h_rms from which states are solved on every second point along each side, "
         "where that leaves 4 points per shortest wavelength; default never"
     )
-    maps: AdhesiveMaps = optional("states whose fields are kept")
+    maps: AdhesiveMaps = optional("states of one realisation on a finer grid, for Figure 2")
 
     @model_validator(mode="after")
     def check_model(self) -> Self:

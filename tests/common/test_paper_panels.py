@@ -1,0 +1,58 @@
+"""The table of the paper's panels says where the configuration differs from the paper."""
+
+from pathlib import Path
+
+import pytest
+
+from common.config import load
+from common.paper_panels import PANELS, compare_panels
+from common.templates import make_environment
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def config(monkeypatch):
+    """The committed configuration, checked and in SI units, at standard fidelity."""
+    monkeypatch.chdir(ROOT)
+    campaigns = {name: load.load(path) for name, path in load.CAMPAIGNS.items()}
+    given = load.load(load.USER)
+    return load.check_all(load.defaults(".") | given, campaigns, given)["config"]
+
+
+def list_differences(config):
+    """Texts of the parameters that differ from the paper's known ones, by panel."""
+    return {
+        (row["panel"], each["text"], each["paper"])
+        for row in compare_panels(config)
+        for each in row["parameters"]
+        if each["paper"] and not each["equal"]
+    }
+
+
+def test_the_committed_configuration_has_the_parameters_of_the_paper(config):
+    assert list_differences(config) == set()
+    (maps,) = [row for row in compare_panels(config) if row["panel"] == "2G–I"]
+    assert [each["text"] for each in maps["parameters"]] == ["ε/h_rms = 0.0075", "l_a/ε = 0.2"]
+
+
+def test_a_parameter_that_differs_is_shown_with_the_value_of_the_paper(config):
+    config["adhesion"]["fig2"]["maps"]["range_over_h_rms"] = 0.1
+    config["theory"]["sweeps"]["fig1a"]["magnification"] = [10, 100]
+    config["adhesion"]["fig4b_smooth"]["h_rms"] = 2e-7
+    assert list_differences(config) == {
+        ("2G–I", "ε/h_rms = 0.1", "0.0075"),
+        ("1A", "ζ = 10, 100", "10, 100, 1000"),
+        ("4B", "h_rms = 200 nm", "100 nm"),
+    }
+
+
+def test_names_of_cases_surfaces_and_fidelities_are_followed(config):
+    config["model_surfaces"]["H0.8_zeta64"]["magnification"] = 32.0
+    config["fidelity"] = "draft"
+    assert list_differences(config) == {("4B", "ζ = 32", "64"), ("4B", "realisations = 3", "8")}
+
+
+def test_every_panel_is_described():
+    panels = make_environment(ROOT / "report").get_template("panels.j2").module.panels
+    assert panels.keys() == PANELS.keys()
