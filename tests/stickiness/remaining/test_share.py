@@ -219,8 +219,9 @@ def test_surfaces_that_nothing_was_fitted_to():
 def test_preload_does_nothing_where_full_contact_does_not_last():
     """Pressed into full contact against touched, for strengths up to `LASTING`; beyond, it may."""
     table = remaining_table.read(TABLE).set_index(["set", "seed", "energy_ratio", "zone"])
+    table = table[table.bound > 0.01]  # of less, 10 % is within the error of the steps
     pressed = table[table.pressed > 2 * table.rms_slope]
-    touched = table[table.pressed < 0.2].loc[pressed.index]
+    touched = table[table.pressed == 0.1].loc[pressed.index]
     strength = pressed.adhesion_length / pressed.range / (pressed.rms_slope / 2)
     weak = (strength < LASTING).to_numpy()
     assert weak.sum() > 10
