@@ -22,7 +22,7 @@ from stickiness.measured.topography import Profile, Topography
 from stickiness.remaining.height_shape import find_shape_of
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
-from stickiness.verdicts.longer_waves import lengthen
+from stickiness.verdicts.longer_waves import FIRST_WAVE, lengthen
 from stickiness.verdicts.measured_surface import Measurement, find_spectra
 from stickiness.verdicts.parametric import (
     END_QUANTILES,
@@ -203,6 +203,7 @@ def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Da
             "scan": 2 * np.pi / spectrum.lowest,
             "contact": 2 * np.pi / spectrum.lowest,
             "q_fitted": fit.q_min,
+            "q_kept": _find_kept(spectrum),
             "q0": fit.q_rolloff or spectrum.lowest,
             "q1": cutoff.q if q_extended is None else q_extended,
             "q_cutoff": cutoff.q,
@@ -215,6 +216,13 @@ def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Da
         dataset["anisotropy"] = spectrum.anisotropy
         dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
     return dataset
+
+
+def _find_kept(spectrum: MeasuredSpectrum) -> float:
+    """Wave number from which the area of the rings begins that the fit has."""
+    longer = spectrum.rings.q < spectrum.fit.q_min * (1 - 1e-9)
+    area = spectrum.area[longer].sum() + spectrum.lowest**2  # the first cell has no wave
+    return max(np.sqrt(area / np.pi), FIRST_WAVE * spectrum.lowest)
 
 
 def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:

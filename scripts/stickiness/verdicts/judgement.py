@@ -389,7 +389,21 @@ def _judge_larger(
         unknown = xr.DataArray(np.nan, dims=PER_PAIR, coords=coords)
         verdict = xr.full_like(unknown, NOT_JUDGED, dtype="i1")
         return dataset.assign(dict.fromkeys(names, unknown) | {"larger_verdict": verdict})
-    judged = judge(materials, larger, wanted_share=wanted_share, curves=False, thresholds=False)
+    # A material that is rough itself meets the same contact.
+    judged = xr.concat(
+        [
+            judge(
+                {key: material.on_contact(surface.contact) for key, material in materials.items()},
+                {name: surface},
+                wanted_share=wanted_share,
+                curves=False,
+                thresholds=False,
+            )
+            for name, surface in larger.items()
+        ],
+        dim="surface",
+        data_vars="minimal",
+    )
     limited = {"larger_verdict": judged.verdict}
     for name in LARGER:
         low, high = find_limits(judged, name)

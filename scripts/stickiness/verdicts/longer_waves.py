@@ -2,12 +2,14 @@
 
 A scan holds no wave longer than its side. A larger contact does, and for H > 1/2 the longest waves
 store most of the elastic energy. The fitted law goes on to longer waves, up to a roll-off beyond
-which the spectrum is level. Where the roll-off lies is not known: the law goes on to the contact in
-two fifths of the draws, it ends at the scan in a tenth, and in the others the roll-off is spread
-evenly over the orders of magnitude between both. A roll-off that the scan shows stays where it is.
+which the spectrum is level. A roll-off that the fit shows stays where it is. Otherwise its place is
+spread evenly over the orders of magnitude between the waves fitted and the contact, and in more
+than two fifths of the draws the law goes on to the contact. The rings of the scan below those
+fitted tell which places are likely.
 
 The law also replaces the longest waves of the scan, those below the fit: levelling and taper change
-them, and they are one sample of those that a larger contact meets.
+them, and they are one sample of those that a larger contact meets. The share of the contact's area
+that was measured keeps them.
 
 The waves of a square of side L are a lattice of wave vectors with the step 2 pi/L. As an integral
 over C they begin below that step, at `FIRST_WAVE` times it.
@@ -24,8 +26,10 @@ from numpy.typing import NDArray
 from stickiness.verdicts.parametric import END_QUANTILES, ENDS
 
 LARGER = 10.0  #: side of the contact over that of the scan, of the answer beside that for the scan
-#: Places of the roll-off are drawn from these: up to 0 it is at the scan, from 1 at the contact.
-PLACES = (-0.2, 1.8)
+#: Places of the roll-off among which one is drawn, over the logarithm of wave numbers from twice
+#: the lowest fitted (0) to the contact; from 1 on the law goes on to the contact.
+PLACES = np.minimum(np.linspace(0.0, 1.8, 181), 1.0)
+FIRST_TOLD = 1.9  #: lowest ring over 2 pi/L that tells of the roll-off; levelling changes others
 SEED = 4  #: of the roll-offs, and of the power of the longest waves
 RINGS = 20  #: per decade
 #: Wave number over 2 pi/L from which integrals over C equal sums over the lattice of a square of
@@ -51,28 +55,29 @@ class LongerWaves:
     def draw(cls, data: xr.Dataset, contact: float) -> LongerWaves:
         """Draw them from the laws fitted to a surface, for a contact of a side [m]."""
         rng = np.random.default_rng(SEED)
-        of_scan = 2 * np.pi / float(data.scan)
         of_contact = 2 * np.pi / contact
         fitted = float(data.q_fitted)
 
-        # Rings between the first wave of the contact and those fitted.
-        whole_width = np.log(fitted / (FIRST_WAVE * of_contact))
+        # Rings between the first wave of the contact and those that are kept of the scan.
+        first = FIRST_WAVE * of_contact
+        whole_width = np.log(float(data.q_kept) / first)
         count = int(np.ceil(RINGS * whole_width / np.log(10)))
         width = whole_width / count
-        q = FIRST_WAVE * of_contact * np.exp(width * (np.arange(count) + 0.5))
+        q = first * np.exp(width * (np.arange(count) + 0.5))
 
         # The law, level below the roll-off of every draw.
+        level = data.first_psd_draws.values[:, None]
+        exponent = 2 * np.clip(data.hurst_draws.values, 0.0, 1.0)[:, None] + 2
         if "q_rolloff" in data:
             q0 = data.q0_draws.values
             corner = q0
+            start = np.maximum(fitted, corner)
         else:
-            places = np.clip(rng.uniform(*PLACES, data.sizes["draw"]), 0.0, 1.0)
-            q0 = of_scan * (of_contact / of_scan) ** places
-            corner = FIRST_WAVE * q0
-        start = np.maximum(fitted, corner)
-        rise = np.maximum(q, corner[:, None]) / start[:, None]
-        exponent = 2 * np.clip(data.hurst_draws.values, 0.0, 1.0) + 2
-        law = data.first_psd_draws.values[:, None] * rise ** -exponent[:, None]
+            place = PLACES[_draw_places(data, contact, rng)]
+            q0 = _find_rolloff(data, contact, place)
+            corner = q0 * FIRST_WAVE**place
+            start = np.full(q0.shape, fitted)
+        law = level * (np.maximum(q, corner[:, None]) / start[:, None]) ** -exponent
 
         # Half of the waves of a ring are independent, for heights are real.
         waves = np.pi * q**2 * width / of_contact**2
@@ -87,6 +92,32 @@ class LongerWaves:
     def integrate(self, order: int) -> NDArray:
         """2 pi * integral of q^(1 + order) C over the waves, ``(n,)``."""
         return 2 * np.pi * self.width * self.psd @ self.q ** (2 + order)
+
+
+def _find_rolloff(data: xr.Dataset, contact: float, place: NDArray) -> NDArray:
+    """Wave number of the roll-off [1/m] at places from 0, twice the fit's lowest, to 1."""
+    top = 2 * float(data.q_fitted)
+    return top * (2 * np.pi / contact / top) ** place
+
+
+def _draw_places(data: xr.Dataset, contact: float, rng: np.random.Generator) -> NDArray:
+    """Index of the place of the roll-off of every draw, by the likelihood of the scan's rings."""
+    fitted = float(data.q_fitted)
+    q = data.wave_number.values
+    told = (q > FIRST_TOLD * 2 * np.pi / float(data.scan)) & (q < 2.2 * fitted)
+    psd = data.psd.isel(end=0).values[told]
+    dof = (psd / data.psd_standard_error.values[told]) ** 2
+    corner = _find_rolloff(data, contact, PLACES) * FIRST_WAVE**PLACES
+    rise = np.maximum(q[told], corner[:, None]) / fitted
+
+    # Whittle's likelihood, as of the fit, for every draw and place.
+    exponent = 2 * np.clip(data.hurst_draws.values, 0.0, 1.0)[:, None, None] + 2
+    ratio = psd / (data.first_psd_draws.values[:, None, None] * rise**-exponent)
+    log_likelihood = -np.sum(dof * (ratio - np.log(ratio)), axis=-1)
+    likelihood = np.exp(log_likelihood - log_likelihood.max(axis=1, keepdims=True))
+    share = np.cumsum(likelihood, axis=1)
+    drawn = rng.uniform(size=len(share)) * share[:, -1]
+    return np.minimum(np.sum(share < drawn[:, None], axis=1), PLACES.size - 1)
 
 
 def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
@@ -120,9 +151,11 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
         return data
     waves = LongerWaves.draw(data, contact)
     of_scan = data.elastic_energy_draws.values
-    energy = of_scan - data.long_energy_draws.values + waves.integrate(order=1) / 4
-    variance = data.h_rms_draws.values**2 - data.long_variance_draws.values
-    h_rms = np.sqrt(np.maximum(variance, 0.0) + waves.integrate(order=0))
+    # What is not measured of the contact follows the law.
+    unknown = 1 - (scan / contact) ** 2
+    energy = of_scan + unknown * (waves.integrate(order=1) / 4 - data.long_energy_draws.values)
+    change = unknown * (waves.integrate(order=0) - data.long_variance_draws.values)
+    h_rms = np.sqrt(np.maximum(data.h_rms_draws.values**2 + change, 0.0))
     longer = np.maximum(energy / of_scan - 1, 0.0)
     share = np.median(longer / (1 + longer))
     changed = data.assign(
@@ -141,16 +174,22 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
         shape_error=np.hypot(data.shape_error, data.shape * share / 2),
         contact=contact,
     )
-    return _prepend_spectrum(changed, waves)
+    spectra = ("draw", "longer_wave_number"), unknown * waves.width * waves.psd
+    changed = changed.assign(longer_psd_draws=spectra).assign_coords(longer_wave_number=waves.q)
+    return _prepend_spectrum(changed, waves, order=np.argsort(energy))
 
 
-def _prepend_spectrum(data: xr.Dataset, waves: LongerWaves) -> xr.Dataset:
-    """Put these waves in the place of those below the fit, in the spectra of both ends."""
+def _prepend_spectrum(data: xr.Dataset, waves: LongerWaves, order: NDArray) -> xr.Dataset:
+    """Put these waves in the place of those below the fit, in the spectra of both ends.
+
+    They are those of the draws at the same quantiles of the energy; `order` sorts these.
+    """
+    chosen = order[np.rint(np.multiply(END_QUANTILES, order.size - 1)).astype(int)]
     longer = xr.Dataset(
         {
-            "psd": (("end", "wave_number"), np.quantile(waves.psd, END_QUANTILES, axis=0)),
+            "psd": (("end", "wave_number"), waves.law[chosen]),
             "psd_standard_error": ("wave_number", np.std(waves.psd, axis=0)),
-            "psd_fit": ("wave_number", np.median(waves.psd, axis=0)),
+            "psd_fit": ("wave_number", np.median(waves.law, axis=0)),
             "fitted": ("wave_number", np.zeros(waves.q.size, "i1")),
         },
         coords={"end": list(ENDS), "wave_number": waves.q},

@@ -197,6 +197,12 @@ class Material:
         """Path of the edge during the dwell over the radius of its tip; 0 without a dwell."""
         return 0.0 if self.dwell is None else self.dwell * self.broken_at
 
+    def on_contact(self, contact: float) -> Material:
+        """The material with its own roughness as a contact of a side [m] meets it."""
+        if self.surface is None:
+            return self
+        return replace(self, surface=self.surface.on_contact(contact))
+
     def warn(self) -> None:
         """Warn of values that hardly any real pair has, with a `PlausibilityWarning`."""
         warn_of_si(

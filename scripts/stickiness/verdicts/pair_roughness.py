@@ -112,6 +112,8 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
     stiffening = np.ones(2)
     if material.solid != HALF_SPACE:
         ends, draws, stiffening = _put_on_layer(ends, draws, spectra, material.solid)
+        if surface.is_larger and own is None:
+            draws = _stiffen_longer(draws, surface, material.solid)
         if own is None:
             ends, draws = _simulate_on_layer(ends, draws, surface, material.solid)
     if isinstance(material.solid, Skin) and own is None and surface.unresolved_energy > 0:
@@ -346,6 +348,25 @@ def _put_on_layer(
         if draws is not None:
             draws = replace(draws, half_space_energy=np.full(draws.h_rms.shape, np.nan))
     return ends, draws, stiffening
+
+
+def _stiffen_longer(draws: Roughness, surface: Surface, solid: Solid) -> Roughness:
+    """Let the longer waves of every draw meet a layer, which stiffens the longest most."""
+    q = surface.data.longer_wave_number.values
+    on_half_space = 2 * np.pi / 4 * surface.data.longer_psd_draws.values @ q**3
+    on_solid = 2 * np.pi / 4 * surface.data.longer_psd_draws.values @ (q**3 / solid.factor(q))
+
+    # The other waves are stiffened alike in all draws.
+    kept = float(surface.data.q_kept)
+    others = []
+    for spectrum in surface.spectra:
+        waves = spectrum.averaged()
+        highest = spectrum.band[1]
+        energy = waves.integrate(lambda q: q, kept, highest)
+        others.append(waves.integrate(lambda q: q / solid.factor(q), kept, highest) / energy)
+    energy = surface.data.elastic_energy_draws.values - on_half_space
+    stiffening = np.sqrt(np.prod(others))
+    return replace(draws, elastic_energy=stiffening * energy + on_solid)
 
 
 def _simulate_on_layer(

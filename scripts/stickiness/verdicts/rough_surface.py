@@ -292,16 +292,28 @@ class Surface:
         """Side of the contact whose waves are known [m]; NaN of a surface that was not measured."""
         return float(self.data.get("contact", np.nan))
 
+    @property
+    def is_larger(self) -> bool:
+        """Whether the contact is larger than the scan."""
+        return "scan" in self.data and self.contact > float(self.data.scan) * (1 + 1e-9)
+
     @cached_property
     def larger(self) -> Surface | None:
         """The surface as a contact of `LARGER` times the side of the scan meets it.
 
         None if its waves are known, by a roll-off or by the size of the contact, or not judged.
         """
-        if "scan" not in self.data or "q_rolloff" in self.data or self.not_judged:
+        is_known = "scan" not in self.data or "q_rolloff" in self.data or self.is_larger
+        if is_known or self.not_judged:
             return None
-        scan = float(self.data.scan)
-        return None if self.contact > scan else Surface(lengthen(self.data, LARGER * scan))
+        return self.on_contact(LARGER * float(self.data.scan))
+
+    def on_contact(self, contact: float) -> Surface:
+        """The surface as a contact of a side [m] meets it, itself if its waves are that long."""
+        is_known = "scan" not in self.data or self.is_larger
+        if is_known or contact <= float(self.data.scan):
+            return self
+        return Surface(lengthen(self.data, contact))
 
     @property
     def not_judged(self) -> str:

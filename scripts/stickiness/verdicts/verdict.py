@@ -167,12 +167,12 @@ class StickinessVerdict:
         return f"sticks below {name} = {text}; {actual}"
 
     def _describe_contact(self) -> list[str]:
-        """Size of the contact, and the answer for a larger one; none if nothing was measured."""
-        if np.isnan(self.contact):
-            return []
+        """Size of the contact, and the answer for a larger one; none where neither matters."""
         size = amount(self.contact, "m")
-        if self.larger is None:
+        if self.surface.is_larger:
             return [f"for a contact of {size}"]
+        if self.larger is None:
+            return []
         larger = amount(self.larger.contact, "m")
         share = tell_share(*self.larger.remaining)
         return [

@@ -86,7 +86,8 @@ def test_edges_are_classified_by_strength_and_zone(modulus, reach, regime):
 @pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
 @pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e4, 3e-8), (1e5, 1e-6)])
 def test_verdict_is_the_prediction_of_what_remains(modulus, reach):
-    answer = verdict(make_surface(), modulus=modulus, work_of_adhesion=0.05, range=reach)
+    properties = {"modulus": modulus, "poisson": None, "work_of_adhesion": 0.05, "range": reach}
+    answer = verdict(make_surface(), **properties)
     expected = predict(SPECTRUM, 0.05 / modulus, reach)
     assert answer.remaining == pytest.approx(expected.separation, rel=1e-9)
     assert answer.remaining_limits[0] == pytest.approx(expected.separation_limits[0], rel=1e-9)

@@ -77,7 +77,7 @@ def check(answer, written):
     del contact_law["warnings"]
     for name, quantity in contact_law.items():
         theirs = written.contact_law[name]
-        if isinstance(quantity, str):
+        if isinstance(quantity, str) or name == "larger_contact":
             assert quantity == theirs
             continue
         assert quantity.keys() == theirs.keys()

@@ -126,7 +126,7 @@ def test_pull_off_with_dissipation_ends_at_the_strength():
 @pytest.mark.slow
 def test_verdict_depends_within_the_limits_of_the_threshold():
     found = verdict(ROUGH, **GEL)
-    at_threshold = verdict(ROUGH, **GEL | {"modulus": found.modulus_threshold})
+    at_threshold = verdict(ROUGH, **GEL | {"modulus": found.modulus_threshold, "poisson": None})
     assert at_threshold.word == "depends"
     assert at_threshold.remaining == pytest.approx(DEFAULT_SHARE, rel=1e-6)
     assert at_threshold.margin == pytest.approx(1, rel=1e-6)
