@@ -1,5 +1,6 @@
 # The claims of the paper, each recomputed and given a verdict.
 
+from common.paper_claims import find_differences
 from snakemake.exceptions import WorkflowError
 
 # Surfaces that the paper speaks of. A table of one's own may lack them.
@@ -54,6 +55,7 @@ rule check_claims:
         prose=project_file("report/claims.j2"),
         page=project_file("report/claims.md.j2"),
         errata=project_file("report/errata.j2"),
+        legend=project_file("report/claim_verdicts.j2"),
     output:
         dataset=f"{RESULTS}/claims/claims.nc",
         table=report(
@@ -68,6 +70,7 @@ rule check_claims:
     conda:
         "../envs/environment.yaml"
     params:
+        differences=find_differences(config, REAL_SURFACES),
         code=source_hash("claims/check_claims.py"),
     script:
         "../scripts/claims/check_claims.py"

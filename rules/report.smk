@@ -37,6 +37,7 @@ rule write_report:
             *PAGE_PARTS,
             project_file("report/errata.j2"),
             project_file("report/panels.j2"),
+            project_file("report/claim_verdicts.j2"),
         ],
         figures=several("figures/{figure}.png", figure=FIGURES),
         captions=[project_file(f"report/{figure}.rst") for figure in FIGURES],
@@ -119,7 +120,9 @@ rule write_surface:
 rule write_findings:
     input:
         template=project_file("report/findings.md.j2"),
-        parts=[project_file("report/left_out.j2"), project_file("report/panels.j2")],
+        parts=[
+            project_file(f"report/{part}") for part in ("left_out.j2", "panels.j2", "claim_verdicts.j2")
+        ],
         adhesive_maps=f"{RESULTS}/adhesion/full/fig2/maps.nc",
         claims=f"{RESULTS}/claims/claims.nc",
         a_v=several("fits/a_v/ensembles/{case}.nc", case=COMPLETE),

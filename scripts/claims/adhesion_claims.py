@@ -4,11 +4,12 @@ import numpy as np
 import xarray as xr
 
 from claims import ledger
-from claims.ledger import OPEN, QUALIFIED, Finding, claim, describe_cell, grade
-from common.conventions import LOAD, at_load
+from claims.ledger import OPEN, QUALIFIED, Finding, choose, claim, describe_cell, grade
+from common.conventions import at_load
+from common.paper_claims import RANGE_2
+from common.paper_panels import A_V_FIG4B
 from stickiness import criteria, datasets, error_budget
 
-PAPER_A_V = 2.8  # in the formula of Figure 4B
 LENGTH = "adhesion_length_over_range"
 
 
@@ -25,7 +26,7 @@ def kappa_threshold(adhesive_fig2, adhesion_fig2):
     crosses = bool(np.isfinite(threshold))
     fitted, fit_errors = find_zero(at_range, "inverse_kappa_fit")  # over all loads
     limit = at_load(adhesion_fig2).sel(range_over_h_rms=range_).isel({LENGTH: 0})
-    smallest = full.isel(range_over_h_rms=0)
+    in_maps = choose(full, range_over_h_rms=RANGE_2)
     return Finding(
         threshold if crosses else largest_simulated(at_range),
         QUALIFIED if crosses else OPEN,
@@ -37,7 +38,7 @@ def kappa_threshold(adhesive_fig2, adhesion_fig2):
         lowest=at_range.inverse_kappa.min().fillna(0.5),
         fitted=(fitted, np.linalg.norm([*fit_errors.values()])),
         areas=list_areas(adhesive_fig2.sel(range_over_h_rms=range_)),
-        smallest=(smallest.range_over_h_rms, largest_simulated(smallest)),
+        in_maps=(in_maps.range_over_h_rms, largest_simulated(in_maps)),
     )
 
 
@@ -120,9 +121,10 @@ def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
     over = {name: (points[name] / points.formula).values for name in points}
     slopes = over["inverse_kappa_ad"]
     largest_error = 0.3  # over the formula, of points that are compared with it
+    load = float(at_load(adhesive_sets[0]).pressure)
     certain = (over["inverse_kappa_ad_total_error"] < largest_error) & (slopes > 0)
     if not certain.any():
-        return Finding(np.nan, OPEN, claimed=1.0, load=LOAD, known=0)
+        return Finding(np.nan, OPEN, claimed=1.0, load=load, known=0)
     slopes = slopes[certain]
     net = over["inverse_kappa_ad_net"]
     net = net[(over["inverse_kappa_ad_net_total_error"] < largest_error) & (net > 0)]
@@ -135,8 +137,9 @@ def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
         grade(apart < np.log(1.25), apart < np.log(4)),
         claimed=1.0,
         errors={source: float(np.mean(over[source][certain])) for source in error_budget.SOURCES},
-        load=LOAD,
+        load=load,
         known=slopes.size,
+        parameter_sets=sum(full.sizes["range_over_h_rms"] for full in adhesive_sets),
         slopes=find_ends(slopes),
         net=find_ends(net),
         limit=find_ends(over["limit"][certain]),
@@ -144,7 +147,7 @@ def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
         decades=np.ptp(np.log10(direct[resolved])),
         direct=find_ends(over["inverse_kappa_ad_direct"][resolved]),
         a_v=[ledger.value_and_error(fit, "a_v_mean") for fit in fits],
-        factors=[PAPER_A_V / float(fit.a_v_mean) for fit in fits],
+        factors=[A_V_FIG4B / float(fit.a_v_mean) for fit in fits],
     )
 
 
@@ -160,7 +163,7 @@ def list_points(full, limit):
     q0_h_rms = float(full.q0_h_rms)
     range_ = (full.range_over_h_rms * full.q0_h_rms).values
     length = (full[LENGTH] * full.range_over_h_rms * full.q0_h_rms).values
-    formula = criteria.inverse_kappa_ad(q0_h_rms, 1.0, length, range_, PAPER_A_V)
+    formula = criteria.inverse_kappa_ad(q0_h_rms, 1.0, length, range_, A_V_FIG4B)
     names = ["inverse_kappa_ad", "inverse_kappa_ad_net"]
     names += [f"{name}_total_error" for name in names] + ["inverse_kappa_ad_direct"]
     errors = {s: error_budget.part(full, names[0], s) for s in error_budget.SOURCES}

@@ -6,14 +6,14 @@ import pandas as pd
 import xarray as xr
 
 from claims import adhesion_claims, contact_claims, criterion_claims, errata
-from claims.ledger import collect
+from claims.ledger import DIFFERS, collect
 from common import remaining_table
 from common.job import start
 from common.templates import make_environment, write_page
 from stickiness import datasets, error_budget
 
 CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims)
-PROSE = ("statement", "quantity", "remark", "comment")
+PROSE = ("statement", "quantity", "remark", "comment", "difference")
 COLUMNS = {
     "claim": ("1", "number of the claim"),
     "statement": ("1", "what the paper claims"),
@@ -22,6 +22,7 @@ COLUMNS = {
     "comment": ("1", "what the errors are, or why they are not known or do not apply"),
     "claimed": ("1", "the paper's value", "the paper gives none"),
     "verdict": ("1", "verdict"),
+    "difference": ("1", "parameters of the claim that the configuration sets otherwise"),
     "remark": ("1", "qualification or reason"),
     "sources": ("1", "files that the value came from"),
 }
@@ -32,7 +33,10 @@ def main(job):
     recomputed = errata.recompute()
     paths = {name: inputs[name] for claim in CLAIMS for name in claim.files}
     files = {name: read(path) for name, path in paths.items()}
-    rows = [examine(claim, files, paths, inputs.prose) for claim in CLAIMS]
+    rows = [
+        examine(claim, files, paths, inputs.prose, job.params.differences.get(claim.number, []))
+        for claim in CLAIMS
+    ]
     title = "claims of the paper, recomputed"
     parameters = {"errata": recomputed}
     datasets.write(to_dataset(rows), job.output.dataset, title=title, parameters=parameters)
@@ -46,11 +50,15 @@ def read(path):
     return remaining_table.read(path) if path.endswith(".csv") else datasets.read(path)
 
 
-def examine(claim, files, paths, prose):
-    """Make a row of the ledger: the finding of a claim, its prose and the files behind it."""
+def examine(claim, files, paths, prose, differences):
+    """Make a row of the ledger: the finding of a claim, its prose and the files behind it.
+
+    With `differences` of the configuration from the claim (`common.paper_claims`), it has no grade.
+    """
     finding = claim(files)
     template = make_environment(Path(prose).parent).get_template(Path(prose).name)
     facts = {**finding.facts, "facts": finding.facts, "number": claim.number}
+    facts["differences"] = differences
     texts = template.make_module(facts)
     groups = [paths[name] for name in claim.files]
     sources = [
@@ -58,7 +66,8 @@ def examine(claim, files, paths, prose):
     ]
     return {
         "number": claim.number,
-        **{name: getattr(finding, name) for name in ("value", "claimed", "errors", "verdict")},
+        **{name: getattr(finding, name) for name in ("value", "claimed", "errors")},
+        "verdict": DIFFERS if differences else finding.verdict,
         "uncertainty": finding.uncertainty,
         "sources": list(dict.fromkeys(sources)),
         **{name: " ".join(str(getattr(texts, name)).split()) for name in PROSE},

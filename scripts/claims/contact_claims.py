@@ -2,8 +2,19 @@
 
 import numpy as np
 
-from claims.ledger import Finding, claim, describe_cell, errors_by_source, grade, value_and_error
+from claims.ledger import (
+    OPEN,
+    Finding,
+    choose,
+    claim,
+    describe_cell,
+    errors_by_source,
+    grade,
+    value_and_error,
+)
 from common.conventions import LINEAR_UP_TO, VARIANT, at_load
+from common.paper_claims import LOADS_OF_A_V, LOADS_OF_GAPS, ZETAS_OF_A_V
+from common.paper_panels import A_V, HURST, HURST_3C, ZETA_3B, ZETA_3D, ZETAS_3A
 from stickiness import datasets
 from stickiness.criteria import a_v_fit
 
@@ -43,17 +54,21 @@ def kappa_ends(fit):
 @claim(2)
 def density_converges(fig1b):
     """P(u) converges with the magnification."""
-    sweep = fig1b.gap_density.sel(variant=VARIANT).isel(hurst=0, load=0)
+    theory = choose(fig1b.sel(variant=VARIANT), hurst=HURST).isel(load=0)
+    sweep = theory.gap_density.sortby("magnification")
     last = sweep.isel(magnification=-1)
-    before = sweep.sel(magnification=float(last.magnification) / 100, method="nearest")
+    before = choose(sweep, magnification=float(last.magnification) / 100)
     change = abs(last / before - 1).where(sweep.gap <= 2)
     settled = change.gap.values[np.flatnonzero(change.values > 0.05)]
     limit = float(settled.max(initial=sweep.gap.min()))
     spacing = float(np.diff(np.log(sweep.gap.values)).mean() * limit)
+    far = float(last.magnification) > 10 * float(before.magnification)  # else P can hardly change
     return Finding(
         limit,
-        grade(limit <= float(sweep.gap.min()), limit < 0.5),
+        grade(limit <= float(sweep.gap.min()), limit < 0.5) if far else OPEN,
         errors={"discretisation": spacing, "model": np.nan},
+        hurst=theory.hurst,
+        mean_gap=theory.mean_gap.isel(magnification=-1),
         zetas=(before.magnification, last.magnification),
         change=change.sel(gap=0.01, method="nearest"),
     )
@@ -71,20 +86,28 @@ def small_gap_exponent(fig3a):
         errors={"model": float(np.ptp(at_largest_zeta)) / 2},
         gaps=SMALL_GAPS,
         exponents=exponents,
-        hurst=float(fig3a.hurst[0]),
+        made=choose_3a(fig3a),
     )
+
+
+def choose_3a(fig3a):
+    """Theory of Figure 3A at the paper's Hurst exponent, load and largest magnification."""
+    theory = fig3a.sel(variant=VARIANT).isel(load=0)
+    return choose(theory, hurst=HURST, magnification=ZETAS_3A[-1])
 
 
 def find_exponents(fig3a, name, along):
     """Local exponents of P(u) or A_ad at the small gaps: magnification and exponents.
 
-    First at the largest magnification that the paper shows, then at the largest of all.
+    First at the largest magnification at which the paper draws P(u), then at that of Figure 3A.
     """
-    values = fig3a[name].sel(variant=VARIANT).isel(hurst=0, load=0).sel({along: slice(None, 1)})
+    values = choose(fig3a[name].sel(variant=VARIANT).isel(load=0), hurst=HURST)
+    values = values.sel({along: slice(None, 1)})
     x = values[along].values
     exponents = []
     shown = 1000.0  # magnification up to which the paper draws P(u)
-    for curve in (values.sel(magnification=shown, method="nearest"), values[-1]):
+    for magnification in (shown, ZETAS_3A[-1]):
+        curve = choose(values, magnification=magnification)
         local = a_v_fit.local_exponent(x, curve.values)
         exponents.append((curve.magnification, np.interp(np.log(SMALL_GAPS), np.log(x), local)))
     return exponents
@@ -105,7 +128,7 @@ def grade_power_law(fig3a):
 @claim(4)
 def load_separation(fig3d, ensemble_wide, lattice_wide):
     """Load falls exponentially with the mean gap."""
-    sweep = fig3d.sel(variant=VARIANT).isel(hurst=0, magnification=0)
+    sweep = choose(fig3d.sel(variant=VARIANT), hurst=HURST, magnification=ZETA_3D)
     theory = over_exponential(sweep.pressure, sweep.mean_gap)
     ratio = over_exponential(ensemble_wide.pressure, ensemble_wide.mean_gap_mean)
     ratio = ratio.dropna("pressure")
@@ -124,9 +147,10 @@ def load_separation(fig3d, ensemble_wide, lattice_wide):
         errors={source: 2 * float(worst) * error for source, error in errors.items()},
         at=simulated,
         until=until,
-        zeta=sweep.magnification,
+        made=sweep,
         theory=(theory.min(), theory.max()),
-        gaps=np.interp([0.1, 0.001], ensemble_wide.pressure, ensemble_wide.mean_gap_mean),
+        loads=LOADS_OF_GAPS,
+        gaps=np.interp(LOADS_OF_GAPS, ensemble_wide.pressure, ensemble_wide.mean_gap_mean),
         cell=describe_cell(ensemble_wide),
         lattice=lattice.pressure * np.exp(2 * lattice.mean_gap),
     )
@@ -140,13 +164,13 @@ def over_exponential(pressure, mean_gap):
 @claim(6)
 def area_against_range(fig3a, fit_fig3a):
     """Attractive area grows as the range to the power 2/3."""
-    area = fig3a.attractive_area.sel(variant=VARIANT).isel(hurst=0, load=0)
-    last = area.isel(magnification=-1)
-    before = area.sel(magnification=1e4, method="nearest")
+    area = choose(fig3a.attractive_area.sel(variant=VARIANT).isel(load=0), hurst=HURST)
+    last = choose(area, magnification=ZETAS_3A[-1])
+    before = choose(area, magnification=1e4)
     ratio = last / before
     small = float(ratio.interp(range=0.01)) - 1
     large = float(ratio.interp(range=0.1)) - 1
-    fit = fit_fig3a.sel(variant=VARIANT).isel(hurst=0, load=0, magnification=-1)
+    fit = choose_3a(fit_fig3a)
     exponents = find_exponents(fig3a, "attractive_area", "range")
     _, at_largest_zeta = exponents[-1]
     return Finding(
@@ -156,6 +180,7 @@ def area_against_range(fig3a, fit_fig3a):
         errors={"model": float(np.ptp(at_largest_zeta)) / 2},
         ranges=SMALL_GAPS,
         exponents=exponents,
+        made=choose_3a(fig3a),
         zetas=(before.magnification, last.magnification),
         slopes=list(zip(fit.a_v, fit.window_low, fit.window_high, strict=True)),
         growth={"small": small, "large": large},
@@ -165,7 +190,7 @@ def area_against_range(fig3a, fit_fig3a):
 @claim(7)
 def area_against_load(fig3b, ensemble_wide, lattice_wide):
     """Attractive area is linear in load."""
-    sweep = fig3b.sel(variant=VARIANT).isel(hurst=0, magnification=0)
+    sweep = choose(fig3b.sel(variant=VARIANT), hurst=HURST, magnification=ZETA_3B)
     loads = sweep.pressure.values
     theory = load_exponent(loads, sweep.attractive_area)
     bem = ensemble_wide.sel(pressure=slice(loads[0] * (1 - 1e-9), None))
@@ -177,7 +202,7 @@ def area_against_load(fig3b, ensemble_wide, lattice_wide):
         grade(everywhere, max(abs(theory[0] - 1), abs(measured[0] - 1)) < 0.25),
         claimed=1.0,
         errors={"model": np.nan},
-        zeta=sweep.magnification,
+        made=sweep,
         loads=loads,
         theory=theory,
         cell=describe_cell(ensemble_wide),
@@ -188,24 +213,28 @@ def area_against_load(fig3b, ensemble_wide, lattice_wide):
 
 def load_exponent(loads, area, at=0.03):
     """Local exponent d ln A_ad/d ln p at one range, load by load."""
+    if len(loads) < 2:
+        return np.array([np.nan])
     return np.gradient(np.log(area.interp(range=at).values), np.log(loads))
 
 
 @claim(8)
 def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_wide):
     """a_V converges to about 3 with the magnification."""
-    fit = fit_fig3c.sel(variant=VARIANT).isel(load=0)
-    largest = fit.isel(magnification=-1).sel(hurst=0.8, method="nearest")
+    theory = fit_fig3c.sel(variant=VARIANT).isel(load=0).sortby("magnification")
+    fit = choose(theory, hurst=HURST_3C)
+    largest = choose(fit.isel(magnification=-1), hurst=HURST)
     first = fit.a_v.isel(window=0)
-    step = first.isel(magnification=-1) / first.isel(magnification=-2) - 1
+    last_two = first.isel(magnification=slice(-2, None))
+    step = last_two.isel(magnification=-1) / last_two.isel(magnification=0) - 1
     value = float(largest.a_v[0])
     error = float(np.ptp(largest.a_v.values)) / 2
-    grown = abs(value * float(step.sel(hurst=0.8, method="nearest")))
-    middle = first.sel(hurst=0.8, method="nearest").sortby("magnification")
-    middle_zetas = slice(1e3, 1e5)  # magnifications at which a_V should be about 3
-    middle = middle.sel(magnification=middle_zetas)
-    is_3 = abs(value - 3) <= error < 0.5
-    about = float(np.abs(middle / 3 - 1).max()) < 0.25
+    grown = abs(value * float(choose(step, hurst=HURST)))
+    curve = choose(first, hurst=HURST)
+    inside = curve.sel(magnification=slice(*ZETAS_OF_A_V))
+    middle = inside if inside.size else curve
+    is_3 = abs(value - A_V) <= error < 0.5
+    about = float(np.abs(middle / A_V - 1).max()) < 0.25
     steady = float(np.abs(step).max()) < 0.02
     errors = errors_by_source(largest.isel(window=0), "a_v")
     narrow = at_load(fit_bem_128).isel(window=0)
@@ -213,9 +242,10 @@ def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_w
     return Finding(
         value,
         grade(is_3 and steady, about),
-        claimed=3.0,
+        claimed=A_V,
         errors=errors | {"bandwidth": grown, "model": np.hypot(errors["model"], error)},
-        zetas=fit.magnification[-2:],
+        hurst=largest.hurst,
+        zetas=last_two.magnification[[0, -1]],
         middle=(middle.min(), middle.max()),
         middle_zetas=middle.magnification[[0, -1]],
         about=grade(is_3, about),
@@ -226,34 +256,43 @@ def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_w
             (value_and_error(case, "a_v_mean"), describe_cell(case)) for case in (wide, narrow)
         ],
         lattice=at_load(fit_lattice_128).isel(window=0).a_v.sel(variant=VARIANT),
-        continuous=interpolate_a_v(first, **datasets.parameters(narrow)),
+        continuous=interpolate_a_v(theory.a_v.isel(window=0), **datasets.parameters(narrow)),
     )
 
 
 def interpolate_a_v(a_v, hurst, magnification, **_):
-    """a_V of theory at the Hurst exponent and magnification of a simulation."""
-    a_v = a_v.sel(hurst=hurst, method="nearest")
-    return np.interp(np.log(magnification), np.log(a_v.magnification), a_v)
+    """a_V of theory at the Hurst exponent and magnification of a simulation; NaN if beyond it."""
+    a_v = choose(a_v, hurst=hurst).sortby("magnification")
+    if not np.isclose(a_v.hurst, hurst):
+        return np.nan
+    ends = {"left": np.nan, "right": np.nan}
+    return float(np.interp(np.log(magnification), np.log(a_v.magnification), a_v, **ends))
 
 
 @claim(9)
 def a_v_against_load(fit_fig3d, fig3d, fit_bem_wide, fit_bem_128):
     """a_V hardly depends on the load."""
-    fit = fit_fig3d.sel(variant=VARIANT).isel(hurst=0, magnification=0, window=0)
-    pressure = fig3d.pressure.sel(variant=VARIANT).isel(hurst=0, magnification=0)
-    inside = fit.a_v.where((pressure >= 1e-3) & (pressure <= 0.1))
+    paper = {"hurst": HURST, "magnification": ZETA_3D}
+    fit = choose(fit_fig3d.sel(variant=VARIANT).isel(window=0), **paper)
+    pressure = choose(fig3d.pressure.sel(variant=VARIANT), **paper)
+    low, high = LOADS_OF_A_V
+    between = (pressure >= low) & (pressure <= high)
+    inside = fit.a_v.where(between)
+    loads = pressure.where(between)
     value = float(inside.max() / inside.min())
     full = float(fit.a_v.max() / fit.a_v.min())
     simulated = []
     for data in (fit_bem_wide, fit_bem_128):
-        case = data.isel(window=0).sel(pressure=slice(1e-3, 0.1))
-        simulated.append((case.a_v_mean.max() / case.a_v_mean.min(), describe_cell(case)))
+        case = data.isel(window=0).sel(pressure=slice(low, high))
+        ratio = case.a_v_mean.max() / case.a_v_mean.min()
+        simulated.append((ratio, case.pressure[[0, -1]], describe_cell(case)))
     return Finding(
         value,
         grade(full < 1.2, value < 1.5),
         claimed=1.0,
         errors={"model": np.nan},
-        zeta=fit.magnification,
+        made=fit,
+        loads=(loads.min(), loads.max()),
         largest=pressure.max(),
         full=full,
         simulated=simulated,

@@ -10,6 +10,8 @@ from scipy.optimize import brentq
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Finding, claim, describe_cell, grade
 from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME, describe
 from common.model_surfaces import cell_size, model_spectrum
+from common.paper_claims import PRINTED_MODULUS, RANGE, WORK_OF_ADHESION
+from common.paper_panels import C0_LINES, CRYSTAL, H_RMS_LIMITS, HURST
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
@@ -18,13 +20,8 @@ from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 
-# Numbers of the paper's examples.
-RANGE = 0.2e-9  # m
-WORK_OF_ADHESION = 0.05  # J/m^2
-CRYSTAL = 0.05  # l_a/range
-EXAMPLES = np.array([1e-6, 1e-9, 1e-12])  # range q0
-PRINTED_LIMITS = np.array([1000.0, 67000.0, 1e6])  # h_rms/range of these
-PRINTED_MODULUS = 0.2  # MPa, of a block that sticks to asphalt
+EXAMPLES = np.array([*H_RMS_LIMITS])  # range q0
+PRINTED_LIMITS = np.array([*H_RMS_LIMITS.values()])  # h_rms/range of these
 ANY_SHARE = 0.01  # that stands for any tension at all, which the paper means by sticking
 SIGNS = 0, -1, 1  # value, low and high limit
 
@@ -47,6 +44,7 @@ def slope_angle(map):
         grade(False, worst < 0.01),
         claimed=expected[-1],
         errors={"discretisation": worst * crossing[-1]},
+        hurst=parameters["hurst"],
         parameter=sorted_map.slope_parameter[-1],
         worst=worst,
         a_v=a_v,
@@ -98,7 +96,7 @@ def real_surfaces(asphalt, map, measured_surfaces, verdicts):
         criteria.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, a_v) / 1e6
         for a_v in list_a_v(map)
     )
-    upper_line = 1e-3  # m^0.4, C0 of the line above real surfaces
+    upper_line = C0_LINES[0]
     # Only measured spectra can test the line, not parameters that somebody assumed.
     heights = [float(data.C0_reference_upper.max()) / upper_line for data in measured_surfaces]
     names = [datasets.parameters(data)["surface"] for data in measured_surfaces]
@@ -109,6 +107,7 @@ def real_surfaces(asphalt, map, measured_surfaces, verdicts):
         grade(close, False),  # of the arithmetic alone
         claimed=PRINTED_MODULUS,
         line=grade(max(heights) <= 1, False) if heights else OPEN,
+        rough=rough,
         a_v=map.a_v,
         derived=derived,
         measured=list(zip(labels, heights, strict=True)),
@@ -208,7 +207,6 @@ def spectral_moments(seeds):
         claimed=lattice[0],
         errors={"sampling": students_t(len(surfaces)) * float(error[0])},
         surfaces=len(surfaces),
-        hurst=datasets.parameters(surfaces[0])["hurst"],
         cell=describe_cell(surfaces[0]),
         mean=mean,
         error=error,
@@ -247,6 +245,7 @@ def sticky_roughness(map):
         claimed=PRINTED_LIMITS[1],
         errors={"model": float(max(high[1] - value[1], value[1] - low[1]))},
         wanted=(DEFAULT_SHARE, ANY_SHARE),
+        hurst=HURST,
         shortest=shortest,
         limits=[(value, low, high), (some, some_low, some_high)],
         times=[PRINTED_LIMITS / value, PRINTED_LIMITS / some],
@@ -264,7 +263,7 @@ def find_limits(shortest, share):
 def find_roughness(range_times_q0, shortest, share, sign):
     """h_rms/range at which a share, or its low or high limit by `sign`, just remains."""
     q1 = 2 * np.pi / shortest
-    unit = SelfAffine(hurst=0.8, q0=range_times_q0, q1=q1, h_rms=1.0).elastic_energy()
+    unit = SelfAffine(hurst=HURST, q0=range_times_q0, q1=q1, h_rms=1.0).elastic_energy()
 
     def excess(log_h):
         h = np.exp(log_h)
@@ -289,6 +288,7 @@ def sticky_asphalt(asphalt):
         claimed=PRINTED_MODULUS,
         errors={"model": max(value - low, high - value)},
         wanted=(DEFAULT_SHARE, ANY_SHARE),
+        rough=rough,
         c0=[rough.C0, smooth.C0],
         some=find_modulus(rough, ANY_SHARE, 0),
         smooth=[find_modulus(smooth, share, 0) for share in (DEFAULT_SHARE, ANY_SHARE)],
@@ -368,8 +368,10 @@ def interpolate_bound(states, work):
 @claim(22)
 def stickiness_of_experiments(experiments):
     """The paper's criterion against published experiments."""
-    names = [f"{case['experiment']} ({case['case']})" for case in describe(experiments)["cases"]]
+    cases = describe(experiments)["cases"]
+    names = [f"{case['experiment']} ({case['case']})" for case in cases]
     rubber_case = "fuller_tabor/one_MPa"
+    position = experiments.case.values.tolist().index(rubber_case)
     rubber = experiments.sel(case=rubber_case)
     read = (experiments.tests == 1) & (experiments.observed_known == GRADES.index("read"))
     paper = "violano"  # the paper's criterion
@@ -386,6 +388,7 @@ def stickiness_of_experiments(experiments):
         worst,
         errors={"model": np.nan},
         rubber=rubber,
+        rubber_label=cases[position]["case"],
         paper=paper,
         missed=by_outcome[MISSED],
         some=by_outcome[SOME],

@@ -7,23 +7,24 @@ doi:10.1080/00218464.2019.1685384.
 import numpy as np
 from scipy.integrate import quad
 
+from common.paper_claims import ASPHALT, RANGE, WORK_OF_ADHESION
+from common.paper_panels import A_V, CRYSTAL
 from stickiness.criteria import formulas
 
 
 def recompute():
     """Numbers that the statements quote or compare, by the number of the erratum."""
-    measured_a_v = 3.0  # the value the paper finds, 3/2 of which is the right coefficient
-    a_v = {"printed": formulas.PRINTED_A_V, "derived": measured_a_v}
+    # 3/2 of the value that the paper finds is the right coefficient.
+    a_v = {"printed": formulas.PRINTED_A_V, "derived": A_V}
     second = {f"coefficient_{name}": 1.5 * value for name, value in a_v.items()}
-    asphalt = {"q0": 1e3, "hurst": 0.8, "C0": 1e-3}  # the paper's, SI
-    q0 = asphalt["q0"]
-    hurst = asphalt["hurst"]
-    h_rms = np.sqrt(np.pi * asphalt["C0"] / hurst) * q0**-hurst
+    q0 = ASPHALT["q0"]
+    hurst = ASPHALT["hurst"]
+    h_rms = np.sqrt(np.pi * ASPHALT["C0"] / hurst) * q0**-hurst
     for name, value in a_v.items():
         for exponent in (6, 9, 12):
-            limit = formulas.h_rms_limit(10.0**-exponent, 0.05, 1.0, value)
+            limit = formulas.h_rms_limit(10.0**-exponent, CRYSTAL, 1.0, value)
             second[f"h_over_range_limit_{name}_1e-{exponent}"] = limit
-        threshold = formulas.modulus_threshold(h_rms, q0, 0.05, 0.2e-9, value)
+        threshold = formulas.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, value)
         second[f"asphalt_modulus_Pa_{name}"] = threshold
     # Edge in units u = x^(3/2): the strip up to gap u is x = u^(2/3) wide, so that its density is
     # f u^(-1/3) with f the integral of u^(1/3) (dx/du) du over a unit of gap.
@@ -49,6 +50,8 @@ def recompute():
         # Powers of pressure in (B^2/2) p sqrt(2/(pi V^k)), V a variance of pressure; a length of
         # edge per area has none.
         "4": {f"pressure_exponent_{n}": 3 - k for n, k in (("printed", 1.5), ("correct", 3.0))},
-        "5": {"h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, 0.05, 1.0, a_v["printed"])},
+        "5": {
+            "h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, CRYSTAL, 1.0, a_v["printed"])
+        },
         "6": sixth,
     }

@@ -18,7 +18,8 @@ REPRODUCED = "reproduced"
 QUALIFIED = "reproduced with a qualification"
 NOT = "not reproduced"
 OPEN = "not decided"
-VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN)
+DIFFERS = "not checked: the configuration differs"  # in a parameter that the claim is about
+VERDICTS = (REPRODUCED, QUALIFIED, NOT, OPEN, DIFFERS)
 
 
 class Finding:
@@ -94,6 +95,23 @@ def value_and_error(data, name):
 
 
 def describe_cell(data):
-    """Magnification of a simulated case, and the side of its cell in longest wavelengths."""
+    """Hurst exponent, magnification and side of the cell, in longest wavelengths, of a case."""
     surface = datasets.parameters(data)
-    return {"zeta": surface["magnification"], "waves": surface["window"]}
+    return {
+        "hurst": surface["hurst"],
+        "zeta": surface["magnification"],
+        "waves": surface["window"],
+    }
+
+
+def choose(data, **paper):
+    """Points of a dataset nearest to those of the paper, by dimension.
+
+    If the configuration lacks these, `common.paper_claims` says so, and the claim has no grade.
+    Texts therefore take the parameters from the coordinates of the chosen points.
+    """
+    for name, values in paper.items():
+        ordered = data.sortby(name)
+        nearest = ordered[name].sel({name: np.asarray(values)}, method="nearest")
+        data = ordered.sel({name: np.unique(nearest) if np.ndim(values) else nearest})
+    return data

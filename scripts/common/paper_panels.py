@@ -1,4 +1,4 @@
-"""What the paper states of its figures, and where the configuration has the same parameter.
+"""What the paper states of its figures and claims, and where the configuration has the same.
 
 The paper is Violano, Afferrante, Papangelo & Ciavarella, On stickiness of multiscale randomly rough
 surfaces, J. Adhesion (2019), doi:10.1080/00218464.2019.1685384.
@@ -16,17 +16,21 @@ from stickiness.formatting import amount, number
 A_V = 3.0  # to which a_V converges; Figures 3A, 5A and 5B
 A_V_FIG4B = 2.8  # of the formula in Figure 4B
 C0_LINES = (1e-3, 1e-5)  # m^0.4, of the two lines of Figure 6
-HURST_OF_LINES = 0.8
+HURST = 0.8  # of all panels but 3C
+HURST_3C = (0.7, 0.8, 0.9)
+MEAN_GAP_1B = 1.37  # over h_rms
+LOAD = 0.065  # over E* q0 h_rms, of Figures 3A and 3C
 CRYSTAL = 0.05  # l_a/range of a crystal on itself, to which these limits belong:
 H_RMS_LIMITS = {1e-6: 1e3, 1e-9: 6.7e4, 1e-12: 1e6}  # range q0: largest h_rms/range that sticks
 
 # Entries of the configuration that name others, and the tables of these.
 REFERENCES = {"case": "cases", "surface": "model_surfaces", "fidelity": "fidelities"}
 MOST_VALUES = 6  # of a list that is written out
+TOLERANCE = 1e-3  # relative, within which a parameter is the paper's
 
 
 class Parameter(NamedTuple):
-    """A parameter of a panel: the paper's values, None if we do not know them, and our keys."""
+    """A parameter of a panel or claim: the paper's values, None if unknown, and our keys."""
 
     symbol: str
     paper: Any
@@ -49,7 +53,7 @@ def _of_line(set_: str, near: tuple[str, ...], magnification: int, h_rms: float)
     key = f"adhesion/{set_}"
     ranges = tuple(f"adhesion/{name}/range_over_h_rms" for name in (set_, *near))
     return [
-        Parameter("H", 0.8, (f"{key}/case/surface/hurst",)),
+        Parameter("H", HURST, (f"{key}/case/surface/hurst",)),
         Parameter("ζ", magnification, (f"{key}/case/surface/magnification",)),
         Parameter("h_rms", h_rms, (f"{key}/h_rms",), "m"),
         Parameter("L", 1e-4, (f"{key}/window",), "m"),
@@ -63,13 +67,15 @@ _FIG2_SURFACE = [
     Parameter("ζ", None, (f"{_FIG2}/case/surface/magnification",)),
 ]
 _MAPS = f"{_FIG2}/maps"
-_ZETAS_3A = (10, 100, 500, 1000, 5000, 1e4, 2e4, 5e4)
-_LOADS_3B = (0.0065, 0.03, 0.07, 0.13, 0.20, 0.26, 0.33, 0.39, 0.46, 0.52)
+ZETAS_3A = (10, 100, 500, 1000, 5000, 1e4, 2e4, 5e4)
+ZETA_3B = 1000
+ZETA_3D = 1000
+LOADS_3B = (0.0065, 0.03, 0.07, 0.13, 0.20, 0.26, 0.33, 0.39, 0.46, 0.52)
 
 #: Parameters by the paper's panel.
 PANELS: dict[str, list[Parameter]] = {
-    "1A": _of_sweep("fig1a", hurst=0.8, magnification=(10, 100, 1000), mean_gap=2),
-    "1B": _of_sweep("fig1b", hurst=0.8, magnification=None, mean_gap=1.37),
+    "1A": _of_sweep("fig1a", hurst=HURST, magnification=(10, 100, 1000), mean_gap=2),
+    "1B": _of_sweep("fig1b", hurst=HURST, magnification=None, mean_gap=MEAN_GAP_1B),
     "2A": _FIG2_SURFACE,
     "2B": [
         Parameter("ε/h_rms", None, (f"{_MAPS}/range_over_h_rms",)),
@@ -85,10 +91,10 @@ PANELS: dict[str, list[Parameter]] = {
         Parameter("ε/h_rms", 7.5e-3, (f"{_MAPS}/range_over_h_rms",)),
         Parameter("l_a/ε", 0.2, (f"{_MAPS}/adhesion_length_over_range",), largest=True),
     ],
-    "3A": _of_sweep("fig3a", hurst=0.8, magnification=_ZETAS_3A, pressure=0.065),
-    "3B": _of_sweep("fig3b", hurst=0.8, magnification=1000, pressure=_LOADS_3B),
-    "3C": _of_sweep("fig3c", hurst=(0.7, 0.8, 0.9), magnification=None, pressure=0.065),
-    "3D": _of_sweep("fig3d", hurst=0.8, magnification=1000, pressure=None),
+    "3A": _of_sweep("fig3a", hurst=HURST, magnification=ZETAS_3A, pressure=LOAD),
+    "3B": _of_sweep("fig3b", hurst=HURST, magnification=ZETA_3B, pressure=LOADS_3B),
+    "3C": _of_sweep("fig3c", hurst=HURST_3C, magnification=None, pressure=LOAD),
+    "3D": _of_sweep("fig3d", hurst=HURST, magnification=ZETA_3D, pressure=None),
     "4A": [
         Parameter("ζ", None, ("loops/fig4a/surface/magnification",)),
         Parameter("ε/h_rms", None, ("loops/fig4a/range_over_h_rms",)),
@@ -100,7 +106,7 @@ PANELS: dict[str, list[Parameter]] = {
         Parameter("realisations", 8, ("fidelity/seeds",)),
     ],
     "5A": [
-        Parameter("H", 0.8, ("criteria/map/hurst",)),
+        Parameter("H", HURST, ("criteria/map/hurst",)),
         Parameter("a_V", A_V, ("criteria/map/slope_a_v",)),
     ],
     "5B": [
@@ -139,7 +145,7 @@ def compare(config: Mapping[str, Any], parameter: Parameter) -> dict[str, Any]:
     if parameter.paper is None:
         return row | {"paper": "", "equal": False}
     paper = np.unique(np.asarray(parameter.paper, dtype=float))
-    equal = here.shape == paper.shape and np.allclose(here, paper, rtol=1e-6, atol=0)
+    equal = here.shape == paper.shape and np.allclose(here, paper, rtol=TOLERANCE, atol=0)
     return row | {"paper": write(paper, parameter.unit), "equal": bool(equal)}
 
 
@@ -157,10 +163,12 @@ def look_up(config: Mapping[str, Any], path: str) -> Any:
     for key in path.split("/"):
         if isinstance(value, str):
             value = config[REFERENCES[previous]][value]
-        value = value[key]
+        # A key that is left out, such as the loads of maps, has no values.
+        value = value.get(key)
+        if value is None:
+            return []
         previous = key
-    # A key that is left out, such as the loads of maps, has no values.
-    return [] if value is None else value
+    return value
 
 
 def write(values: np.ndarray, unit: str) -> str:

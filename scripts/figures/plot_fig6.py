@@ -4,7 +4,7 @@ import numpy as np
 
 from common import plotting
 from common.job import start
-from common.paper_panels import C0_LINES, HURST_OF_LINES
+from common.paper_panels import C0_LINES, HURST
 from common.plotting import BLACK, COLOURS, GREY, state
 from stickiness import datasets
 
@@ -34,14 +34,10 @@ def draw_lines(ax):
     q = np.array(WAVE_NUMBERS)
     for c0, place, beside in zip(C0_LINES, (3e3, 1.2e2), (8, 5e-6), strict=True):
         text = rf"$C_0$ = 10$^{{{np.log10(c0):.0f}}}$ m$^{{0.4}}$"
-        level = c0 * q ** (-2 * (HURST_OF_LINES + 1))
+        level = c0 * q ** (-2 * (HURST + 1))
         ax.plot(q, level, "--", color=GREY, linewidth=1.1, zorder=1)
-        ax.text(
-            place, beside * c0 * place ** (-2 * (HURST_OF_LINES + 1)), text, color=GREY, fontsize=8
-        )
-    ax.set(
-        xscale="log", yscale="log", xlim=WAVE_NUMBERS, title=f"lines: {state(hurst=HURST_OF_LINES)}"
-    )
+        ax.text(place, beside * c0 * place ** (-2 * (HURST + 1)), text, color=GREY, fontsize=8)
+    ax.set(xscale="log", yscale="log", xlim=WAVE_NUMBERS, title=f"lines: {state(hurst=HURST)}")
     ax.set(xlabel=r"wave number $q$ [1/m]", ylabel=r"power spectral density $C(q)$ [m$^4$]")
     ax.legend(loc="upper right")
 

@@ -28,6 +28,8 @@ CLAIM_TONES = {
     "reproduced": "yes",
     "reproduced with a qualification": "partly",
     "not reproduced": "no",
+    "not decided": "open",
+    "not checked: the configuration differs": "differs",
 }
 COMPARED_RANGE = 0.03  # over h_rms, where attractive areas are compared: amid the fit interval
 WORD_TONES = dict(zip(WORDS[NOT_JUDGED - 1 :: -1], TONES[NOT_JUDGED - 1 :: -1], strict=True))
@@ -36,7 +38,7 @@ WORD_TONES = dict(zip(WORDS[NOT_JUDGED - 1 :: -1], TONES[NOT_JUDGED - 1 :: -1], 
 def main(job):
     inputs = job.input
     params = job.params
-    claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "sources"])
+    claims = datasets.read(inputs.claims, ["value", "claimed", "verdict", "difference", "sources"])
     verdicts = datasets.read(inputs.verdicts, ["remaining", "verdict", "margin", "disagrees"])
     tested = datasets.read(inputs.experiments, ["outcome", "criterion_outcome"])
     files = {

@@ -28,12 +28,14 @@ def test_every_claim_runs_on_the_files_it_names(tmp_path):
     """A claim gets these files alone, so it cannot read another."""
     files = files_by_name()
     assert files.keys() == {name for claim in CLAIMS for name in claim.files}
-    rows = [check_claims.examine(one, files, dict.fromkeys(files, "a.nc"), TEXTS) for one in CLAIMS]
+    paths = dict.fromkeys(files, "a.nc")
+    rows = [check_claims.examine(one, files, paths, TEXTS, differences=[]) for one in CLAIMS]
     for row in rows:
         assert row["verdict"] in VERDICTS
         assert row["errors"].keys() <= {*SOURCES}
         assert np.isfinite(row["value"])
-        assert all(row[name] for name in PROSE)
+        assert all(row[name] for name in PROSE if name != "difference")
+        assert not row["difference"]
         assert "nan" not in " ".join(row[name] for name in PROSE).split()
         if row["number"] in (1, 2, 3, 4, 6, 7, 8, 9):  # the made-up files obey these exactly
             assert row["verdict"] == REPRODUCED, row["number"]
@@ -49,7 +51,8 @@ def test_a_claim_of_which_nothing_is_known_is_open_and_written(tmp_path):
         data.assign(inverse_kappa_ad=-data.inverse_kappa_ad) for data in files["adhesive_sets"]
     ]
     (eleventh,) = (one for one in CLAIMS if one.number == 11)
-    row = check_claims.examine(eleventh, files, dict.fromkeys(eleventh.files, "full.nc"), TEXTS)
+    paths = dict.fromkeys(eleventh.files, "full.nc")
+    row = check_claims.examine(eleventh, files, paths, TEXTS, differences=[])
     assert row["verdict"] == OPEN
     assert ": not known |" in write_table([row], tmp_path / "claims.md")
     row |= {"errors": {"sampling": 0.3, "model": np.nan}}

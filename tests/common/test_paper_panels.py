@@ -1,23 +1,16 @@
 """The table of the paper's panels says where the configuration differs from the paper."""
 
-from pathlib import Path
-
 import pytest
+from helpers.committed import ROOT, read_committed
 
-from common.config import load
 from common.paper_panels import PANELS, compare_panels
 from common.templates import make_environment
-
-ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
 def config(monkeypatch):
-    """The committed configuration, checked and in SI units, at standard fidelity."""
-    monkeypatch.chdir(ROOT)
-    campaigns = {name: load.load(path) for name, path in load.CAMPAIGNS.items()}
-    given = load.load(load.USER)
-    return load.check_all(load.defaults(".") | given, campaigns, given)["config"]
+    config, _ = read_committed(monkeypatch)
+    return config
 
 
 def list_differences(config):

@@ -184,7 +184,7 @@ def stickiness_map():
     limits |= {"slope_angle": (("slope_parameter", "h_rms_over_range"), angles)}
     coords = {"slope_parameter": parameters, "h_rms_over_range": roughness}
     data = xr.Dataset(limits, coords=coords | {dims[0]: q0, dims[1]: length})
-    return made_by(data, slope_a_v=3.0, shortest_over_range=4)
+    return made_by(data, hurst=0.8, slope_a_v=3.0, shortest_over_range=4)
 
 
 def real_surface(name, kind="self_affine", q0=1e3, c0=1e-3, h_rms=1e-6):

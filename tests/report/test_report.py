@@ -27,7 +27,13 @@ from stickiness.remaining.prediction import predict
 from stickiness.spectrum import SelfAffine
 
 NASTY = '<script>alert("1 & 2")</script>'
-GRADES = ("reproduced", "reproduced with a qualification", "not reproduced", "undecided")
+GRADES = (
+    "reproduced",
+    "reproduced with a qualification",
+    "not reproduced",
+    "not decided",
+    "not checked: the configuration differs",
+)
 
 
 def made_by(dataset, **parameters):
@@ -76,16 +82,20 @@ def claims():
     columns = {
         "statement": [f"statement {n}" for n in range(1, count)] + [NASTY],
         "quantity": [f"quantity {n}" for n in range(count)],
-        "value": [1.8912, -2.0, 3.0, 4.0],
-        "claimed": [2.0, np.nan, 3.0, 4.0],
+        "value": [1.8912, -2.0, 3.0, 4.0, 5.0],
+        "claimed": [2.0, np.nan, 3.0, 4.0, 5.0],
         "verdict": list(GRADES),
         "remark": [f"remark {n}, doi:10.1016/0043-1648(90)90154-3." for n in range(count)],
-        "sources": ["out/a/x.nc", "", "out/b/seed1.nc out/b/seed2.nc", "out/a/x.nc"],
+        "sources": ["out/a/x.nc", "", "out/b/seed1.nc out/b/seed2.nc", "out/a/x.nc", ""],
+        "difference": ["", "", "", "", "loops.fig4a.surface: H = 0.6 (paper: 0.8)"],
     }
     data = {name: ("claim", np.array(values)) for name, values in columns.items()}
     errata = {str(number): {"some_number": 0.5} for number in range(1, 7)}
     dataset = xr.Dataset(data, coords={"claim": range(1, count + 1)})
-    errors = {"sampling": [0.0315, np.nan, 0.1, 0.1], "discretisation": [0.0102, 0.0, 0.0, 0.0]}
+    errors = {
+        "sampling": [0.0315, np.nan, 0.1, 0.1, 0.0],
+        "discretisation": [0.0102, 0.0, 0.0, 0.0, 0.0],
+    }
     return made_by(budgeted(dataset, "value", **errors), errata=errata)
 
 
@@ -307,6 +317,8 @@ def test_the_report_shows_what_is_in_the_files(page):
         "E = 1 kPa, ν = 0.5",
         "1.2 pixels in the zone of attraction",
         "ε/h rms = 0.1 (paper: 0.0075) by",
+        "≠ not checked: the configuration differs loops.fig4a.surface: H = 0.6 (paper: 0.8)",
+        "≠ not checked: the configuration differs: the configuration sets",  # legend
         # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",
