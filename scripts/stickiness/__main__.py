@@ -178,9 +178,12 @@ def read_radius(text: str) -> float:
     from stickiness.units import Quantity
 
     try:
-        return float(Quantity.read(text, "m"))
+        radius = float(Quantity.read(text, "m"))
     except ValueError as error:
         fail(f"--radius {error}")
+    if not radius > 0:
+        fail(f"--radius {text!r}: must be positive")
+    return radius
 
 
 def read_value(text: str) -> Any:

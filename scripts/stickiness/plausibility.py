@@ -34,8 +34,8 @@ _OF_LENGTH = "give the side of the heights in m (2e-3 for 2 mm)"
 _OF_SLOPE = "small slopes are assumed; give heights and lengths both in m"
 _OF_WORK = (
     "solids other than clean metals have up to 0.1 J/m^2; is it in mJ/m^2, or an energy of "
-    "peeling, which includes dissipation? Give work_on_smooth: true if it is that of smooth "
-    "surfaces"
+    "peeling, which includes dissipation? If it was measured on smooth surfaces, set "
+    "work_on_smooth: true (--work-on-smooth true)"
 )
 _OF_HEIGHT = "atoms are larger than 0.05 nm; give heights in m (1e-6 for 1 um)"
 #: By the name of the argument, or of the key in the configuration.
@@ -44,7 +44,7 @@ LIMITS = {
     "h_rms": Limits(5e-11, LONGEST_SIDE, LONGEST_SIDE, _OF_HEIGHT),
     "rms_slope": Limits(1e-7, 1.0, 1.0, _OF_SLOPE),
     "modulus": Limits(10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"),
-    "work_of_adhesion": Limits(1e-6, 0.2, 10.0, _OF_WORK, "J/m^2"),
+    "work_of_adhesion": Limits(1e-6, 0.2, 10.0, _OF_WORK),
     "poisson": Limits(0.0, 0.5, 0.5, "hardly any solid becomes wider when it is stretched"),
     "range": Limits(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
     "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),

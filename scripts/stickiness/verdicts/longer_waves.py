@@ -23,6 +23,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from stickiness.formatting import amount
 from stickiness.verdicts.parametric import END_QUANTILES, ENDS
 
 LARGER = 10.0  #: side of the contact over that of the scan, of the answer beside that for the scan
@@ -144,8 +145,8 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
     scan = float(data.scan)
     if not contact >= scan * (1 - 1e-9):
         raise ValueError(
-            f"contact must be at least the side of the scan, {scan:.3g} m, got {contact:.3g} m: "
-            "crop the heights to a smaller contact"
+            f"contact must be at least the side of the scan, {amount(scan, 'm')}, got "
+            f"{amount(contact, 'm')}: crop the heights to a smaller contact"
         )
     if contact <= scan * (1 + 1e-9):
         return data

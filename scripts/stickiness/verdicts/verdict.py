@@ -118,11 +118,8 @@ class StickinessVerdict:
             headline = [f"{self.word}: {self.not_judged[0]}", height]
         else:
             doubts = list(self.doubts)
-            slope = float(self.surface.data.rms_slope[-1])
-            is_steep = slope > LIMITS["rms_slope"].usual
-            steep = f"; doubtful, for the rms slope is {number(slope, 2)}" if is_steep else ""
             headline = [
-                f"{self.word}: {self._describe_remaining()}{steep}",
+                f"{self.word}: {self._describe_remaining()}{self._describe_doubt()}",
                 height,
                 f"pull-off stress: {self._describe_pull_off()}",
                 self._describe_threshold(),
@@ -131,6 +128,19 @@ class StickinessVerdict:
                 *self._describe_dwell(),
             ]
         return "\n".join([*headline, *(f"warning: {doubt}" for doubt in doubts)])
+
+    def _describe_doubt(self) -> str:
+        """Improbable values that decide, behind the verdict; empty if there are none."""
+        improbable = []
+        slope = float(self.surface.data.rms_slope[-1])
+        if slope > LIMITS["rms_slope"].usual:
+            improbable.append(f"the rms slope is {number(slope, 2)}")
+        work = self.material.work_of_adhesion
+        if work > LIMITS["work_of_adhesion"].usual and not self.material.work_on_smooth:
+            improbable.append(f"the work of adhesion is {number(work, 2)} J/m^2")
+        if self.material.range > LIMITS["range"].usual:
+            improbable.append(f"the range is {amount(self.material.range, 'm', 2)}")
+        return f"; doubtful, for {' and '.join(improbable)}" if improbable else ""
 
     def _describe_remaining(self) -> str:
         share = tell_share(self.remaining, *self.remaining_limits)
