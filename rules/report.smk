@@ -121,7 +121,8 @@ rule write_findings:
     input:
         template=project_file("report/findings.md.j2"),
         parts=[
-            project_file(f"report/{part}") for part in ("left_out.j2", "panels.j2", "claim_verdicts.j2")
+            project_file(f"report/{part}")
+            for part in ("left_out.j2", "panels.j2", "claim_verdicts.j2")
         ],
         adhesive_maps=f"{RESULTS}/adhesion/full/fig2/maps.nc",
         claims=f"{RESULTS}/claims/claims.nc",

@@ -8,7 +8,6 @@ which are not in the repository; the limits of H on surfaces of known H.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,9 +16,6 @@ from stickiness.measured import levelling
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.plausibility import LIMITS, LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
 from stickiness.statistics import COVERS
-
-if TYPE_CHECKING:
-    from stickiness.measured.topography import Profile, Topography
 
 # Share of the points with one value above which it stands out, if it is so many times as frequent
 # as the values next to it. Up to 6 times were seen, at 1 % of the points (elevations in metres).
@@ -136,13 +132,13 @@ def doubt_pixels(
         )
 
 
-def doubt_pattern(measurement: Topography | Profile) -> Iterator[str]:
-    """Doubt about a periodic pattern, such as a grating, by its period."""
-    wave = find_pattern(measurement.heights)
+def doubt_pattern(source: str, heights: NDArray, sides: Sequence[float]) -> Iterator[str]:
+    """Doubt about a periodic pattern of heights on sides [m], such as a grating, by its period."""
+    wave = find_pattern(heights)
     if wave is not None:
-        period = 1 / np.linalg.norm(np.divide(wave, measurement.size))
+        period = 1 / np.linalg.norm(np.divide(wave, sides))
         yield (
-            f"{measurement.source}: the heights repeat with a period of {period:.3g} m, as those "
+            f"{source}: the heights repeat with a period of {period:.3g} m, as those "
             "of a grating: verdicts are for random roughness"
         )
 

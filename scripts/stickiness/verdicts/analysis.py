@@ -80,7 +80,11 @@ def analyse(
     # pattern has no such fit either, and is told by its period.
     doubts = [*doubt_fit(fit)] if is_fitted else unfitted.copy()
     if doubts:
-        patterns = [text for each in heights for text in doubt_pattern(each)]
+        patterns = [
+            text
+            for each in heights
+            for text in doubt_pattern(each.source, each.heights, sides=each.size)
+        ]
         doubts = patterns or doubts
     q_extended = None if extend_to is None else 2 * np.pi / extend_to
     if q_extended is not None and not fit.is_self_affine:

@@ -81,7 +81,7 @@ def test_a_grating_has_a_period_and_random_surfaces_none(wave):
     grating = np.sign(np.sin(wave[0] * x[:, None] + wave[1] * x + 0.1)) + 0.1 * rough()
     found = doubts.find_pattern(grating)
     np.testing.assert_allclose(np.abs(found), wave, atol=0.1)
-    (text,) = doubts.doubt_pattern(topography.Topography(grating, 1e-6, 1e-6, "here"))
+    (text,) = doubts.doubt_pattern("here", grating, sides=(128e-6, 128e-6))
     period = float(re.search(r"period of (\S+) m", text)[1])
     assert period == pytest.approx(128e-6 / np.hypot(*wave), rel=0.01)
     for lowest in (1.0, 6.0):
