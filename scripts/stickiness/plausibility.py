@@ -44,7 +44,7 @@ LIMITS = {
     "h_rms": Limits(5e-11, LONGEST_SIDE, LONGEST_SIDE, _OF_HEIGHT),
     "rms_slope": Limits(1e-7, 1.0, 1.0, _OF_SLOPE),
     "modulus": Limits(10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"),
-    "work_of_adhesion": Limits(1e-6, 0.2, 10.0, _OF_WORK),
+    "work_of_adhesion": Limits(1e-6, 0.2, 10.0, _OF_WORK, "J/m^2"),
     "poisson": Limits(0.0, 0.5, 0.5, "hardly any solid becomes wider when it is stretched"),
     "range": Limits(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
     "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),

@@ -244,7 +244,7 @@ def test_a_file_that_tells_all_needs_no_more(folder):
     both = xr.Dataset({"z": (("x", "y"), heights, {"units": "um"}), "line": ("x", heights[0])})
     both.assign_coords(places).to_netcdf(folder / "told.nc")
     answer = run(folder, "told.nc", *TAPE, "--no-page")
-    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 6)
+    assert (answer.status, answer.errors, len(answer.lines)) == (0, [], 7)
     assert answer.lines[-1].startswith("This is told.nc: z; the file also holds line")
 
 
