@@ -42,12 +42,7 @@ def relax(problem, pressure, tol, max_iterations):
         fall = operator.stiffness(gap_in_contact)
         fall *= touching
         fall[touching] -= fall[touching].mean()
-        # Direction of Polak and Ribiere.
-        product = float(np.vdot(gap_in_contact, fall))
-        weight = max(0.0, (product - float(np.vdot(last_gap, fall))) / last_product)
-        direction *= weight
-        direction *= touching
-        direction += fall
+        product = _turn(direction, fall, touching, gap_in_contact, last_gap, last_product)
         conjugate = _step(problem, operator, pressure, gap, direction)
         last_gap = gap_in_contact
         last_product = product if conjugate else np.inf
@@ -82,15 +77,11 @@ def relax_gap(problem, gap, tol, max_iterations):
                 best = _Iterate(pressure, closed_gap, shift, residual)
         if is_last or (best is not None and best.residual <= tol):
             break
-        # Direction of Polak and Ribiere.
+        # The compliance preconditions the pressure, which is the gradient of the energy.
         fall = operator.compliance(pull)
         fall += of_mean * pull.mean()
         fall *= free
-        product = float(np.vdot(pull, fall))
-        weight = max(0.0, (product - float(np.vdot(last_pull, fall))) / last_product)
-        direction *= weight
-        direction *= free
-        direction += fall
+        product = _turn(direction, fall, free, pull, last_pull, last_product)
         curvature = float(np.vdot(direction, operator.stiffness(direction)))
         if not curvature > 0:  # nothing but rounding is left
             break
@@ -100,6 +91,19 @@ def relax_gap(problem, gap, tol, max_iterations):
         last_product = product
         iterations += 1
     return _state(best, iterations, operator.pairs - pairs_before)
+
+
+def _turn(direction, fall, free, gradient, last_gradient, last_product):
+    """Turn the direction on the free points, in place, as Polak and Ribiere do.
+
+    Returns the product of the gradient and its preconditioned `fall`, for the next turn.
+    """
+    product = float(np.vdot(gradient, fall))
+    weight = max(0.0, (product - float(np.vdot(last_gradient, fall))) / last_product)
+    direction *= weight
+    direction *= free
+    direction += fall
+    return product
 
 
 def _state(best, iterations, pairs):
