@@ -28,7 +28,8 @@ def draw_plane(ax, data):
     h = np.geomspace(1, 1e8, 200)  # h_rms/range
     measured = [float(data[name]) for name in ("a_v", "a_v_low", "a_v_high")]
     limit, low, high = (find_parameter(h, a_v) for a_v in measured)
-    bottom, top = 1e-14, 1e2
+    bottom = 1e-14
+    top = 1e2
     plotting.draw_band(ax, h, bottom, limit, GREY, alpha=0.15)
     plotting.draw_band(ax, h, low, high, BLACK, alpha=0.35)
     ax.plot(h, limit, color=BLACK, label=f"measured {state(a_v=measured[0])}, with error")

@@ -16,7 +16,8 @@ from stickiness import spectrum, surface
 
 __all__ = ["heights", "write"]
 
-SIDE, PIXELS = 2000.0, 256  # um
+SIDE = 2000.0  # um
+PIXELS = 256  # along a side
 
 
 def heights() -> NDArray:

@@ -18,13 +18,14 @@ SCHEMA = PROJECT / "config/schema.json"
 
 def page() -> str:
     """Return the page; a section that several files have stands with the first."""
-    found, files = set(), {}
+    described = set()
+    files = {}
     for name in ("config", *TABLES):
         schema = MODELS[name].model_json_schema()
         models = schema.get("$defs", {})
         sections = {section["title"]: section for section in (schema, *models.values())}
-        files[name] = models, [sections[title] for title in sections if title not in found]
-        found |= sections.keys()
+        files[name] = models, [sections[title] for title in sections if title not in described]
+        described |= sections.keys()
     environment = make_environment(PROJECT / "report")
     return environment.get_template("configuration.md.j2").render(files=files)
 

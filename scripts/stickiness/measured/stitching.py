@@ -310,17 +310,7 @@ def draw(
     ValueError
         If the fit is to extrapolate, but is not self-affine or `extend_to` is below the cutoff.
     """
-    if extend_to is not None and not spectrum.fit.is_self_affine:
-        raise ValueError(
-            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is outside the range of "
-            "self-affine surfaces and cannot extrapolate the spectrum; leave extend_to out or "
-            "narrow fit_from … fit_to"
-        )
-    if extend_to is not None and not extend_to > spectrum.cutoff.q:
-        raise ValueError(
-            f"extend_to must be below the shortest wavelength measured, "
-            f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
-        )
+    _check_extension(spectrum, extend_to)
     rng = np.random.default_rng(seed)
     rings = spectrum.rings
     cutoff = spectrum.cutoff.q
@@ -373,6 +363,21 @@ def draw(
         hurst=law.hurst,
         first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
     )
+
+
+def _check_extension(spectrum: MeasuredSpectrum, extend_to: float | None) -> None:
+    """Raise an error if a fit cannot extrapolate the spectrum up to a wave number [1/length]."""
+    if extend_to is not None and not spectrum.fit.is_self_affine:
+        raise ValueError(
+            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is outside the range of "
+            "self-affine surfaces and cannot extrapolate the spectrum; leave extend_to out or "
+            "narrow fit_from … fit_to"
+        )
+    if extend_to is not None and not extend_to > spectrum.cutoff.q:
+        raise ValueError(
+            f"extend_to must be below the shortest wavelength measured, "
+            f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
+        )
 
 
 def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:

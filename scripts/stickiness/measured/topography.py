@@ -309,26 +309,9 @@ def from_array(
     else:
         steps = np.broadcast_to(positive(steps=steps)[0], 2)
 
-    # Of copies of one tile, one is kept: the others tell nothing more of the surface.
     remarks: tuple[str, ...] = ()
     if heights.ndim == 2 and np.isfinite(heights).any():
-        tile = levelling.find_tile(heights)
-        if tile != heights.shape:
-            copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
-            points = " x ".join(map(str, tile))
-            remarks += (
-                f"{source}: the map is {copies} copies or mirror images of one tile of {points} "
-                "points; one is used",
-            )
-            heights = heights[: tile[0], : tile[1]]
-        repeats = levelling.find_repeats(heights)
-        if max(repeats) > 1:
-            remarks += (
-                f"{source}: every point is repeated {repeats[0]} x {repeats[1]} times; it is used "
-                "once",
-            )
-            heights = heights[:: repeats[0], :: repeats[1]]
-            steps = np.multiply(steps, repeats)
+        heights, steps, remarks = _keep_one_copy(heights, steps, source)
 
     # Spikes and points beside missing ones are taken for missing.
     usable, dropped = levelling.without_rims(heights, missing_rim)
@@ -378,6 +361,33 @@ def from_array(
     if positions is not None:
         return Profile(filled, steps[0], source, largest_gap, **record)
     return Topography(filled, float(steps[0]), float(steps[1]), source, **record)
+
+
+def _keep_one_copy(
+    heights: NDArray, steps: NDArray, source: str
+) -> tuple[NDArray, NDArray, tuple[str, ...]]:
+    """Heights and steps of one tile, each point once, and a remark on what was left out.
+
+    Copies tell nothing more of the surface.
+    """
+    remarks = []
+    tile = levelling.find_tile(heights)
+    if tile != heights.shape:
+        copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
+        points = " x ".join(map(str, tile))
+        remarks.append(
+            f"{source}: the map is {copies} copies or mirror images of one tile of {points} "
+            "points; one is used"
+        )
+        heights = heights[: tile[0], : tile[1]]
+    repeats = levelling.find_repeats(heights)
+    if max(repeats) > 1:
+        remarks.append(
+            f"{source}: every point is repeated {repeats[0]} x {repeats[1]} times; it is used once"
+        )
+        heights = heights[:: repeats[0], :: repeats[1]]
+        steps = np.multiply(steps, repeats)
+    return heights, steps, tuple(remarks)
 
 
 def _check_options(missing: Missing, max_missing: float, missing_rim: Rim, spikes: Spikes) -> None:

@@ -76,16 +76,10 @@ def analyse(
     unfitted = [doubt for _, doubt in analysed if doubt]
     is_fitted = len(unfitted) < len(analysed)
 
-    # Doubts: no fit, a fit that no surface has, or heights that no instrument measures. A periodic
-    # pattern has no such fit either, and is told by its period.
+    # Doubts: no fit, a fit that no surface has, or heights that no instrument measures.
     doubts = [*doubt_fit(fit)] if is_fitted else unfitted.copy()
     if doubts:
-        patterns = [
-            text
-            for each in heights
-            for text in doubt_pattern(each.source, each.heights, sides=each.size)
-        ]
-        doubts = patterns or doubts
+        doubts = _find_patterns(heights) or doubts
     q_extended = None if extend_to is None else 2 * np.pi / extend_to
     if q_extended is not None and not fit.is_self_affine:
         doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
@@ -134,6 +128,15 @@ def analyse(
         choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
         not_judged="\n".join(not_judged),
     )
+
+
+def _find_patterns(heights: Sequence[Topography | Profile]) -> list[str]:
+    """Doubts about periodic patterns: they have no such fit either, but a period."""
+    return [
+        doubt
+        for each in heights
+        for doubt in doubt_pattern(each.source, each.heights, sides=each.size)
+    ]
 
 
 def _tabulate_spectrum(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Dataset:
