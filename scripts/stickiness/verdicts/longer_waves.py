@@ -150,15 +150,18 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
         )
     if contact <= scan * (1 + 1e-9):
         return data
+
+    # Energy and rms height of every draw. What is not measured of the contact follows the law.
     waves = LongerWaves.draw(data, contact)
-    of_scan = data.elastic_energy_draws.values
-    # What is not measured of the contact follows the law.
     unknown = 1 - (scan / contact) ** 2
+    of_scan = data.elastic_energy_draws.values
     energy = of_scan + unknown * (waves.integrate(order=1) / 4 - data.long_energy_draws.values)
     change = unknown * (waves.integrate(order=0) - data.long_variance_draws.values)
     h_rms = np.sqrt(np.maximum(data.h_rms_draws.values**2 + change, 0.0))
     longer = np.maximum(energy / of_scan - 1, 0.0)
     share = np.median(longer / (1 + longer))
+
+    # Both ends of what is known are quantiles of the draws, as those of the scan.
     changed = data.assign(
         h_rms_draws=("draw", h_rms),
         elastic_energy_draws=("draw", energy),
@@ -175,6 +178,8 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
         shape_error=np.hypot(data.shape_error, data.shape * share / 2),
         contact=contact,
     )
+
+    # Spectra of the draws, for layers, and of both ends.
     spectra = ("draw", "longer_wave_number"), unknown * waves.width * waves.psd
     changed = changed.assign(longer_psd_draws=spectra).assign_coords(longer_wave_number=waves.q)
     return _prepend_spectrum(changed, waves, order=np.argsort(energy))

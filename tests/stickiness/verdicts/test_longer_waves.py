@@ -152,6 +152,23 @@ def test_the_larger_contact_is_the_answer_for_its_size(patch):
     assert asked.decided_by.startswith("theory")
 
 
+def test_several_surfaces_are_judged_as_each_alone(patch):
+    """Scans of different sizes, and a rough material, which meets the contact of the surface."""
+    _, small = take_patch(seed=2, parts=8)
+    rough = replace(TAPE, surface=small)
+    surfaces = {"large": patch, "small": small}
+    options = {"curves": False, "thresholds": False}
+    together = judge({"tape": TAPE, "rough": rough}, surfaces, **options)
+    for name, surface in surfaces.items():
+        for key, material in {"tape": TAPE, "rough": rough}.items():
+            alone = judge({key: material}, {name: surface}, **options)
+            cell = together.sel(material=[key], surface=[name])
+            for variable in ("larger_contact", "larger_verdict", "larger_remaining_low"):
+                np.testing.assert_allclose(cell[variable], alone[variable], rtol=1e-12)
+    smooth, doubly = together.larger_modulus_threshold.sel(surface="large").values
+    assert doubly < smooth
+
+
 def test_other_surfaces_have_no_larger_contact():
     verdicts = judge([TAPE], {"wall": Surface.from_spectrum(ROUGH)}, curves=False)
     assert np.isnan(verdicts.larger_contact)
