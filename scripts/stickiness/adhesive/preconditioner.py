@@ -39,7 +39,7 @@ class Smoother:
             weights = [(1 + np.cos(np.pi * np.fft.rfftfreq(n)) ** 2) / 2 for n in shape]
             symbol -= self._constant
             symbol /= 64 * np.outer(weights[1], weights[0])
-        self._convolution = convolution.Convolution(shape, np.float32)
+        self._convolution = convolution.convolution(shape, np.float32)
         self._every = np.arange(shape[0])
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
 

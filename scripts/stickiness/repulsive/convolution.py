@@ -1,9 +1,10 @@
-"""Blocked convolutions of a real periodic field with an even kernel.
+"""Convolutions of a real periodic field with an even kernel.
 
-The transform of a large grid is bound by memory, not by arithmetic. Rows are therefore transformed
-a block at a time, then a few wavenumbers at a time along the other axis, multiplied by the symbol
-of the kernel and transformed back while they are in cache. Rows that hold nothing, or of which
-nothing is wanted, are left out. Threads share the blocks (`sharing`).
+A small grid is transformed at once. The transform of a large one is bound by memory, not by
+arithmetic. Its rows are therefore transformed a block at a time, then a few wavenumbers at a time
+along the other axis, multiplied by the symbol of the kernel and transformed back while they are in
+cache. Rows that hold nothing, or of which nothing is wanted, are left out. Threads share the blocks
+(`sharing`).
 
 All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on a busy machine.
 """
@@ -24,6 +25,9 @@ _ROWS = 64  # rows transformed at a time along axis 1
 _STRIP = 2**12  # numbers transformed at a time along axis 0 on either side of a mirror: 32 kB
 _CACHED = 2**14  # complex numbers transformed at a time along axis 0: 256 kB
 _ALIGNED = 64  # bytes
+# Points up to which a transform of the whole grid takes less time than blocks, packed or not.
+_SMALL_PACKED = 2**15
+_SMALL = 2**17
 _U = np.uint64  # an index that cannot be negative: the compiler need not check
 
 
@@ -43,8 +47,52 @@ def count_points():
     return _OF_THREAD.points
 
 
-class Convolution:
-    """Convolution on one grid, in single or double precision.
+def convolution(shape, dtype):
+    """Convolution on one grid, in single or double precision, at once or in blocks."""
+    most = _SMALL_PACKED if _is_packed(shape, dtype) else _SMALL
+    return (WholeConvolution if shape[0] * shape[1] <= most else BlockedConvolution)(shape, dtype)
+
+
+def _is_packed(shape, dtype):
+    """Whether blocks take neighbours along a row for one complex number."""
+    return dtype == np.float32 and shape[1] % 2 == 0
+
+
+class WholeConvolution:
+    """Convolution on a small grid, which is transformed at once."""
+
+    def __init__(self, shape, dtype):
+        self.shape = shape
+        self._field = pyfftw.zeros_aligned(shape, dtype, n=_ALIGNED)
+        numbers = np.result_type(dtype, np.complex64)
+        self._spectrum = pyfftw.zeros_aligned((shape[0], shape[1] // 2 + 1), numbers, n=_ALIGNED)
+        self._forward = _plan(self._field, self._spectrum, "FFTW_FORWARD", axes=(0, 1))
+        self._backward = _plan(self._spectrum, self._field, "FFTW_BACKWARD", axes=(0, 1))
+
+    def symbol(self, values):
+        """Prepare a symbol for `apply`: as of `BlockedConvolution.symbol`."""
+        half = values.T
+        mirrored = half[(self.shape[0] - 1) // 2 : 0 : -1]
+        return np.concatenate([half, mirrored], dtype=self._field.dtype, casting="same_kind")
+
+    def apply(self, symbol, field, out, rows_in=None, rows_out=None):
+        """Convolve `field` into `out`, as `BlockedConvolution.apply` does."""
+        _OF_THREAD.points += self.shape[0] * self.shape[1]
+        if field.shape != self.shape:  # a corner, with nothing beyond
+            self._field[...] = 0
+        self._field[: field.shape[0], : field.shape[1]] = field
+        self._forward.execute()
+        self._spectrum *= symbol
+        self._backward.execute()
+        image = self._field[: out.shape[0], : out.shape[1]]
+        if rows_out is None or rows_out.size == len(out):
+            out[...] = image
+        else:
+            out[rows_out] = image[rows_out]
+
+
+class BlockedConvolution:
+    """Convolution on a large grid, of which a block at a time is transformed.
 
     An even number of columns in single precision is *packed*: neighbours along a row are the real
     and the imaginary part (Cooley, Lewis and Welch, J. Sound Vib. 12:315, 1970), as transforms of
@@ -57,7 +105,7 @@ class Convolution:
     def __init__(self, shape, dtype):
         self.shape = shape
         self._dtype = np.dtype(dtype)
-        self._packed = self._dtype == np.float32 and shape[1] % 2 == 0
+        self._packed = _is_packed(shape, self._dtype)
         self._modes = shape[1] // 2 + (not self._packed)
         self._numbers = np.result_type(dtype, np.complex64)
         self._rows = min(shape[0], _ROWS)
@@ -268,8 +316,8 @@ def _mirrored(modes, length):
         yield np.arange(start, modes - start + 1)
 
 
-def _plan(source, target, direction):
-    return pyfftw.FFTW(source, target, axes=(1,), direction=direction, flags=_FLAGS, threads=1)
+def _plan(source, target, direction, axes=(1,)):
+    return pyfftw.FFTW(source, target, axes=axes, direction=direction, flags=_FLAGS, threads=1)
 
 
 def _run(plan, source, target):

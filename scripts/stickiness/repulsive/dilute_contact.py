@@ -192,7 +192,7 @@ class _Split:
         symbol *= _long(self.coarse, sides, width)
         blur = [np.sinc(np.fft.rfftfreq(m)) ** 8 for m in self.coarse]  # of two cubic B-splines
         symbol /= np.outer(blur[0], blur[1]) * (shape[0] * shape[1])
-        self._convolution = convolution.Convolution(self.coarse, np.float32)
+        self._convolution = convolution.convolution(self.coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol.T)
         self._image = np.zeros(self.coarse, np.float32)
 

@@ -53,7 +53,7 @@ class Split:
         # The smooth part without the blur by splines, once when spread and once when interpolated.
         smooth = self._smooth([np.arange(m // 2 + 1) * SPACING for m in padded])
         blur = [_blur(spline(np.arange(1, order)), m) ** 2 for m in padded]
-        self._convolution = convolution.Convolution(padded, self.dtype)
+        self._convolution = convolution.convolution(padded, self.dtype)
         self._symbol = even_symbol(self._convolution, smooth, np.outer(blur[0], blur[1]))
         phase = np.arange(SPACING)[:, None] / SPACING
         self._weights = spline(phase + order - 1 - np.arange(order)).astype(dtype)

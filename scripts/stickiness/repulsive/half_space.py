@@ -62,7 +62,7 @@ def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
 class _Kernel:
     """A convolution, and the symbol of what a field is convolved with."""
 
-    convolution: convolution.Convolution
+    convolution: convolution.WholeConvolution | convolution.BlockedConvolution
     symbol: object
 
 
@@ -93,7 +93,7 @@ class HalfSpace:
     # Made on demand: some methods do not need it, and in double precision hardly any the stiffness.
     @cached_property
     def _convolution(self):
-        return convolution.Convolution(self.shape, self.dtype)
+        return convolution.convolution(self.shape, self.dtype)
 
     @cached_property
     def _stiffness(self):
@@ -142,7 +142,7 @@ class FreeHalfSpace(HalfSpace):
     @cached_property
     def _compliance(self):
         padded = tuple(2 * fft.next_fast_len(n, real=True) for n in self.shape)
-        operator = convolution.Convolution(padded, self.dtype)
+        operator = convolution.convolution(padded, self.dtype)
         # The kernel is even along both axes: a cosine transform of a quadrant has its spectrum.
         quadrant = displace_by_pixel([m // 2 + 1 for m in padded], self._pixel)
         return _Kernel(operator, free_edges.even_symbol(operator, quadrant))

@@ -127,7 +127,7 @@ class _Mean:
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
         square[0, 0] = 1 / _SELF_WEIGHT
         symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
-        self._convolution = convolution.Convolution(coarse, np.float32)
+        self._convolution = convolution.convolution(coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol[: coarse[0] // 2 + 1].T)
         self._field = np.zeros(coarse, np.float32)
         self._image = np.zeros(coarse, np.float32)
