@@ -35,6 +35,9 @@ OPTIONS = {
 
 def main() -> None:
     """Answer the command line; end with one line if the answer cannot be written."""
+    # Before numpy is loaded: on such grids the threads of linear algebra wait more than they work.
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
     try:
         answer()
         sys.stdout.flush()
