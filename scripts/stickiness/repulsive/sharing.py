@@ -46,6 +46,9 @@ def share(work, parts, points):
     No two threads are the same worker: they count from zero.
     """
     parts = list(parts)
+    helpers = min(_TEAM.helpers, len(parts) - 1) if points >= _LEAST else 0
+    if helpers <= 0:
+        return [work(0, part) for part in parts]
     results = {}
     todo = iter(range(len(parts)))  # whoever is free takes the next
 
@@ -53,7 +56,6 @@ def share(work, parts, points):
         for k in todo:
             results[k] = work(worker, parts[k])
 
-    helpers = min(_TEAM.helpers, len(parts) - 1) if points >= _LEAST else 0
     others = [_TEAM.pool.submit(run, worker + 1) for worker in range(helpers)]
     try:
         run(0)
