@@ -13,19 +13,31 @@ import time
 import numpy as np
 
 # What a kernel of OpenBLAS needs, in numpy's words for groups of instructions.
-KERNELS = {"Haswell": "X86_V3", "Zen": "X86_V3", "SkylakeX": "X86_V4", "Prescott": "X86_V2"}
+KERNELS = {"Prescott": "X86_V2", "Haswell": "X86_V3", "Zen": "X86_V3", "SkylakeX": "X86_V4"}
 
 # Where marked tests are; to collect all others takes longer than to run these.
 PLACES = ("tests/stickiness", "tests/real_surfaces/test_wrong_files.py")
 
 
 def settings():
-    """Name, environment variables and reason to skip, or None, of every setting."""
+    """Name, environment variables and reason to skip, or None, of every setting.
+
+    Libraries do not affect one another's arithmetic, so that one setting has the plainest of all.
+    """
     config = np.show_config("dicts")
     extensions = config["SIMD Extensions"]
     runs = [*extensions["baseline"], *extensions["found"]]
     blas = config["Build Dependencies"]["blas"]
+    beside = {
+        "Prescott": {
+            "NUMBA_CPU_NAME": "generic",
+            "NPY_DISABLE_CPU_FEATURES": " ".join(extensions["found"]),
+        },
+        "Zen": {"OMP_NUM_THREADS": "2", "OPENBLAS_NUM_THREADS": "2"},
+    }
     for kernel, needs in KERNELS.items():
+        variables = beside.get(kernel, {})
+        name = " and ".join([f"OpenBLAS for {kernel}", *variables])
         reason = None
         if "openblas" not in blas["name"]:
             reason = f"numpy uses {blas['name']}, not OpenBLAS"
@@ -33,13 +45,12 @@ def settings():
             reason = "OpenBLAS is built for one processor"
         elif needs not in runs:
             reason = f"this processor lacks the instructions {needs}"
-        yield f"OpenBLAS for {kernel}", {"OPENBLAS_CORETYPE": kernel}, reason
-    yield "numba for any processor", {"NUMBA_CPU_NAME": "generic"}, None
-    disabled = " ".join(extensions["found"])
-    reason = None if disabled else "numpy takes no more than its baseline here"
-    yield "numpy for any processor", {"NPY_DISABLE_CPU_FEATURES": disabled}, reason
-    threads = {"OMP_NUM_THREADS": "2", "OPENBLAS_NUM_THREADS": "2"}
-    yield "two threads", threads, None if os.cpu_count() > 1 else "this machine has one core"
+        if reason is None:
+            variables["OPENBLAS_CORETYPE"] = kernel
+        elif variables:  # of the other libraries all the same
+            name += f", but {reason}"
+            reason = None
+        yield name, variables, reason
 
 
 def main(arguments):
