@@ -4,9 +4,13 @@ import atexit
 import os
 import shutil
 import tempfile
+from functools import partial
 from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, settings
+
+from stickiness.verdicts import simulated_surface
 
 # The same examples every time and few of them: a test that fails now and then helps nobody.
 settings.register_profile(
@@ -34,3 +38,15 @@ except OSError:
 if not _WRITABLE:
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp()
     atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
+
+
+@pytest.fixture(scope="module")
+def coarse_simulation():
+    """Contact on measured heights is simulated on a coarse grid, a tenth of the work.
+
+    For tests of what is done with the simulated states, rather than of their numbers.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        coarse = partial(simulated_surface.standardise, most_points=64)
+        patch.setattr(simulated_surface, "standardise", coarse)
+        yield

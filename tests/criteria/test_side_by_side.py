@@ -15,6 +15,8 @@ from stickiness.criteria.registry import REMAINING
 from stickiness.entries import check_material
 from stickiness.verdicts.limits import find_limits, find_value
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 COMMON = {"work_of_adhesion": "50 mJ/m^2", "range": "0.3 nm"}
 FILM = {"youngs_modulus": "4 GPa", "poisson_ratio": 0.4, "thickness": "50 um"}
 MATERIALS = {

@@ -21,6 +21,8 @@ from stickiness.plausibility import PlausibilityWarning
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.rough_surface import NEEDED
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 N = 128
 ROUGH = surface.synthesise(  # in um, on 2 mm
     SelfAffine(hurst=0.8, q0=np.pi, q1=np.pi * N / 2, h_rms=1.0), N, 2.0, seed=4

@@ -24,6 +24,8 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.limits import find_limits
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 STEEL = {"label": "steel", "plane_strain_modulus": "230 GPa", "work_of_adhesion": "0.1 J/m^2"}
 STEEL |= {"range": "0.3 nm"}
 SERIES = {"equilibrium": "10 kPa", "terms": [["100 GPa", "1 ms"]]}

@@ -11,7 +11,10 @@ from stickiness import surface
 from stickiness.measured import doubts, instrument_spectrum, topography
 from stickiness.spectrum import SelfAffine
 
-pytestmark = pytest.mark.processors
+pytestmark = [
+    pytest.mark.processors,
+    pytest.mark.usefixtures("coarse_simulation"),
+]
 
 
 def rough(hurst=0.8, n=128):

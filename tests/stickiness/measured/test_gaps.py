@@ -14,6 +14,8 @@ from stickiness.measured.stitching import Gap
 from stickiness.measured.topography import Profile, Topography, from_array
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 NM = 1e-9
 
 

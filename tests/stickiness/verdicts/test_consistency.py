@@ -19,6 +19,8 @@ from stickiness.units import si
 from stickiness.verdicts import curves, pair_roughness
 from stickiness.verdicts.limits import find_limits, find_value
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 LIMITED = ("remaining", "pull_off", "margin", "modulus_threshold")
 SURFACES = ("a", "b", "c", "rough", "x")
 ROUGH_MATERIAL = "rough"  # surface of materials that are rough themselves; it was not measured

@@ -17,6 +17,8 @@ from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.curves import DWELL_FACTORS, MODULUS_FACTORS, ROUGHNESS_FACTORS
 from stickiness.verdicts.limits import find_limits
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 HEIGHTS = np.array([1e-6, 1.5e-6])
 Q0 = 6e4
 TAPE = Material(modulus=0.4e6, poisson=0.5, work_of_adhesion=0.07, range=3e-9)

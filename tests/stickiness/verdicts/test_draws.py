@@ -15,6 +15,8 @@ from stickiness.statistics import COVERS
 from stickiness.verdicts.budgets import add_budget_of_probability
 from stickiness.verdicts.draws import QUANTILES, draw_model_errors, judge_draws
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 MATERIAL = Material(
     modulus=Prony(1e6, ((1e9, 1e-3),)), poisson=0.5, work_of_adhesion=0.07, range=3e-10
 )

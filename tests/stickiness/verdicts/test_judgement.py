@@ -15,6 +15,8 @@ from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.judgement import decide_pairs
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 UNMEASURED = (np.nan,) * 3
 
 

@@ -19,7 +19,10 @@ SPECTRUM = SelfAffine(hurst=0.8, q0=Q0, q1=8 * Q0, h_rms=1e-6)
 LAYER = Layer(0.5 / Q0, 0.5)
 TAPE = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10, solid=LAYER)
 
-pytestmark = pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning"),
+    pytest.mark.usefixtures("coarse_simulation"),
+]
 
 
 @pytest.fixture(scope="module")

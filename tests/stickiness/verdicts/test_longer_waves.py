@@ -13,6 +13,8 @@ from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.longer_waves import FIRST_WAVE, LARGER, LongerWaves, lengthen
 from stickiness.verdicts.pair_roughness import combine_roughness
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 SIDE = 1e-3
 BAND = {"q0": 2 * np.pi / SIDE, "q1": 256 * np.pi / SIDE, "h_rms": 10e-6}
 ROUGH = SelfAffine(hurst=0.8, **BAND)

@@ -27,7 +27,10 @@ SERIES = {"equilibrium": "0.1 MPa", "terms": [["0.5 MPa", "0.1 s"], ["10 MPa", "
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 LIMITED = ("remaining", "pull_off", "modulus_threshold", "separation_factor")
 
-pytestmark = pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
+pytestmark = [
+    pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning"),
+    pytest.mark.usefixtures("coarse_simulation"),
+]
 
 
 class Written(NamedTuple):

@@ -16,6 +16,8 @@ from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.limits import find_limits
 from stickiness.verdicts.pair_roughness import TOO_DIFFERENT, combine_roughness
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 TAPE = Material(modulus=0.1e6, poisson=0.5, work_of_adhesion=0.07, range=3e-10)
 FILM = Film(3e9 / TAPE.modulus, 0.4, 25e-6)
 THIN_FILM_MODULUS = 0.1e9  # Young's modulus [Pa]

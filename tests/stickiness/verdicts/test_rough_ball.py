@@ -10,6 +10,8 @@ from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.rough_ball import pull_off_of_ball
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 TAPE = Material(modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
 RADIUS = 1e-3
 LARGE = 0.1  #: beside which the distance of the attraction is small: JKR

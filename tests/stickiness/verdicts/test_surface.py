@@ -14,6 +14,8 @@ from stickiness.surface import lattice_spectrum, realised_spectrum, synthesise
 from stickiness.traction_laws import Exponential
 from stickiness.verdicts.limits import find_limits
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 BAND = {"hurst": 0.8, "q0": 6e5, "q1": 6e7}
 TAPE = {"modulus": 2e6, "poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
 SIDE = 2 * np.pi / 6e5

@@ -13,6 +13,8 @@ from stickiness.solids.moduli import Prony, Table
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.thresholds import find_rate, find_threshold
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 TAPE = Material(modulus=1e6, poisson=0.5, work_of_adhesion=0.06, range=3e-9)
 LAYER = Layer(30e-6, 0.5)
 ON_FILM = Layer(30e-6, 0.5, Film(3000.0, 0.4, 25e-6))

@@ -16,6 +16,8 @@ from stickiness.solids import Layer
 from stickiness.solids.moduli import Prony
 from stickiness.spectrum import SelfAffine
 
+pytestmark = pytest.mark.usefixtures("coarse_simulation")
+
 ROUGH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
 SMOOTH = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-8)
 GEL = {"modulus": 0.1e6, "work_of_adhesion": 0.05, "range": 3e-10}
