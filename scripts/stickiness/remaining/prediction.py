@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -14,6 +15,7 @@ from stickiness.remaining.share import (
     DeepestState,
     count_scales,
     find_deepest_state,
+    find_exponent,
     find_narrowest_wave,
     find_onset,
     remaining_share,
@@ -62,6 +64,7 @@ PINNING = 6.0
 LASTING = 2.2
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
+THRESHOLD_TOLERANCE = 1e-9  #: of their logarithm
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
 # of full contact is off by less than 1e-3 of itself.
@@ -304,13 +307,7 @@ class Roughness:
         Waves finer than `finest`, over q0, are not counted.
         """
         narrowest_wave = self.narrowest_wave(adhesion_length, range)
-        energy = self._energy_on_half_space
-        scales = count_scales(
-            narrowest_wave=np.minimum(narrowest_wave, finest),
-            magnification=self.magnification,
-            mean_wave_number=4 * energy / (np.square(self.h_rms) * self.q0),
-        )
-        return find_onset(scales)
+        return find_onset(count_scales(np.minimum(narrowest_wave, finest), self._exponent))
 
     def narrowest_wave(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Wave number over q0 up to which attraction does not bridge the waves."""
@@ -320,6 +317,14 @@ class Roughness:
         """Decades of wave numbers by which the theory goes beyond the simulations behind it."""
         beyond = np.asarray(self.narrowest_wave(adhesion_length, range)) / FINEST_SIMULATED
         return plain(np.maximum(np.log10(beyond), 0.0))
+
+    @cached_property
+    def _exponent(self) -> NDArray:
+        """Exponent of the elastic energy, by the mean wave number."""
+        return find_exponent(
+            magnification=self.magnification,
+            mean_wave_number=4 * self._energy_on_half_space / (np.square(self.h_rms) * self.q0),
+        )
 
     @property
     def _energy_on_half_space(self) -> NDArray:
@@ -505,7 +510,9 @@ class Roughness:
         log_start = np.clip(np.fmax(np.log(pairs.start_length), lowest), lowest, highest)
         is_enough = find_excess(log_start, row) >= 0
         bracket = (np.where(is_enough, lowest, log_start), np.where(is_enough, log_start, highest))
-        root = elementwise.find_root(find_excess, bracket, args=(row,))
+        root = elementwise.find_root(
+            find_excess, bracket, args=(row,), tolerances={"xatol": THRESHOLD_TOLERANCE}
+        )
 
         # Attraction whose range is far above h_rms holds at any strength. On a skin that takes more
         # to bend than is gained, nothing holds however soft the half-space is.

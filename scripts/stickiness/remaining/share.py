@@ -80,9 +80,7 @@ def find_narrowest_wave(zone: ArrayLike, magnification: ArrayLike) -> float | ND
     return plain(1 + 1 / (zone + SHARP / np.asarray(magnification)))
 
 
-def count_scales(
-    narrowest_wave: ArrayLike, magnification: ArrayLike, mean_wave_number: ArrayLike
-) -> float | NDArray:
+def count_scales(narrowest_wave: ArrayLike, exponent: ArrayLike) -> float | NDArray:
     """Number of scales over which the elastic energy is spread, N, of waves that are not bridged.
 
     That is (int u dln q)^2/int u^2 dln q, u the energy per logarithm of the wave number: for a
@@ -92,32 +90,35 @@ def count_scales(
     ----------
     narrowest_wave : array
         Wave number of the narrowest wave that counts, over q0, as by `find_narrowest_wave`.
-    magnification : array
-        Wave number of the finest waves of the surface over q0; infinite for very many decades.
-    mean_wave_number : array
-        Mean wave number of the heights over q0, 4 U/(E* h_rms^2 q0), which tells the exponent a.
+    exponent : array
+        That of the elastic energy, a, as by `find_exponent`.
 
     Examples
     --------
     >>> from stickiness.spectrum import SelfAffine
     >>> rough = SelfAffine(hurst=0.5, q0=1.0, q1=1e4, h_rms=1.0)
-    >>> scales = count_scales(100, 1e4, mean_wave_number=4 * rough.elastic_energy())
-    >>> print(f"{scales:.3f} {np.log(100):.3f}")
+    >>> exponent = find_exponent(1e4, mean_wave_number=4 * rough.elastic_energy())
+    >>> print(f"{count_scales(100, exponent):.3f} {np.log(100):.3f}")
     4.605 4.605
     """
-    magnification = np.asarray(magnification, dtype=float)
-    exponent = _find_exponent(magnification, np.asarray(mean_wave_number, dtype=float))
-    slope = np.abs(exponent / 2) + 1e-9  # at zero the quotient below has a limit
+    slope = np.abs(np.asarray(exponent) / 2) + 1e-9  # at zero the quotient below has a limit
     return plain(np.tanh(slope * np.log(narrowest_wave)) / slope)
 
 
-def _find_exponent(magnification: NDArray, mean_wave_number: NDArray) -> NDArray:
+def find_exponent(magnification: ArrayLike, mean_wave_number: ArrayLike) -> NDArray:
     """Exponent a of heights whose wave numbers have this mean, by bisection.
 
     The variance of heights goes with q^(-2 - a) dq, so that the mean wave number over q0 is
     (1 + a)/a (1 - zeta^(-a))/(1 - zeta^(-1 - a)). It falls with a.
+
+    Parameters
+    ----------
+    magnification : array
+        Wave number of the finest waves of the surface over q0; infinite for very many decades.
+    mean_wave_number : array
+        Mean wave number of the heights over q0, 4 U/(E* h_rms^2 q0).
     """
-    shape = np.broadcast_shapes(magnification.shape, mean_wave_number.shape)
+    shape = np.broadcast_shapes(np.shape(magnification), np.shape(mean_wave_number))
     log_magnification = np.log(np.maximum(magnification, 1 + 1e-9))
     low = np.full(shape, EXPONENTS[0])
     high = np.full(shape, EXPONENTS[1])

@@ -15,6 +15,7 @@ from stickiness.remaining.share import (
     count_scales,
     decay_energy,
     find_deepest_state,
+    find_exponent,
     find_narrowest_wave,
     find_onset,
     remaining_share,
@@ -56,13 +57,13 @@ def test_tough_contact_tends_to_full_contact_and_to_nothing(onset):
 def test_scales_are_those_of_the_spectrum(hurst, magnification):
     """By quadrature of the energy u per logarithm of the wave number."""
     rough = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
-    mean_wave_number = 4 * rough.elastic_energy()
+    exponent = find_exponent(magnification, mean_wave_number=4 * rough.elastic_energy())
     for narrowest in (2.0, 0.5 * magnification):
         log_q = np.linspace(0, np.log(narrowest), 4001)
         density = np.exp(3 * log_q) * rough.psd(np.exp(log_q))
         total = np.trapezoid(density, log_q)
         expected = total**2 / np.trapezoid(density**2, log_q)
-        scales = count_scales(narrowest, magnification, mean_wave_number)
+        scales = count_scales(narrowest, exponent)
         assert scales == pytest.approx(expected, rel=1e-4)
 
 
@@ -78,7 +79,8 @@ def test_the_onset_saturates_and_moves_with_the_scales():
         for magnification in (32.0, 1e4, 1e8):
             rough = SelfAffine(hurst=hurst, q0=1.0, q1=magnification, h_rms=1.0)
             wave = find_narrowest_wave(1e-12, magnification)
-            scales = count_scales(wave, magnification, 4 * rough.elastic_energy())
+            exponent = find_exponent(magnification, 4 * rough.elastic_energy())
+            scales = count_scales(wave, exponent)
             onsets[hurst, magnification] = find_onset(scales)
     assert onsets[0.5, 1e8] - onsets[0.5, 1e4] > 0.05
     assert onsets[0.8, 1e8] - onsets[0.8, 1e4] < 0.005
