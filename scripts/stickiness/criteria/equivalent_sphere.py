@@ -15,7 +15,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import elementwise
 
 from stickiness.arguments import plain, takes_positive
 from stickiness.criteria.formulas import traction_ratio
@@ -94,6 +93,8 @@ def error_factor(attractive_over_contact: ArrayLike, strength: ArrayLike) -> flo
 @takes_positive
 def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | NDArray:
     """Attraction over its DMT sum: `weak_effect` for small tau, `tough_effect` for large ones."""
+    from scipy.optimize import elementwise  # not needed to read a configuration
+
     t, tau = np.broadcast_arrays(attractive_over_contact, strength)
     # Radius of contact and of curvature are 1; c = 1/cos(angle). The edge of a sphere has
     # range/d = (8/3pi) sqrt(t) for small t, which defines its traction at any t.
@@ -163,6 +164,8 @@ def adhesion_length_threshold(
     h_rms: ArrayLike, q0: ArrayLike, rms_slope: ArrayLike, range: ArrayLike, a_v: ArrayLike
 ) -> float | NDArray:
     """Adhesion length [length] at which the attraction balances the repulsion."""
+    from scipy.optimize import elementwise  # not needed to read a configuration
+
     surface = np.broadcast_arrays(h_rms, q0, rms_slope, range, a_v)
     h, q0, slope, range, a_v = surface
 

@@ -11,8 +11,8 @@ import warnings
 from typing import Literal
 
 import numpy as np
+import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import NDArray
-from scipy import ndimage
 
 MAX_MISSING = 0.1  #: default largest share of missing points that are filled
 #: Rms step at a rim over that elsewhere, above which the rim is dropped: 0.75 to 3.4 around holes
@@ -170,7 +170,7 @@ def outstanding_rim(heights: NDArray) -> int:
 
 
 def _widen(hole: NDArray, rim: int) -> NDArray:
-    return ndimage.maximum_filter(hole, size=2 * rim + 1, mode="constant", cval=False)
+    return scipy.ndimage.maximum_filter(hole, size=2 * rim + 1, mode="constant", cval=False)
 
 
 def fill_missing(
@@ -254,7 +254,8 @@ def find_spikes(heights: NDArray) -> NDArray:
         # Points of a scratch or fibre one point wide are as far off, but not alone. By a third of
         # the limit, or a scratch of varying depth would fall to pieces as small as spikes.
         marked = distance > 1 / 3 * OUTLYING * typical
-        groups, _ = ndimage.label(marked, structure=np.ones((3, 3)))  # touch by side or corner
+        by_side_or_corner = np.ones((3, 3))
+        groups, _ = scipy.ndimage.label(marked, structure=by_side_or_corner)
         spikes &= (np.bincount(groups.ravel()) <= MOST_TOUCHING)[groups]
     return spikes
 

@@ -8,7 +8,6 @@ from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import elementwise
 
 from stickiness.arguments import number, plain, positive
 from stickiness.remaining.share import (
@@ -462,6 +461,8 @@ class Roughness:
         On a film it is the modulus of the layer that changes the length, from `adhesion_length`,
         and below a skin that of the half-space.
         """
+        from scipy.optimize import elementwise  # not needed to read a configuration
+
         positive(
             h_rms=self.h_rms,
             q0=self.q0,

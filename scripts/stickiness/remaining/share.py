@@ -24,8 +24,8 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import erf, erfcx, lambertw, ndtr
 
 from stickiness.arguments import plain, positive
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
@@ -253,13 +253,13 @@ def _find_weak_states(energy_ratio, range_ratio, load_scale, law) -> _WeakStates
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
     scale = np.sqrt(np.pi) * np.asarray(load_scale)[..., None]
     area = np.zeros((*np.shape(load_scale), _GAPS.size))
-    area[..., _TOUCHING] = erf(scale * _SLOPE[_TOUCHING] * _ENERGY[_TOUCHING])
+    area[..., _TOUCHING] = scipy.special.erf(scale * _SLOPE[_TOUCHING] * _ENERGY[_TOUCHING])
     # Mean attraction is costly and depends on the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
     attraction = _mean_attraction(ranges)[place.reshape(e.shape)]
     # Where undeformed heights overlap but do not touch, attraction falls short of contact. The
     # decay with the range was fitted to simulations.
-    open_overlap = np.maximum(ndtr(-_GAPS) - area, 0.0)
+    open_overlap = np.maximum(scipy.special.ndtr(-_GAPS) - area, 0.0)
     attraction = attraction - open_overlap * np.exp(-2.6 * e[..., None])
     # Other laws: what they attract beyond the exponential one.
     law = np.broadcast_to(law, e.shape)
@@ -290,12 +290,12 @@ def _mean_excess(range_ratio: NDArray, law: str) -> NDArray:
 def _mean_attraction(range_ratio: NDArray) -> NDArray:
     """Mean of exp(-gap/range) over undeformed heights, ``(range, gap)``; overlap counts as 1."""
     away = 1 / range_ratio[:, None] - _GAPS
-    open_part = np.exp(-(_GAPS**2) / 2) * erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
+    open_part = np.exp(-(_GAPS**2) / 2) * scipy.special.erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
     far = away <= 0  # nowhere if the range is short
     if far.any():
         gaps = np.broadcast_to(_GAPS, away.shape)[far]
-        open_part[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * ndtr(-away[far])
-    return open_part + ndtr(-_GAPS)
+        open_part[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * scipy.special.ndtr(-away[far])
+    return open_part + scipy.special.ndtr(-_GAPS)
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
@@ -335,7 +335,7 @@ def _gain_of_springs(energy_ratio: NDArray, range_ratio: NDArray) -> NDArray:
     pull = np.where(is_open, pull, 0.0)
     y = pull * (1 + pull)  # to rounding where it is tiny, which is nearly everywhere
     is_strong = pull > 1e-6
-    y[is_strong] = -lambertw(-pull[is_strong]).real
+    y[is_strong] = -scipy.special.lambertw(-pull[is_strong]).real
     is_open &= e * y < clearances
     energy = np.where(is_open, np.minimum(closed, e**2 * (y**2 - 2 * y)), closed)
     return -np.min(energy @ weights.T, axis=-1) / x[:, 0]

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
+import scipy  # its parts are loaded when first used, which reading a configuration does not
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize
 
 from stickiness.arguments import plain, positive
 from stickiness.remaining.prediction import Roughness
@@ -121,7 +121,7 @@ def find_pull_off(parameter: float) -> float:
     if i == t.size - 1:
         return _POINT_CONTACT
     bounds = (t[max(i - 1, 0)], t[i + 1])
-    minimum = optimize.minimize_scalar(
+    minimum = scipy.optimize.minimize_scalar(
         force, bounds=bounds, method="bounded", options={"xatol": 1e-10 * t[i]}
     )
     return float(minimum.x)
