@@ -38,6 +38,7 @@ with one_line():
     checked = read_configuration()
     config = checked["config"]
     PLANS = plan.plans_of(config, read_models(ERROR_MODELS))
+    MOST_SEEDS = plan.most_seeds(PLANS)
     DMT_ERRORS = model_choice.read_table(DMT_ERROR_TABLE)
 
 MATERIALS = checked["materials"]["materials"]
@@ -132,12 +133,8 @@ def surfaces_of(case, part="1-1"):
 
 def surfaces_on(surface, pixels, part="1-1"):
     """File of surfaces on a grid that holds a part's seeds: as many as any case wants of them."""
-    counts = [
-        each.settings.seeds
-        for case, each in PLANS.items()
-        if each.simulated and (each.surface, pixels_of_case(case)) == (surface, pixels)
-    ]
-    held = plan.batches_covering(plan.seeds_in(part)[-1], among=max(counts, default=1))[-1]
+    among = MOST_SEEDS.get((surface, pixels), 1)
+    held = plan.batches_covering(plan.seeds_in(part)[-1], among)[-1]
     grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
     return f"{RESULTS}/surfaces/{surface}{grid}/seeds{held}.nc"
 

@@ -14,6 +14,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -111,6 +112,7 @@ class ErrorModel:
 ErrorModels = Mapping[tuple[str, str], ErrorModel]
 
 
+@lru_cache
 def nearest_measured(surface: Surface, pressure: float) -> tuple[Surface, float, float]:
     """Return the nearest surface and pressure measured, and the factor that widens errors there."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -34,6 +35,11 @@ class Plan:
     solved_by: str
 
     @property
+    def grid(self) -> tuple[str, int]:
+        """Model surface, and grid points per shortest wavelength."""
+        return self.surface, self.settings.pixels_per_wavelength
+
+    @property
     def gaps(self) -> bool:
         """Whether attractive areas are needed, which take longer to evaluate than area and gap."""
         return "attractive_area" in means_of(self.quantities)
@@ -52,6 +58,7 @@ class Plan:
 def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
     """Return the plan of every case of a checked configuration; a ValueError names a case in it."""
     plans: dict[str, Plan] = {}
+    on_grid: dict[tuple[str, int], list[Plan]] = defaultdict(list)  # plans that solve, by grid
     for name, case in config["cases"].items():
         quantities = tuple(case["quantities"])
         simulated = case["model"] == "simulation"
@@ -74,8 +81,12 @@ def plans_of(config: Mapping[str, Any], models: ErrorModels) -> dict[str, Plan]:
             simulated=simulated,
             solved_by=name,
         )
-        earlier = (key for key, other in plans.items() if can_reuse(plan, other))
+        neighbours = on_grid[plan.grid]
+        earlier = (other.solved_by for other in neighbours if can_reuse(plan, other))
         plans[name] = replace(plan, solved_by=next(earlier, name))
+        # A plan that uses the solutions of another has none to offer that the other lacks.
+        if plans[name].solved_by == name:
+            neighbours.append(plans[name])
     return plans
 
 
@@ -119,18 +130,25 @@ def preset(fidelity: Mapping[str, Any]) -> Settings:
 
 def can_reuse(plan: Plan, other: Plan) -> bool:
     """Whether a plan can use the realisations that another one solves."""
-    # With one grid and tolerance for both; the numbers of seeds may differ.
-    own = replace(plan.settings, seeds=0, coarse_seeds=0)
-    others = replace(other.settings, seeds=0, coarse_seeds=0)
+    # The numbers of seeds may differ.
     return (
-        plan.surface == other.surface
-        and own == others
+        plan.grid == other.grid
+        and plan.settings.tolerance == other.settings.tolerance
         and plan.simulated
         and other.simulated
         and set(plan.pressures) <= set(other.pressures)
         and other.gaps >= plan.gaps
         and set(plan.measured) <= set(other.measured)
     )
+
+
+def most_seeds(plans: Mapping[str, Plan]) -> dict[tuple[str, int], int]:
+    """Return the largest number of fine seeds that simulated cases want on each `Plan.grid`."""
+    most: dict[tuple[str, int], int] = {}
+    for plan in plans.values():
+        if plan.simulated:
+            most[plan.grid] = max(most.get(plan.grid, 1), plan.settings.seeds)
+    return most
 
 
 def coarse_batches(count: int) -> list[str]:

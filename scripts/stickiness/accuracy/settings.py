@@ -234,22 +234,28 @@ def cheapest(
     tolerances = [tolerance for tolerance in TOLERANCES if tolerance <= least.tolerance]
     seeds = [n for n in SEEDS if n >= least.seeds]
     coarse = [0] if plain else [n for n in COARSE_SEEDS if n >= least.coarse_seeds]
-    # All settings that are accurate enough.
+    fine_numbers, coarse_numbers = np.transpose(list(itertools.product(seeds, coarse)))
+    # All settings that are accurate enough, but for those that cost more than ones found before.
     candidates = []
+    lowest = math.inf
     for pixels, tolerance in itertools.product(grids, tolerances):
-        grid = Settings(pixels, tolerance, np.array(seeds)[:, None], np.array(coarse))
+        costs = predicted_cost(problem, Settings(pixels, tolerance, fine_numbers, coarse_numbers))
+        is_cheap = costs <= SAME_COST * lowest
+        if not is_cheap.any():
+            continue
+        grid = Settings(pixels, tolerance, fine_numbers[is_cheap], coarse_numbers[is_cheap])
         errors = joint_error(
             [
                 predicted_error(problem, grid, pressure, column)
                 for pressure, column in problem.points
             ]
         )
-        costs = predicted_cost(problem, grid)
-        for i, j in np.argwhere(errors <= accuracy):
-            settings = Settings(pixels, tolerance, seeds[i], coarse[j])
-            candidates.append(_Candidate(float(errors[i, j]), float(costs[i, j]), settings))
+        for k in np.flatnonzero(errors <= accuracy):
+            settings = Settings(pixels, tolerance, int(grid.seeds[k]), int(grid.coarse_seeds[k]))
+            cost = float(costs[is_cheap][k])
+            candidates.append(_Candidate(float(errors[k]), cost, settings))
+            lowest = min(lowest, cost)
     if candidates:
-        lowest = min(candidate.cost for candidate in candidates)
         # Among the cheapest the most accurate, then the cheapest again.
         return min(c for c in candidates if c.cost <= SAME_COST * lowest).settings
     best = Settings(grids[-1], TOLERANCES[-1], SEEDS[-1], coarse[-1])

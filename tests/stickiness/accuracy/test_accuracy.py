@@ -11,6 +11,7 @@ from helpers.laws import SMOOTH, made_up, problem
 from scipy import stats
 
 from stickiness import dmt, repulsive, spectrum, surface
+from stickiness.accuracy import settings as settings_module
 from stickiness.accuracy.error_models import (
     OUTSIDE,
     ErrorModel,
@@ -82,6 +83,17 @@ def test_cheapest_is_that_of_all_settings():
         assert worst_error(wanted, chosen)[0] <= asked
         cost = predicted_cost(wanted, chosen)
         assert least <= cost * (1 + 1e-9) <= 1.05 * least * (1 + 1e-8)
+
+
+def test_settings_that_cost_more_than_ones_found_are_not_evaluated(monkeypatch):
+    evaluated = []
+    monkeypatch.setattr(
+        settings_module,
+        "joint_error",
+        lambda errors: evaluated.append(np.size(errors[0])) or joint_error(errors),
+    )
+    cheapest(problem("area", pressures=LOADS), 0.1)
+    assert sum(evaluated) < 0.5 * len(PIXELS) * len(TOLERANCES) * len(SEEDS) * len(COARSE_SEEDS)
 
 
 def test_least_settings_are_kept():

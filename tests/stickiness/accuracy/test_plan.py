@@ -135,3 +135,15 @@ def test_accuracy_out_of_reach_names_the_case():
 def test_which_solutions_are_reused(later, reuses):
     plans = plan.plans_of(config(first={}, later=later), made_up())
     assert plans["later"].solved_by == ("first" if reuses else "later")
+
+
+def test_cases_are_compared_only_with_those_on_their_surface(monkeypatch):
+    compared = []
+    can_reuse = plan.can_reuse
+    monkeypatch.setattr(
+        plan, "can_reuse", lambda *plans: compared.append(plans) or can_reuse(*plans)
+    )
+    pairs = {f"{name}{i}": {"surface": f"surface{i}"} for i in range(50) for name in "ab"}
+    plans = plan.plans_of(config(**pairs), made_up())
+    assert len(compared) == 50
+    assert plans["b7"].solved_by == "a7"
