@@ -36,6 +36,8 @@ rule answer_case:
         case=choices(WITH_A_V),
     conda:
         "../envs/environment.yaml"
+    resources:
+        runtime=few_minutes,
     params:
         plan=describe_plan,
         windows=config["a_v"]["windows"],

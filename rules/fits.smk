@@ -20,6 +20,8 @@ if SIMULATED:
             f"{RESULTS}/benchmarks/compare_theory/fits/theory.tsv"
         conda:
             "../envs/environment.yaml"
+        resources:
+            runtime=lambda wildcards, attempt: attempt * (10 + len(SIMULATED) // 20),
         params:
             code=source_hash("fits/compare_theory.py"),
         script:

@@ -54,6 +54,8 @@ rule persson_lattice:
         f"{RESULTS}/benchmarks/persson_lattice/persson/lattice/{{case}}.tsv"
     conda:
         "../envs/environment.yaml"
+    resources:
+        runtime=few_minutes,
     params:
         **THEORY,
         lattices=lambda wildcards: describe_lattices([wildcards.case]),

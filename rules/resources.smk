@@ -22,6 +22,11 @@ def minutes(seconds_per_megapixel, size, solutions):
     )
 
 
+def few_minutes(wildcards, attempt):
+    """Time [min] for a job that takes seconds, of which there are many."""
+    return 3 * attempt
+
+
 def surface_size(wildcards):
     return megapixels(MODEL_SURFACES[wildcards.model_surface], pixels_of(wildcards))
 

@@ -19,6 +19,7 @@ rule synthesise_surface:
         "../envs/environment.yaml"
     resources:
         mem_mb=memory(9 + plan.SEEDS_A_FILE, surface_size),
+        runtime=minutes(0.7, surface_size, lambda wildcards: len(plan.seeds_in(wildcards.part))),
     params:
         seeds=lambda wildcards: plan.seeds_in(wildcards.part),
         surface=lambda wildcards: MODEL_SURFACES[wildcards.model_surface],

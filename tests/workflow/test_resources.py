@@ -44,6 +44,22 @@ def test_groups_are_of_rules_that_exist_and_none_depends_on_itself(fresh):
     assert planned.returncode == 0, planned.stdout
 
 
+def test_what_runs_once_for_each_case_or_surface_is_grouped():
+    text = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / "rules").glob("*.smk"))
+    blocks = re.split(r"^(?=rule |use rule )", text, flags=re.M)[1:]
+    repeated = set()
+    for block in blocks:
+        name = re.match(r"rule (\w+)|use rule \w+ as (\w+)", block)
+        output = re.search(r"^    output:\n(.*?)^    \w", block, flags=re.M | re.S)
+        if output and re.search(r"{{(case|model_surface|real_surface)}}", output[1]):
+            repeated.add(name[1] or name[2])
+    groups = dict(entry.split("=") for entry in PROFILE["groups"])
+    # Maps are wanted for a few cases, and contact of measured heights takes long.
+    assert repeated - groups.keys() == {"contact_maps", "contact_measured"}
+    # A job that reads all cases would put them all into one Slurm job.
+    assert groups["compare_theory"] not in {groups[name] for name in repeated & groups.keys()}
+
+
 @pytest.mark.parametrize("file", sorted((ROOT / "rules").glob("*.smk")), ids=lambda path: path.stem)
 def test_rules_name_environment_log_and_the_hash_of_their_script(file):
     for rule in re.split(r"^ *(?=rule\b)", file.read_text(encoding="utf-8"), flags=re.M)[1:]:
