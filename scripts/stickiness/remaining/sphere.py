@@ -113,7 +113,7 @@ def find_pull_off(parameter: float) -> float:
     """Angle of the least force along `maugis_curve`, at which a sphere pulls off."""
 
     def force(angle):
-        return plain(maugis_curve(angle, parameter)[2] * np.pi)
+        return plain(maugis_curve(angle, parameter)[2])
 
     # Where the curve turns the angle is of order one, and of order 1/lambda for large lambda.
     t = np.geomspace(1e-3 / (1 + parameter), 1, 401) * _POINT_CONTACT

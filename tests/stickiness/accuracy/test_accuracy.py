@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import yaml
 from helpers.entries import model_surface
 from helpers.laws import SMOOTH, made_up, problem
 from scipy import stats
@@ -307,3 +308,24 @@ def test_joint_error_covers_the_worst_of_errors_that_are_correlated_as_quantitie
     single = COVERS * size * errors.std(axis=(0, 1, 2))
     covered = np.mean(worst <= joint_error(single.ravel()) / SAFETY)
     assert 0.86 <= covered <= 0.95
+
+
+@pytest.mark.parametrize("choices", [PIXELS, TOLERANCES[::-1], SEEDS, COARSE_SEEDS[1:]])
+def test_settings_to_choose_from_rise(choices):
+    ratios = np.array(choices[1:]) / np.array(choices[:-1])
+    assert np.all(ratios > 1)
+    assert ratios.max() <= (2 if isinstance(choices[0], int) else 100)
+
+
+def test_errors_are_widened_beyond_the_loads_of_the_campaign():
+    campaign = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text())
+    laws = read_models(TABLE)
+
+    def find_error(load):
+        return single_error(laws, "theory", "area", Surface(0.8, 64.0), load)
+
+    largest = max(campaign["pressures"])
+    assert find_error(1.01 * largest) == pytest.approx(OUTSIDE * find_error(largest))
+    smallest = min(campaign["presets"]["pressures"])
+    assert find_error(0.99 * smallest) == pytest.approx(OUTSIDE * find_error(smallest))
+    assert find_error(0.99 * largest) == pytest.approx(find_error(largest), rel=0.1)

@@ -197,3 +197,18 @@ def test_rough_contacts():
     assert np.all(stated < plain / 2.2)
     # with six repetitions the ratio of variances follows F(5, 6 * 7): 0.1 to 4.5 at 1e-3 each side
     assert np.all(means.std(0, ddof=1) / stated < 2.2)
+
+
+@pytest.mark.parametrize("unit", [1e-9, -1.0, 1e9])
+def test_the_slope_of_the_coarse_solution_does_not_depend_on_the_unit(unit):
+    rng = np.random.default_rng(31)
+    coarse, many = (1 + 1e-3 * rng.standard_normal(n) for n in (16, 40))
+    fine = 3 * coarse + 1e-5 * rng.standard_normal(16)
+    want, got = corrected(fine, coarse, many), corrected(unit * fine, unit * coarse, unit * many)
+    assert want.coefficient == pytest.approx(3, rel=0.02)
+    assert got.coefficient == pytest.approx(want.coefficient, rel=1e-6)
+    assert got.mean == pytest.approx(unit * want.mean, rel=1e-12)
+    # Without scatter there is no slope, whatever the sign.
+    still = corrected(unit * fine, np.full(16, 0.1 * unit), np.full(40, 0.1 * unit))
+    assert still.coefficient == 1
+    assert still.mean == pytest.approx(unit * fine.mean(), rel=1e-12)

@@ -8,6 +8,7 @@ from references import adhesion as references
 
 from stickiness import adhesive
 from stickiness.adhesive import Exponential, LennardJones, Maugis
+from stickiness.adhesive.path import _integral
 
 RADIUS = 1.0  # of the spheres, on a side of 1
 
@@ -301,3 +302,23 @@ def test_arguments_are_checked(options, message):
         list(
             adhesive.path(np.zeros((8, 8)), 1.0, Maugis(1e-4, 1e-3), **{"values": (0, 1)} | options)
         )
+
+
+@pytest.mark.parametrize("ends", [(0.002, 0.0), (0.004, 0.006)])
+def test_no_step_is_further_out_of_balance_than_allowed(ends):
+    """From a state of much elastic and interaction energy, of which little changes."""
+    law = Exponential(adhesion_length=3e-4, range=2e-2)
+    fine = {"balance": 1e-5, "smallest_jump": 1e-5, "steps": 1}
+    points = list(adhesive.path(bumps(16), 1.0, law, ends, "mean_gap", **fine))
+    energies = np.array([(p.state.elastic_energy, p.state.interaction_energy) for p in points])
+    change = np.abs(energies - energies[0]).sum(axis=1).max()
+    assert change < 0.4 * np.abs(energies[0]).sum()
+    assert max(abs(p.dissipated) for p in points) <= 1e-5 * change
+
+
+def test_work_of_a_step_is_exact_for_a_parabola():
+    # Unevenly spaced, and far from zero; the integral of x^2 from 5 to 8
+    points = [(x, x**2) for x in (3.0, 5.0, 8.0)]
+    assert _integral(points) == pytest.approx((8**3 - 5**3) / 3, rel=1e-12)
+    assert _integral(points[::-1]) == pytest.approx((3**3 - 5**3) / 3, rel=1e-12)
+    assert _integral(points[:2]) == pytest.approx(2 * (9 + 25) / 2, rel=1e-12)

@@ -7,7 +7,8 @@ from references.contact import displacement, elastic_pressure
 from scipy import optimize
 
 from stickiness import adhesive, dmt, repulsive
-from stickiness.adhesive import Exponential, LennardJones, Maugis, VanDerWaals
+from stickiness.adhesive import Exponential, LennardJones, Maugis, VanDerWaals, equilibrium
+from stickiness.adhesive.problem import Problem
 
 # Some of the laws under test are too short of range for these grids, on purpose.
 pytestmark = [pytest.mark.processors, pytest.mark.filterwarnings("ignore:a pixel of")]
@@ -442,3 +443,24 @@ def test_branches_on_a_rough_surface_differ_and_the_deeper_is_told():
         a, b = states
         assert b.repulsive_area_fraction > a.repulsive_area_fraction + 0.1
         assert (enthalpies[0] < enthalpies[1]) == (a.enthalpy < b.enthalpy) == approach_deeper
+
+
+def test_heights_on_a_strip_are_compared_with_its_length():
+    """No warning of units, although the strip is 128 times as long as it is wide."""
+    heights = 1.5 * np.cos(2 * np.pi * np.arange(128) / 128)[:, None]
+    law = Exponential(1e-3, 0.1)
+    state = adhesive.solve(heights, (1.0, 1 / 128), law, mean_gap=3.0, tol=1e-4)
+    assert state.repulsive_area_fraction == 0
+    assert state.mean_pressure < 0
+
+
+@pytest.mark.parametrize("closing", [True, False])
+def test_an_unstable_state_is_left_by_a_small_part_of_the_range(closing):
+    """So that the descent from there stays on its side of any other barrier."""
+    law = Exponential(1e-3, 0.1)
+    problem = Problem(np.zeros((8, 8)), (1.0, 1.0), law, 1.0, pressure=0.0)
+    state = problem.state(np.full((8, 8), 0.5))
+    mode = np.random.default_rng(0).random((8, 8))
+    change = equilibrium._left(problem, state, mode, closing) - state.gap
+    assert 0.02 * law.range < np.abs(change).max() < 0.2 * law.range
+    assert np.all(change < 0) if closing else np.all(change > 0)

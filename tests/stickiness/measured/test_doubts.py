@@ -1,6 +1,7 @@
 """Doubts about measurements: what no surface has is named, and good surfaces raise none."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,9 @@ from scipy import ndimage
 
 from stickiness import surface
 from stickiness.measured import doubts, instrument_spectrum, topography
+from stickiness.measured.topography import Topography
 from stickiness.spectrum import SelfAffine
+from stickiness.statistics import COVERS
 
 pytestmark = [
     pytest.mark.processors,
@@ -106,3 +109,14 @@ def test_spectra_of_surfaces_seen_through_instruments_are_not_doubted(hurst, blu
         blurred = ndimage.gaussian_filter(heights, blur, mode="wrap")
         map_ = topography.Topography(blurred, 1e-6, 1e-6, "here").detrended()
         assert not list(doubts.doubt_fit(instrument_spectrum.analyse(map_).fit))
+
+
+@pytest.mark.parametrize(
+    ("hurst", "error", "doubted"),
+    [(0.9, 0.3, False), (1.2, 0.3, False), (1.6, 0.1, True), (-0.2, 0.3, False), (-0.2, 0.1, True)],
+)
+def test_an_exponent_is_doubted_if_it_is_outside_by_more_than_its_error(hurst, error, doubted):
+    fit = instrument_spectrum.analyse(Topography(rough(), 1e-6, 1e-6, "here"), "none").fit
+    covariance = np.diag([1e-4, (error / COVERS) ** 2])
+    other = replace(fit, hurst=hurst, log_covariance=covariance, q_rolloff=None, misfit=0.0)
+    assert bool(list(doubts.doubt_fit(other))) == doubted

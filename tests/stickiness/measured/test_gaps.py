@@ -129,3 +129,21 @@ def test_a_tilt_beyond_the_side_is_no_doubt():
     heights = np.random.default_rng(1).normal(size=(64, 64)) * NM + 1.5 * x
     assert from_array(heights, NM).doubts == ()
     assert len(from_array(100 * heights, NM).doubts) == 1
+
+
+def test_a_ring_without_power_does_not_count():
+    """Exact waves leave rings empty: another measurement tells what is there."""
+    truth = roll_off(1.5e-6, 0.8)
+    first, second = (measure(truth.psd, 100e-6, 400, seed) for seed in (1, 2))
+    second = replace(second, fit=first.fit, cutoff=first.cutoff)
+    q = second.narrow.q
+    empty = (q > 2.5 * first.fit.q_min) & (q < 4.5 * first.fit.q_min)
+    holed = replace(
+        second, narrow=replace(second.narrow, psd=np.where(empty, 0.0, second.narrow.psd))
+    )
+    whole = stitching.stitch([first, holed])
+    assert np.all(np.isfinite(np.log(whole.rings.psd)))
+    inside = whole.rings.between(3 * first.fit.q_min, 4 * first.fit.q_min)
+    assert len(inside)
+    other = stitching.stitch([first, second])
+    assert whole.fit.hurst == pytest.approx(other.fit.hurst, abs=2 * other.fit.hurst_se)

@@ -53,6 +53,17 @@ def test_noise_and_blur_are_found_where_they_meet_the_spectrum():
     assert found.q == pytest.approx(np.sqrt(0.7) / (2 * dx), rel=0.35)
 
 
+def test_rings_of_few_modes_do_not_bend_a_spectrum():
+    # Every fourth ring has one mode, which may be a hundred times off; all others have many.
+    q = np.geomspace(1.0, 1e3, 61) * 1.001
+    dof = np.where(np.arange(61) % 4 == 0, 1.0, 1e4)
+    law = q**-3.6
+    off = np.where(np.arange(61) % 8 == 4, 100.0, 1.0) * np.where(np.arange(61) % 8 == 0, 0.01, 1.0)
+    assert find_bend(psd.RadialPSD(q, law * off, dof), 1.0, 1e3) is None
+    many = psd.RadialPSD(q, law * off, np.full(61, 1e4))
+    assert find_bend(many, 1.0, 1e3) is not None
+
+
 def test_tip_cutoff_of_a_wave_is_known():
     k, radius = 2.0, 0.5
     x = np.arange(0, 40, 0.02)
@@ -100,6 +111,14 @@ def test_uneven_profile_is_trusted_to_its_largest_gap():
     torn = instrument_spectrum.analyse(Profile(h[:, 7], dx, "here", largest_gap=3 * dx).detrended())
     assert even.cutoff.q == pytest.approx(3 * torn.cutoff.q, rel=0.05)
     assert np.isnan(torn.anisotropy)
+
+
+def test_rings_of_a_profile_meet_at_geometric_means():
+    # Waves 1, 2, 4 and 8: the first ring begins half a step of the lattice below it.
+    areas = instrument_spectrum.ring_areas(np.array([1.0, 2.0, 4.0, 8.0]), lowest=1.0)
+    np.testing.assert_allclose(areas, np.pi * np.array([2 - 1 / 4, 6, 24, 96]), rtol=1e-12)
+    wide = instrument_spectrum.ring_areas(np.array([1.0, 2.0, 4.0, 8.0]), lowest=3.0)
+    np.testing.assert_allclose(wide, np.pi * np.array([2, 6, 24, 96]), rtol=1e-12)
 
 
 # Stitching

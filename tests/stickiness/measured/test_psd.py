@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy import special
+from scipy import optimize, special
 
 from stickiness import surface
 from stickiness.measured import levelling
 from stickiness.measured.instrument_spectrum import LOWEST_MODES, NYQUIST_SHARE
-from stickiness.measured.psd import merge_rings, power_spectrum, radial_average
-from stickiness.measured.self_affine_fit import FINE, fit_rings
+from stickiness.measured.psd import RadialPSD, merge_rings, power_spectrum, radial_average
+from stickiness.measured.self_affine_fit import FINE, ROLLOFF_AIC, fit_rings
 from stickiness.spectrum import SelfAffine
 
 pytestmark = pytest.mark.processors
@@ -242,3 +242,20 @@ def test_a_few_empty_rings_give_one_fit_whether_they_vanish_or_not():
     rounded = fit_rings(replace(rings, psd=filled + noise), 1.0, 16.0)
     assert rounded.hurst == pytest.approx(exact.hurst, rel=1e-6)
     assert rounded.c0 == pytest.approx(exact.c0, rel=1e-6)
+
+
+@pytest.mark.parametrize(("excess", "is_bent"), [(-1.0, False), (1.0, True)])
+def test_a_plateau_is_kept_if_it_gains_more_than_its_parameter_costs(excess, is_bent):
+    q = np.geomspace(1.0, 100.0, 401)
+    bent = np.maximum(q, 4.0) ** -3.6
+
+    def misses(law):
+        ratio = bent / np.exp(law[0] - law[1] * np.log(q))
+        return np.sum(ratio - np.log(ratio) - 1)
+
+    # Akaike: twice the gain in ln(likelihood), less 2 for the corner. With the corner nothing is
+    # missed; every ring counts as many modes as make up the difference.
+    gain = 2 * optimize.minimize(misses, [0.0, 3.6], method="Nelder-Mead", tol=1e-10).fun
+    dof = np.full(q.size, (ROLLOFF_AIC + 2 + excess) / gain)
+    fit = fit_rings(RadialPSD(q, bent, dof), 1.0, 100.0, demand=False)
+    assert (fit.q_rolloff is not None) == is_bent

@@ -13,6 +13,13 @@ pytestmark = pytest.mark.processors
 CUTOFF, FILTER, STEP = 0.8e-3, 2.5e-6, 1e-6
 POINTS = int(7 * CUTOFF / STEP)
 
+# ISO 4288 (1996), tables 1 and 3: largest Ra [um] or RSm [mm] of a row, and the cut-offs [m] of
+# this row and the next.
+ENDS_OF_RA = [(0.02, 0.08e-3), (0.1, 0.25e-3), (2.0, 0.8e-3), (10.0, 2.5e-3)]
+NEXT_TO_RA = [(0.02, 0.25e-3), (0.1, 0.8e-3), (2.0, 2.5e-3), (10.0, 8e-3)]
+ENDS_OF_RSM = [(0.04, 0.08e-3), (0.13, 0.25e-3), (0.4, 0.8e-3), (1.3, 2.5e-3)]
+NEXT_TO_RSM = [(0.04, 0.25e-3), (0.13, 0.8e-3), (0.4, 2.5e-3), (1.3, 8e-3)]
+
 
 def test_parameters_of_a_sine_are_its_closed_forms():
     heights = 1e-6 * np.sin(2 * np.pi * np.arange(POINTS) * STEP / 80e-6)
@@ -55,10 +62,30 @@ def test_energy_of_a_surface_lies_between_the_ends_of_its_drawing(hurst, rolloff
 
 @pytest.mark.parametrize(
     ("ra", "rsm", "cutoff"),
-    [(0.05e-6, 0, 0.25e-3), (0.8e-6, 0, 0.8e-3), (0.8e-6, 1e-3, 2.5e-3), (99e-6, 0, 8e-3)],
+    [
+        (0.05e-6, 0, 0.25e-3),
+        (0.8e-6, 0, 0.8e-3),
+        (0.8e-6, 1e-3, 2.5e-3),
+        (99e-6, 0, 8e-3),
+        # 2 % within and beyond the end of every row
+        *[(0.98 * ra * 1e-6, 0, cutoff) for ra, cutoff in ENDS_OF_RA],
+        *[(1.02 * ra * 1e-6, 0, cutoff) for ra, cutoff in NEXT_TO_RA],
+        *[(1e-9, 0.98 * rsm * 1e-3, cutoff) for rsm, cutoff in ENDS_OF_RSM],
+        *[(1e-9, 1.02 * rsm * 1e-3, cutoff) for rsm, cutoff in NEXT_TO_RSM],
+    ],
 )
 def test_cutoffs_are_those_of_the_standard(ra, rsm, cutoff):
     assert texture.standard_cutoff(ra, rsm) == cutoff
+
+
+def test_a_drawing_without_a_cutoff_has_that_of_the_standard():
+    # Cut-offs of 0.8 and 2.5 mm; wave numbers of the surface are in inverse proportion.
+    low, high = (Surface.from_drawing(Ra=height).ends.q0 for height in (1.9e-6, 2.1e-6))
+    np.testing.assert_allclose(low / high, 2.5 / 0.8, rtol=1e-9)
+    # Rq is 1.2533 times Ra on Gaussian heights.
+    for height, q0 in ((1.9e-6, low), (2.1e-6, high)):
+        ends = Surface.from_drawing(Rq=1.2533 * height).ends
+        np.testing.assert_allclose(ends.q0, q0, rtol=1e-9)
 
 
 def test_parameters_of_heights_are_their_closed_forms(tmp_path):

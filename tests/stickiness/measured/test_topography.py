@@ -407,3 +407,13 @@ def test_an_array_is_cleaned_as_a_file_is(tmp_path, options):
 def test_arrays_that_hold_no_surface_are_refused(heights, steps, words):
     with pytest.raises(ValueError, match=words):
         topography.from_array(heights, steps)
+
+
+@pytest.mark.parametrize("repeats", [(1, 1), (2, 1), (3, 5), (4, 4)])
+def test_points_that_enlarging_repeats_are_counted(repeats):
+    heights = np.random.default_rng(0).normal(size=(20, 12))
+    heights[3, 4] = np.nan
+    large = heights.repeat(repeats[0], 0).repeat(repeats[1], 1)
+    assert levelling.find_repeats(large) == repeats
+    assert levelling.find_repeats(large[1:, :-1] if max(repeats) > 1 else large) == (1, 1)
+    assert levelling.find_repeats(np.ones((6, 6))) == (1, 1)

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import erf
 
 from stickiness.persson import Persson
-from stickiness.persson.gaps import LostContact, gap_curve, scaled_gap
+from stickiness.persson.gaps import LostContact, gap_curve, gap_profile, scaled_gap
 from stickiness.spectrum import SelfAffine, Shells
 from stickiness.surface import lattice_spectrum
 
@@ -20,7 +20,7 @@ SPECTRA = {
     "flat": power_law(1e4, 0.3, q_rolloff=20.0),
     "lattice": lattice_spectrum(power_law(32.0), 2 * np.pi),
     "wide lattice": lattice_spectrum(power_law(16.0), 8 * np.pi),
-    "two shells": Shells([1.0, 1000.0], [1.0, 1e-4]),
+    "two shells": Shells([3.0, 3000.0], [1.0, 1e-4]),
 }
 
 
@@ -53,3 +53,38 @@ def test_variants_share_gaps_and_differ_in_what_they_make_of_them(spectrum):
     assert gap_curve(other._setting, 0.2) is gap_curve(first._setting, 0.2)
     with pytest.raises(ValueError, match="variant must"):
         first.with_variant("persson2001")
+
+
+@pytest.mark.parametrize("variant", ["afferrante2018", "almqvist2011"])
+@pytest.mark.parametrize(
+    ("name", "load", "most"),
+    [
+        ("narrow", 0.065, 700),
+        ("broad", 0.065, 800),
+        ("flat", 0.065, 800),
+        ("lattice", 0.065, 3200),
+        ("wide lattice", 0.001, 3200),
+        ("two shells", 1.95, 900),
+        ("two shells", 9.0, 5000),  # next to full contact, where Gaussians are narrow
+    ],
+)
+def test_few_gaussians_are_enough_for_the_density_of_gaps(name, load, most, variant):
+    theory, fine = (Persson(SPECTRA[name], variant, nodes=nodes) for nodes in (1, 2))
+    u = np.geomspace(1e-4, 10.0, 15)
+    density, best = theory.gap_density(u, load), fine.gap_density(u, load)
+    seen = best > 1e-9 * best.max()
+    np.testing.assert_allclose(density[seen], best[seen], rtol=2e-7)
+    # 450 to 620 of power laws, up to 2700 of lattices
+    assert len(gap_profile(theory._setting, variant, load, 17.0).weight) < most
+
+
+@pytest.mark.parametrize("load", [3.0, 5.0])
+def test_next_to_full_contact_panels_stay_few(load):
+    """Gaussians of a broad spectrum move by many thousands of their widths: 2000 panels of ten."""
+    spectrum = SPECTRA["broad"]
+    theory = Persson(spectrum)
+    pressure = load * spectrum.rms_slope / 2
+    profile = gap_profile(theory._setting, "afferrante2018", pressure, 17.0)
+    assert len(profile.weight) < 22000
+    whole = theory.gap_cumulative(np.inf, pressure) + theory.area_fraction(pressure)
+    assert whole == pytest.approx(1.0, abs=1e-10)

@@ -223,3 +223,13 @@ def test_elastic_energy_against_simulation(hurst):
         errors.append(kinds)
     best, areas = np.abs(np.mean(errors, axis=0)).max(axis=1)
     assert best < 0.07 < 0.12 < areas
+
+
+@pytest.mark.parametrize("places", [[7.0], [7.0, 60.0]])
+def test_kinks_of_a_table_do_not_spoil_the_sums(places):
+    """Plateaus and steep falls between few points, against four times the nodes."""
+    q = np.array([1.0, *places, 100.0])
+    table = Tabulated(q, np.array([1.0, 1.0, 1e-5, 1e-9])[: q.size])
+    load = 0.05 * table.rms_slope
+    coarse, fine = Persson(table), Persson(table, nodes=4)
+    assert coarse.mean_gap(load) == pytest.approx(fine.mean_gap(load), rel=1e-9)

@@ -73,3 +73,12 @@ def test_the_law_holds_on_heights_it_was_not_fitted_to():
     )
     assert shaped["inside"] >= theory["inside"]
     assert shaped["ratio_rms"] <= theory["ratio_rms"]
+
+
+def test_heights_of_which_chance_explains_nothing_have_the_error_of_their_shape():
+    # An exponential distribution: a skewness of 2. The errors of 65536 points are 0.01.
+    heights = np.random.default_rng(5).exponential(size=(256, 256))
+    found = find_shape_of(heights)
+    expected = find_height_shape(2.0)
+    assert found.shape == pytest.approx(expected.shape, rel=0.03)
+    assert found.error == pytest.approx(expected.error, rel=0.03)

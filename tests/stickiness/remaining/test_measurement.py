@@ -1,12 +1,17 @@
 """Simulated works of approach and separation against closed forms and the balance of energy."""
 
+import warnings
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from references.gradient_flow import follow
 
 from stickiness import adhesive, repulsive, surface
+from stickiness.adhesive.path import PathPoint
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measure
+from stickiness.remaining.measurement import _gain
 from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine
 
@@ -118,3 +123,53 @@ def test_the_grid_resolves_or_says_so():
     with pytest.warns(PlausibilityWarning, match="0.76 pixels in the width of the cohesive zone"):
         found = measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False)
     assert found.pixels_in_zone < 2
+
+
+def test_without_jumps_a_long_range_gains_on_approach_what_it_binds():
+    """Two per cent of the work are done beyond the start of the path."""
+    spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=6.0, h_rms=1.0)
+    heights = surface.synthesise(spectrum, n=32, length=LENGTH, seed=1)
+    energy = surface.realised_spectrum(heights, LENGTH).elastic_energy()
+    law = adhesive.Exponential(adhesion_length=0.3 * energy, range=8.0)
+    remaining = measure(heights, LENGTH, law, squeeze=0.1, half_grid=False)
+    assert remaining.jumps == 0
+    assert remaining.approach == pytest.approx(remaining.bound, rel=0.005)
+
+
+@pytest.mark.parametrize(("pixels", "warned"), [(1.9, True), (2.1, False)])
+def test_two_pixels_in_the_zone_are_enough(pixels, warned):
+    heights = random_heights(16)
+    reach = np.sqrt(0.3 * pixels * LENGTH / 16)
+    law = adhesive.Exponential(0.3, reach)
+    with warnings.catch_warnings(record=True) as raised:
+        warnings.simplefilter("always")
+        found = measure(heights, LENGTH, law, 0.1, half_grid=False, steps=10)
+    assert found.pixels_in_zone == pytest.approx(pixels, rel=1e-9)
+    assert any(warning.category is PlausibilityWarning for warning in raised) == warned
+
+
+def test_limits_lie_on_both_sides_of_every_value():
+    law = adhesive.Exponential(0.3, 1.0)
+    found = measure(random_heights(16), LENGTH, law, squeeze=0.1, tol=1e-3, steps=5)
+    for name in ("approach", "separation", "bound", "pull_off"):
+        value = getattr(found, name)
+        low, high = getattr(found, f"{name}_limits")
+        assert 0 <= low < value < high < 3 * value
+        assert high - value == pytest.approx(value - low) or low == 0
+
+
+def test_energy_gained_up_to_zero_load_is_that_of_a_spring():
+    # Energy -1 + K (u - u0)^2/2, and the pressure against it; zero load lies between the states.
+    stiffness, rest = 0.4, 2.0
+    points = [
+        PathPoint(
+            SimpleNamespace(
+                energy=-1 + stiffness * (gap - rest) ** 2 / 2,
+                mean_pressure=-stiffness * (gap - rest),
+                mean_gap=gap,
+            )
+        )
+        for gap in (2.8, 2.3, 1.9, 1.5)
+    ]
+    assert _gain(points) == pytest.approx(1.0, rel=1e-12)
+    assert _gain(points[:2]) == pytest.approx(1 - stiffness * 0.3**2 / 2, rel=1e-12)

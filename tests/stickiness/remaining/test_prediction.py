@@ -157,3 +157,12 @@ def test_a_factor_of_one_within_rounding_leaves_the_share():
     for sign in (-1, 0, 1):
         plain_share = rough.share(1e-3, 1e-4, sign)
         assert rough.share(1e-3, 1e-4, sign, just_below) == plain_share >= 0
+
+
+def test_a_range_that_holds_always_has_the_least_threshold_in_any_unit():
+    lengths = []
+    for unit in (1.0, 1e-6):
+        surface = Roughness(h_rms=unit, q0=1 / unit, elastic_energy=0.6 * unit)
+        lengths.append(surface.threshold(100 * unit, 0.1) / unit)
+    assert lengths[0] < 1e-4
+    assert lengths[1] == pytest.approx(lengths[0], rel=1e-9)

@@ -1,5 +1,7 @@
 """What remains on given heights, by simulated states, against an independent minimiser."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import optimize
@@ -63,6 +65,11 @@ def minimise(heights, adhesion_length, range_, starts):
         for start in starts
     ]
     return max(-min(energies) * 1e-3, 0.0)
+
+
+@pytest.fixture(scope="module")
+def gaussian():
+    return simulate_heights(make_heights("Gaussian"), (1.0, 1.0))
 
 
 @pytest.fixture(scope="module", params=TRANSFORMS)
@@ -173,23 +180,32 @@ def test_the_distance_is_that_of_the_simulated_pull_off(kind):
     assert length * share / distance == pytest.approx(pulled.pull_off, rel=0.12)
 
 
-def test_contact_without_adhesion_bounds_less():
-    simulated = simulate_heights(make_heights("Gaussian"), (1.0, 1.0))
-    pressed = simulated.without_adhesion()
-    length = np.array([0.6 * simulated.whole.full_contact_energy])
+def test_a_longer_range_lengthens_the_distance_by_as_much(simulated):
+    _, states = simulated
+    distances = np.linspace(0.01, 0.02, len(states.simulated_length))
+    states = replace(states, simulated_distance=distances)
+    lengths = states.simulated_length
+    ranges = states.simulated_range
+    np.testing.assert_allclose(states.distance(lengths, ranges), distances)
+    np.testing.assert_allclose(states.distance(lengths, 0.5 * ranges), distances)
+    np.testing.assert_allclose(states.distance(lengths, 4 * ranges), distances + 3 * ranges)
+
+
+def test_contact_without_adhesion_bounds_less(gaussian):
+    pressed = gaussian.without_adhesion()
+    length = np.array([0.6 * gaussian.whole.full_contact_energy])
     arguments = (length, np.array([0.002]), "exponential", np.zeros(1))
-    assert 0 < pressed.share(*arguments, np.zeros(1)) < simulated.share(*arguments, np.zeros(1))
+    assert 0 < pressed.share(*arguments, np.zeros(1)) < gaussian.share(*arguments, np.zeros(1))
     assert not pressed.whole.has_adhesion.any()
 
 
-def test_waves_that_are_not_simulated_take_adhesion_away_and_widen_the_limits():
-    simulated = simulate_heights(make_heights("Gaussian"), (1.0, 1.0))
-    length = np.full(3, 0.8 * simulated.whole.full_contact_energy)
+def test_waves_that_are_not_simulated_take_adhesion_away_and_widen_the_limits(gaussian):
+    length = np.full(3, 0.8 * gaussian.whole.full_contact_energy)
     signs = np.array([-1.0, 0.0, 1.0])
 
     def find_shares(lacking):
         full = np.full(3, lacking)
-        return simulated.share(length, np.full(3, 0.002), "exponential", full, signs)
+        return gaussian.share(length, np.full(3, 0.002), "exponential", full, signs)
 
     without = find_shares(0.0)
     with_waves = find_shares(0.3)
@@ -200,6 +216,17 @@ def test_waves_that_are_not_simulated_take_adhesion_away_and_widen_the_limits():
     assert with_waves[2] == pytest.approx(
         without[2], rel=0.05
     )  # waves may be where nothing touches
+
+
+def test_in_full_contact_waves_that_are_not_simulated_cost_their_energy(gaussian):
+    energies = [states.full_contact_energy for states in (gaussian.whole, *gaussian.quarters)]
+    length = 30 * max(energies)
+    one = np.ones(1)
+    arguments = (length * one, 1e-4 * one, "exponential", 0.3 * one)
+    low, value = (gaussian.share(*arguments, sign * one)[0] for sign in (-1.0, 0.0))
+    assert value == pytest.approx(1 - 1.3 * energies[0] / length, rel=1e-6)
+    # Quarters differ from the whole by their energies.
+    assert value - 3 * max(energies) / length < low <= value
 
 
 def test_last_bits_of_the_heights_do_not_matter():

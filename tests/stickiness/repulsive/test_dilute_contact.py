@@ -139,3 +139,16 @@ def test_compliance_is_right_to_a_hundredth(shape, sides, solid, periodic):
     expected = operator.compliance(field).flat[points]
     error = candidates.compliance(pressure) - expected
     assert np.abs(error).max() < 0.01 * np.ptp(expected)
+
+
+@pytest.mark.parametrize(("shape", "sides"), [((128, 192), (1.0, 1.5)), ((192, 128), (1.5, 1.0))])
+def test_compliance_on_a_small_grid_is_right_across_its_boundary(shape, sides):
+    points = np.flatnonzero(np.random.default_rng(0).random(shape[0] * shape[1]) < 0.004)
+    grid = _Grid(Problem(np.zeros(shape), sides, 1.0), True)
+    state = points, points[:0], np.zeros(shape).ravel(), 0.0
+    candidates = dilute_contact.select_candidates(grid, None, *state)
+    field = np.zeros(shape)
+    field.flat[points] = 1.0
+    expected = half_space.half_space(shape, sides).compliance(field).flat[points]
+    error = candidates.compliance(np.ones(points.size, np.float32)) - expected
+    assert np.abs(error).max() < 0.02 * np.ptp(expected)

@@ -8,7 +8,13 @@ from references.contact import solve_directly
 from scipy import integrate
 
 from stickiness import repulsive
-from stickiness.repulsive import active_set, free_edges, half_space, projected_gradients
+from stickiness.repulsive import (
+    active_set,
+    free_edges,
+    half_space,
+    projected_gradients,
+    solver,
+)
 
 pytestmark = pytest.mark.processors
 
@@ -209,3 +215,14 @@ def test_no_load():
     assert contact.shift == heights.max()
     np.testing.assert_array_equal(contact.gap, heights.max() - heights)
     assert np.isnan(repulsive.solve(heights, SIDES, 0.1).approach)  # periodic
+
+
+def test_coarser_grids_guess_for_any_rectangle(monkeypatch):
+    """Odd and unequal numbers of points, against the contact without a guess."""
+    heights = rough((37, 21))
+    alone = solve(heights, SIDES, 0.5)
+    monkeypatch.setattr(solver, "_MIN_COARSE_POINTS", 8)
+    guessed = solve(heights, SIDES, 0.5)
+    assert guessed.fft_pairs != alone.fft_pairs
+    np.testing.assert_allclose(guessed.pressure, alone.pressure, atol=1e-5)
+    assert guessed.shift == pytest.approx(alone.shift, abs=1e-6)

@@ -93,3 +93,18 @@ def test_it_nearly_inverts_the_compliance(shape, solid):
 @pytest.mark.parametrize(("load", "most"), [(0.0005, 8), (0.003, 8), (0.065, 32), (0.3, 32)])
 def test_convolutions_of_a_solution(load, most):
     assert repulsive.solve(rough(512), 1.0, load * Q0).fft_pairs < most
+
+
+@pytest.mark.parametrize("shape", [(80, 60), (79, 59), (78, 61)])
+def test_interpolation_is_of_fourth_order(shape):
+    """Of a wave, to grids that are or are not twice as fine."""
+
+    def wave(shape):
+        x, y = (2 * np.pi * np.arange(n) / n for n in shape)
+        return np.cos(x + 0.3)[:, None] * np.sin(2 * y)
+
+    coarse = tuple(half_space.coarsen(n) for n in shape)
+    error = half_space.interpolate(wave(coarse), shape) - wave(shape)
+    # 3/128 h^4 times the fourth derivative, in the middle between four points
+    steps = 2 * np.pi / np.array(coarse)
+    assert np.abs(error).max() < 1.1 * 3 / 128 * np.sum(steps**4 * [1, 16])

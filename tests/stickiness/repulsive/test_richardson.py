@@ -103,3 +103,9 @@ def test_error_covers_the_truth_in_nine_of_ten_cases(nested, grids):
     assert np.mean(misses <= errors) >= 0.9
     # ... and is no more than some multiple of it, or it would say nothing.
     assert np.median(errors / truths) < 6 * np.median(misses / truths)
+
+
+def test_only_attractive_areas_are_extrapolated():
+    for quantity in ("area_fraction", "mean_gap", "gap_density"):
+        found = richardson.estimate(quantity, [0.10, 0.08], part=0.01, edges=300, climbs=0.1)
+        assert found.value == 0.08

@@ -7,6 +7,7 @@ from scipy import integrate
 from stickiness import surface
 from stickiness.measured.psd import power_spectrum
 from stickiness.spectrum import SelfAffine, kinds
+from stickiness.spectrum.direction import Ellipse
 
 pytestmark = pytest.mark.processors
 
@@ -149,3 +150,16 @@ def test_measured_dependence_on_direction(ratio):
     amplitude, direction = np.mean(found, axis=0)
     assert amplitude == pytest.approx(want, abs=0.03)
     assert direction == pytest.approx(angle - np.pi / 2, abs=0.03)
+
+
+def test_bands_with_a_gap_between_them_are_averaged_one_by_one():
+    ellipse = Ellipse(1.5, 0.3)
+    whole = kinds.PowerLawSegments(
+        [1.0, 2.0, 8.0, 16.0], [1.0, 0.0, 0.1], [-3.0, 0.0, -3.0], ellipse
+    )
+    low = kinds.PowerLawSegments([1.0, 2.0], [1.0], [-3.0], ellipse)
+    high = kinds.PowerLawSegments([8.0, 16.0], [0.1], [-3.0], ellipse)
+    for q in (1.5, 4.0, 9.0):
+        expected = low.variance_below(q) + high.variance_below(q)
+        assert whole.variance_below(q) == pytest.approx(expected, rel=1e-7)
+    assert whole.averaged().psd(4.0) == 0.0

@@ -6,8 +6,11 @@ import numpy as np
 import pytest
 
 from stickiness import Material, Surface, full_contact_energy, surface
+from stickiness.remaining import sphere
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.pair_roughness import combine_roughness
 from stickiness.verdicts.rough_ball import pull_off_of_ball
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -55,6 +58,12 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     low, high = ball.force_limits
     assert 0 <= low < ball.force < high
     assert ball.force < ball.smooth_force
+    # The median of the draws without errors of the model, which widen the limits.
+    draws = combine_roughness(TAPE, measured).meet_draws(TAPE, DEFAULT_SHARE)
+    length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus
+    drawn = sphere.pull_off(draws, RADIUS, length, TAPE.range).force * TAPE.plane_strain_modulus
+    assert ball.force == pytest.approx(np.median(drawn), rel=1e-3)
+    assert high > np.quantile(drawn, 0.99)
     contents = ball.to_dict()
     assert contents["pull_off_force"]["value"] == ball.force
     assert contents["radius"] == {"value": RADIUS, "unit": "m"}

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from helpers.analysed import wall
 
 from stickiness import Material, Surface, judge, thresholds, verdict
@@ -13,6 +14,8 @@ from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum, realised_spectrum, synthesise
 from stickiness.traction_laws import Exponential
 from stickiness.verdicts.limits import find_limits
+from stickiness.verdicts.parametric import tabulate_ends
+from stickiness.verdicts.simulated_surface import stands_alone
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -147,3 +150,16 @@ def test_masked_points_of_heights_count_as_missing():
         assert repr(masked) == repr(answer(of_missing, length=SIDE, **TAPE))
     complete = thresholds(heights, length=SIDE, **TAPE)
     assert masked.modulus.value == pytest.approx(complete.modulus.value, rel=0.02)
+
+
+@pytest.mark.parametrize(("longer", "alone"), [([0.02, 0.1], True), ([0.02, 0.12], False)])
+def test_heights_stand_alone_without_much_energy_in_longer_waves(longer, alone):
+    # At most a tenth of all energy: a ninth of that of the scan.
+    assert stands_alone(xr.Dataset({"longer_energy": ("draw", longer)})) == alone
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-6])
+def test_the_reference_line_of_a_spectrum_of_its_exponent_is_the_spectrum(unit):
+    s = SelfAffine(hurst=0.8, q0=3.0 / unit, q1=300.0 / unit, h_rms=unit)
+    ends = tabulate_ends(s, s)
+    assert ends.C0_reference_upper[0] == pytest.approx(s.C0, rel=1e-9)
