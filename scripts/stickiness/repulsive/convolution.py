@@ -49,8 +49,10 @@ def count_points():
 
 def convolution(shape, dtype):
     """Convolution on one grid, in single or double precision, at once or in blocks."""
-    most = _SMALL_PACKED if _is_packed(shape, dtype) else _SMALL
-    return (WholeConvolution if shape[0] * shape[1] <= most else BlockedConvolution)(shape, dtype)
+    most_points = _SMALL_PACKED if _is_packed(shape, dtype) else _SMALL
+    if shape[0] * shape[1] <= most_points:
+        return WholeConvolution(shape, dtype)
+    return BlockedConvolution(shape, dtype)
 
 
 def _is_packed(shape, dtype):
@@ -70,20 +72,29 @@ class WholeConvolution:
         self._backward = _plan(self._spectrum, self._field, "FFTW_BACKWARD", axes=(0, 1))
 
     def symbol(self, values):
-        """Prepare a symbol for `apply`: as of `BlockedConvolution.symbol`."""
-        half = values.T
-        mirrored = half[(self.shape[0] - 1) // 2 : 0 : -1]
-        return np.concatenate([half, mirrored], dtype=self._field.dtype, casting="same_kind")
+        """Prepare a symbol for `apply`: normalised values ``(n1 // 2 + 1, n0 // 2 + 1)``.
+
+        It is even along both axes, so that these are the wave numbers that are not negative.
+        """
+        not_negative = values.T
+        negative = not_negative[(self.shape[0] - 1) // 2 : 0 : -1]
+        both = [not_negative, negative]
+        return np.concatenate(both, dtype=self._field.dtype, casting="same_kind")
 
     def apply(self, symbol, field, out, rows_in=None, rows_out=None):
-        """Convolve `field` into `out`, as `BlockedConvolution.apply` does."""
+        """Convolve `field` into `out`, as `BlockedConvolution.apply` does.
+
+        `rows_in` saves nothing here: the field must be zero in all other rows.
+        """
         _OF_THREAD.points += self.shape[0] * self.shape[1]
         if field.shape != self.shape:  # a corner, with nothing beyond
             self._field[...] = 0
         self._field[: field.shape[0], : field.shape[1]] = field
+        # Multiply the spectrum by the symbol.
         self._forward.execute()
         self._spectrum *= symbol
         self._backward.execute()
+        # Hand out the rows that are wanted.
         image = self._field[: out.shape[0], : out.shape[1]]
         if rows_out is None or rows_out.size == len(out):
             out[...] = image
