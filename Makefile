@@ -27,7 +27,7 @@ PYTEST := OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(CORES) --dist worksteal
 test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
 	$(PYTEST)
 
-test-quick: $(VENV)/.dev  ## the tests of about a minute: no workflow, no other codes, none that is slow
+test-quick: $(VENV)/.dev  ## two to three minutes: no workflow, no other codes, none that is slow
 	$(PYTEST) -m "not slow and not workflow and not peers"
 
 test-processors: $(VENV)/.dev  ## tests of what rounding may move, with the arithmetic of other processors
