@@ -13,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from stickiness.criteria.a_v_table import RANGES
 from stickiness.criteria.pair import Pair
@@ -42,6 +41,8 @@ LOWEST_FREQUENCY = 1e-12  #: [Hz], lowest and highest that are searched of a Pro
 HIGHEST_FREQUENCY = 1e12
 _POINTS_PER_DECADE = 5  # of the search
 _PRECISION = 1e-8  # relative, between two points of the search
+_CONVERGED = 0  # status of SciPy's search
+_NOT_BRACKETED = -1
 
 Remain = Callable[[Pair], NDArray]  # shares (n, end, limit), see `remain_at_ends`
 
@@ -192,23 +193,49 @@ def find_threshold(
     points = 2 + int(_POINTS_PER_DECADE * abs(np.log10(stop / start)))
     x = np.geomspace(start, stop, points)
     enough = remain(x[:, None]) >= wanted
-    crossing = np.empty(enough.shape[1:])
-    for end, limit in np.ndindex(crossing.shape):
 
-        def excess(value: float, end: int = end, limit: int = limit) -> float:
-            return remain(np.array([[value]]))[0, end, limit] - wanted
+    # How many points lie before the crossing of every end and limit: for the high limit up to the
+    # last that suffices, for the others up to the first that fails.
+    backwards = np.concatenate([enough[::-1], np.ones((1, *enough.shape[1:]), dtype=bool)])
+    forwards = np.concatenate([enough, np.zeros((1, *enough.shape[1:]), dtype=bool)])
+    is_high = np.arange(enough.shape[-1]) == 2
+    before = np.where(is_high, points - backwards.argmax(axis=0), forwards.argmin(axis=0))
 
-        # The high limit counts up to where it last suffices, the others to where they first fail.
-        kept = enough[:, end, limit]
-        count = np.flatnonzero([True, *kept])[-1] if limit == 2 else np.argmin([*kept, False])
-        if count in (0, x.size):
-            crossing[end, limit] = 0.0 if (count == 0) == (start < stop) else np.inf
-        else:
-            before, after = x[count - 1 : count + 1]
-            crossing[end, limit] = brentq(excess, before, after, xtol=_PRECISION * x[count])
+    # A crossing beyond the start or the stop is not searched.
+    crossing = np.where((before == 0) == (start < stop), 0.0, np.inf)
+    is_within = (before > 0) & (before < points)
+    if is_within.any():
+        bracket = (x[before[is_within] - 1], x[before[is_within]])
+        crossing[is_within] = _find_crossings(remain, bracket, np.nonzero(is_within), wanted)
     return Threshold(
         value=float(crossing[-1, 1]), low=float(crossing.min()), high=float(crossing.max())
     )
+
+
+def _find_crossings(
+    remain: Callable[[NDArray], NDArray],
+    bracket: tuple[NDArray, NDArray],
+    places: tuple[NDArray, ...],
+    wanted: float,
+) -> NDArray:
+    """Find where shares cross the wanted one, each between two points; `places` are end and limit.
+
+    All are searched together: an evaluation gives the shares of all ends and limits anyway.
+    """
+    from scipy.optimize import elementwise  # not loaded with `scipy.optimize`
+
+    def find_excess(value: NDArray, end: NDArray, limit: NDArray) -> NDArray:
+        return remain(value[:, None])[np.arange(value.size), end, limit] - wanted
+
+    root = elementwise.find_root(
+        find_excess, bracket, args=places, tolerances={"xrtol": _PRECISION}
+    )
+    if not np.isin(root.status, (_CONVERGED, _NOT_BRACKETED)).all():
+        raise ValueError("a share that remains is not a number within the range searched")
+    # By rounding, a share that equals the wanted one at a point may lie on either side of it.
+    left, right = np.abs(root.f_bracket)
+    nearest = np.where(left <= right, *bracket)
+    return np.where(root.success, root.x, nearest)
 
 
 def find_pressure(

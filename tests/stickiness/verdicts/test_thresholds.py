@@ -142,6 +142,35 @@ def test_several_crossings_widen_the_limits():
     assert beyond == [(np.inf,) * 3, (0.0,) * 3]
 
 
+@pytest.mark.parametrize("point", [0, 3, 11, 20, 21])
+@pytest.mark.parametrize("shape", ["steady", "jump", "rounded"])
+def test_a_share_that_is_the_wanted_one_at_a_point_of_the_search_is_found(point, shape):
+    """Rounding decides on which side of the point the share lies, and not whether it is found."""
+    points = np.geomspace(1e-9, 1e-5, 22)
+
+    def remain(values):
+        ratio = values[..., None] / points[point]
+        shares = np.where(ratio <= 1, 0.9, 0.1) if shape == "jump" else 0.5 * ratio**-0.3
+        if shape == "rounded" and len(values) < points.size:
+            shares = shares * (1 - 1e-15)
+        return shares * np.ones(3)
+
+    threshold = find_threshold(remain, points[0], points[-1], 0.5)
+    if point == 21:
+        assert threshold == (np.inf,) * 3
+    else:
+        assert threshold == pytest.approx((points[point],) * 3, rel=1e-6)
+
+
+def test_a_share_that_is_no_number_is_an_error():
+    def remain(values):
+        shares = 1 / (1 + values[..., None])
+        return np.where(abs(values[..., None] - 1) < 0.3, np.nan, shares) * np.ones(3)
+
+    with pytest.raises(ValueError, match="not a number"):
+        find_threshold(remain, 1e-2, 1e2, 0.5)
+
+
 def test_pressure_of_an_area_of_contact():
     area = 0.1
     pressure = thresholds(make_wall(), TAPE, contact_area=area).pressure
