@@ -27,6 +27,9 @@ _POINTS = -np.cos(np.pi * (np.arange(_SERIES_ORDER) + 0.5) / _SERIES_ORDER)
 _TO_SERIES = np.polynomial.chebyshev.chebvander(_POINTS, _SERIES_ORDER - 1).T * (2 / _SERIES_ORDER)
 _TO_SERIES[0] /= 2
 _PANEL = 1.4  # change over a panel, see `_panel_edges`
+# Nodes and weights on panels that see less than each of `_CHANGES`, or more than all.
+_CHANGES = (0.015, 0.08, 0.3)
+_RULES = [np.polynomial.legendre.leggauss(order) for order in (2, 3, 5, 10)]
 _FAR = 9.5  # widths from which on a Gaussian is nothing
 _NARROWEST = 1e-150  # Gaussians that much narrower than the widest are points
 
@@ -101,8 +104,9 @@ def gap_curve(setting: Setting, p: float) -> GapCurve:
     while len(panels):
         start, end = panels.T
         log_steps = 0.5 * ((start + end)[:, None] + (end - start)[:, None] * _POINTS)
-        parts = (LostContact.at(setting, p, y_end, log_step) for log_step in log_steps)
-        series = np.log([scaled_gap(setting, p, part) for part in parts]) @ _TO_SERIES.T
+        lost = LostContact.at(setting, p, y_end, log_steps)
+        of_panels = map(LostContact, lost.y, lost.m, lost.rest)
+        series = np.log([scaled_gap(setting, p, each) for each in of_panels]) @ _TO_SERIES.T
         is_fine = np.abs(series[:, -3:]).max(axis=1) < tolerance
         is_fine |= end - start < 1e-3  # where halving ends
         finished += zip(start[is_fine], series[is_fine], strict=True)
@@ -181,13 +185,11 @@ def gap_profile(setting: Setting, variant: str, p: float, reach: float) -> GapPr
 
 def _panel_nodes(edges: NDArray, change: NDArray) -> tuple[NDArray, NDArray]:
     """Gauss-Legendre nodes, in order, and weights; fewer on panels that see little change."""
-    # Orders of the rules for panels that see less than each of these changes, or more than all.
-    rule = np.digitize(change, (0.015, 0.08, 0.3))
+    rule_of_panel = np.digitize(change, _CHANGES)
     nodes = []
     weights = []
-    for i, order in enumerate((2, 3, 5, 10)):
-        x, w = np.polynomial.legendre.leggauss(order)
-        chosen = rule == i
+    for rule, (x, w) in enumerate(_RULES):
+        chosen = rule_of_panel == rule
         half = 0.5 * np.diff(edges)[chosen, None]
         nodes.append((edges[:-1][chosen, None] + half * (1 + x)).ravel())
         weights.append((half * w).ravel())
