@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import NamedTuple, get_args
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import RegularGridInterpolator
 from scipy.special import ndtri
 
 from stickiness.arguments import plain, positive
@@ -278,13 +278,15 @@ class AvTable:
             )
 
 
-def _interpolate(table: xr.DataArray, method: str = "linear") -> RegularGridInterpolator:
+def _interpolate(
+    table: xr.DataArray, method: str = "linear"
+) -> scipy.interpolate.RegularGridInterpolator:
     """Interpolator along those of `_AXES` that the table has, all but hurst as logarithms."""
     axes = [name for name in _AXES if name in table.dims]
     grid = [table[name].values.astype(float) for name in axes]
     grid = [x if name == "hurst" else np.log(x) for name, x in zip(axes, grid, strict=True)]
     # Points within rounding of an end count as inside; a_v_at has checked the rest.
-    return RegularGridInterpolator(
+    return scipy.interpolate.RegularGridInterpolator(
         grid, table.transpose(*axes).values, method, bounds_error=False, fill_value=None
     )
 

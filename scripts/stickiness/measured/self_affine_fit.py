@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import optimize, special
+from scipy import special
 
 from stickiness.measured.psd import RadialPSD, merge_rings, wide_rings
 
@@ -192,7 +193,7 @@ def fit_power_law(x: NDArray, rings: RadialPSD) -> PowerLaw:
         return float(flat @ (x - centre) / flat.sum())
 
     # The bracket is wide, because plateaus are tried anywhere.
-    exponent = optimize.brentq(tilt, -1e3, 1e3, xtol=1e-12)
+    exponent = scipy.optimize.brentq(tilt, -1e3, 1e3, xtol=1e-12)
     flat, highest = flatten(exponent)
     return PowerLaw(float(np.log(flat.sum()) + highest) + exponent * centre, exponent)
 
@@ -211,7 +212,7 @@ def fit_rolloff(x: NDArray, rings: RadialPSD, room: tuple[float, float]) -> Powe
     grid = np.linspace(start, stop, 40)
     best = int(np.argmin([cost(corner) for corner in grid]))
     bounds = (grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)])
-    return fit_with(float(optimize.minimize_scalar(cost, bounds=bounds, method="bounded").x))
+    return fit_with(float(scipy.optimize.minimize_scalar(cost, bounds=bounds, method="bounded").x))
 
 
 def weighted_fit(
@@ -244,7 +245,7 @@ def rms_misfit(rings: RadialPSD, model: NDArray, parameters: int) -> float:
     if excess(0.0) <= 0 or len(ratio) <= parameters:
         return 0.0
     highest = float(square.sum())  # there every term is below 1, and their sum below 1
-    return float(np.sqrt(optimize.brentq(excess, 0.0, highest)))
+    return float(np.sqrt(scipy.optimize.brentq(excess, 0.0, highest)))
 
 
 def limit_weight(rings: RadialPSD, misfit: float) -> RadialPSD:

@@ -17,8 +17,8 @@ from copy import copy
 from typing import Literal, get_args
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 from scipy.special import erf, erfinv, xlogy
 
 from stickiness.arguments import finite, nonnegative, number, positive
@@ -240,7 +240,7 @@ class Persson:
             low = max(low - 2.0, lowest)
         while excess(high) > 0:
             high = min(high + 0.5, highest)
-        return float(np.exp(brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
+        return float(np.exp(scipy.optimize.brentq(excess, low, high, xtol=1e-13, rtol=1e-13)))
 
     def _over_gaps(self, u: ArrayLike, p: ArrayLike, function) -> NDArray:
         if self._layered is not None:

@@ -19,8 +19,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft, stats
+from scipy import fft
 
 SLOPE = 1.0  # of the logarithm of the factor, against the skewness
 ERROR = 0.6  # of this logarithm, relative; for energy ratios from 0.3 to 1.2
@@ -61,7 +62,7 @@ def find_shape_of(heights: ArrayLike) -> HeightShape:
         Levelled heights of a map or profile, in any unit; not flat.
     """
     heights = np.asarray(heights, dtype=float)
-    skewness = float(stats.skew(heights, axis=None))
+    skewness = float(scipy.stats.skew(heights, axis=None))
     chance = CHANCE * find_skewness_error(heights)
     # Nothing up to what chance explains, all of it far beyond, and doubtful between.
     share = max(1 - (chance / skewness) ** 2, 0.0) if skewness else 0.0

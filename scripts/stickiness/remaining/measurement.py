@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator
 
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.path import PathPoint, path
@@ -286,5 +286,5 @@ def _tension_over_gap(gap, pressure):
         pressure = pressure[::-1]
     fine = np.linspace(gap[:-1], gap[1:], 50, endpoint=False).T.ravel()
     fine = np.append(fine, gap[-1])
-    tension = np.maximum(-PchipInterpolator(gap, pressure)(fine), 0)
+    tension = np.maximum(-scipy.interpolate.PchipInterpolator(gap, pressure)(fine), 0)
     return np.trapezoid(tension, fine)

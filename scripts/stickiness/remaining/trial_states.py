@@ -32,7 +32,7 @@ from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy import special
 
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
@@ -236,6 +236,6 @@ def _find_patch_errors(whole: NDArray, quarters: NDArray) -> tuple[NDArray, NDAr
     """
     count = len(quarters)
     # Four independent quarters scatter twice as much as the whole.
-    scatter = stats.t.ppf(0.95, count - 1) * quarters.std(axis=0, ddof=1) / np.sqrt(count)
+    scatter = special.stdtrit(count - 1, 0.95) * quarters.std(axis=0, ddof=1) / np.sqrt(count)
     trend = TREND * (whole - quarters.mean(axis=0))
     return np.hypot(scatter, np.maximum(trend, 0.0)), np.hypot(scatter, np.maximum(-trend, 0.0))

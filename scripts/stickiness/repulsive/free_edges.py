@@ -12,7 +12,8 @@ from functools import cached_property
 from itertools import product
 
 import numpy as np
-from scipy import fft, interpolate, special
+import scipy
+from scipy import fft, special
 
 from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, sharing
@@ -49,7 +50,7 @@ class Split:
         self.coarse = tuple((n - 1) // SPACING + order for n in shape)
         padded = tuple(2 * fft.next_fast_len(m + _MARGIN, real=True) for m in self.coarse)
         self.share = padded[0] * padded[1] / (shape[0] * shape[1])
-        spline = interpolate.BSpline.basis_element(np.arange(order + 1))
+        spline = scipy.interpolate.BSpline.basis_element(np.arange(order + 1))
         # The smooth part without the blur by splines, once when spread and once when interpolated.
         smooth = self._smooth([np.arange(m // 2 + 1) * SPACING for m in padded])
         blur = [_blur(spline(np.arange(1, order)), m) ** 2 for m in padded]

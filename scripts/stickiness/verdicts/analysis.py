@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy import stats
 
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
 from stickiness.measured import stitching
@@ -244,8 +244,8 @@ def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
             "h_rms_measured": first.h_rms,
             "mean_deviation": np.mean(np.abs(first.heights)),  # levelled heights have no mean
             "height_range": np.ptp(first.heights),
-            "skewness": stats.skew(first.heights, axis=None),
-            "kurtosis": stats.kurtosis(first.heights, axis=None, fisher=False),
+            "skewness": scipy.stats.skew(first.heights, axis=None),
+            "kurtosis": scipy.stats.kurtosis(first.heights, axis=None, fisher=False),
             "shape": shape.shape,
             "shape_error": shape.error,
             "h_rms_as_read": first.h_rms_as_read(),
