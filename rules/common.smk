@@ -11,7 +11,7 @@ from common.config.simulations import ModelSurface
 from common.source_hash import save_cache, source_hash
 from stickiness.accuracy import model_choice, plan
 from stickiness.accuracy.error_models import read_models
-from stickiness.entries import list_measurements
+from stickiness.entries import list_measurements, without_texts
 
 STARTED = time.time()
 
@@ -106,11 +106,6 @@ def model_surface_of(name):
 def pressures_of(name):
     """Loads of a case or a comparison."""
     return PLANS[name].pressures if name in CASES else config["comparisons"]["pressures"]
-
-
-def without_texts(entry):
-    """An entry without what only readers need, which must not start a simulation."""
-    return {key: value for key, value in entry.items() if key not in ("label", "source", "note")}
 
 
 def several(path, **names):

@@ -6,7 +6,7 @@ All kinds have the same variables, so that verdicts treat them alike, see `stick
 import logging
 
 from common.job import start
-from stickiness.verdicts.rough_surface import Surface
+from stickiness.verdicts.rough_surface import Surface, describe_file
 
 
 def main(job):
@@ -15,11 +15,7 @@ def main(job):
     surface = Surface.from_entry(entry)
     for doubt in surface.not_judged.splitlines():
         logging.warning("no verdict: %s", doubt)
-    surface.write(
-        job.output[0],
-        title=f"spectrum of the real surface {name}",
-        parameters={"surface": name, **entry},
-    )
+    surface.write(job.output[0], **describe_file(name, entry))
 
 
 if __name__ == "__main__":

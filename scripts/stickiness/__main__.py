@@ -83,7 +83,8 @@ def answer() -> None:
             source, others = choice.split(" | ")
             print(f"This is {source}; the file also holds {others} (--channel, --variable)")
     if not options.no_page:
-        page = make_page(options, material_texts, surface_texts)
+        # All verdicts are on one surface.
+        page = make_page(options, material_texts, surface_texts, verdicts[0].surface)
         print(f"Page: {page}", file=progress)
 
 
@@ -280,7 +281,10 @@ def print_json(verdicts: list, balls: list) -> None:
 
 
 def make_page(
-    options: argparse.Namespace, material_texts: dict[str, Any], surface_texts: dict[str, Any]
+    options: argparse.Namespace,
+    material_texts: dict[str, Any],
+    surface_texts: dict[str, Any],
+    surface: Any,
 ) -> Path:
     """Run the workflow in the folder for results, and return the path of the page."""
     if not (PROJECT / "Snakefile").is_file() or find_spec("snakemake") is None:
@@ -289,6 +293,9 @@ def make_page(
             "install in the folder of the project and this command with its .venv/bin/python"
         )
     name = re.sub("[^A-Za-z0-9-]+", "_", options.file.stem).strip("_-") or "surface"
+    # The page shows the path, and should not tell of the machine.
+    file = os.path.relpath(options.file.resolve(), options.output.resolve())
+    surface_texts = surface_texts | {"file": file}
     target = f"results/draft/report/surfaces/{name}.html"
     command = [
         *(sys.executable, "-m", "snakemake", "--snakefile", f"{PROJECT}/Snakefile"),
@@ -296,7 +303,7 @@ def make_page(
         *("--", target),  # one job after another
     ]
     with hold_folder(options.output) as descriptor:
-        write_configuration(options, name, material_texts, surface_texts)
+        fill_folder(options, name, material_texts, surface_texts, surface)
         try:
             run = subprocess.run(
                 command,
@@ -369,6 +376,21 @@ def check_output(folder: Path) -> None:
         fail(f"--output {folder} cannot be written; give another folder")
 
 
+def fill_folder(
+    options: argparse.Namespace,
+    name: str,
+    material_texts: dict[str, Any],
+    surface_texts: dict[str, Any],
+    surface: Any,
+) -> None:
+    """Write what the workflow starts from; end the command where that cannot be written."""
+    try:
+        write_configuration(options, name, material_texts, surface_texts)
+        keep_analysis(options, name, surface_texts, surface)
+    except OSError as error:
+        fail(f"no page: --output {options.output}: {error}")
+
+
 def write_configuration(
     options: argparse.Namespace,
     name: str,
@@ -377,9 +399,6 @@ def write_configuration(
 ) -> None:
     """Write the files of the configuration."""
     tape = str(options.tape.absolute()) if options.tape else "config/materials.yaml"
-    # The page shows the path, and should not tell of the machine.
-    file = os.path.relpath(options.file.resolve(), options.output.resolve())
-    surface_texts = surface_texts | {"file": file}
     files = {
         "config": {"fidelity": "draft", "materials": tape, "surfaces": "config/surfaces.yaml"},
         "materials": {"materials": {"material": material_texts}},
@@ -389,11 +408,33 @@ def write_configuration(
 
     for table, content in files.items():  # YAML includes JSON
         text = MARK + json.dumps(content, ensure_ascii=False, indent=2)
-        try:
-            with whole_file(options.output / f"config/{table}.yaml") as file:
-                file.write_text(text, encoding="utf-8")
-        except OSError as error:
-            fail(f"no page: --output {options.output}: {error}")
+        with whole_file(options.output / f"config/{table}.yaml") as file:
+            file.write_text(text, encoding="utf-8")
+
+
+def keep_analysis(
+    options: argparse.Namespace, name: str, surface_texts: dict[str, Any], surface: Any
+) -> None:
+    """Write the surface as it was judged where the workflow expects it.
+
+    So the workflow does not analyse it again. An equal file stays, so that nothing is repeated.
+    """
+    from stickiness import datasets
+    from stickiness.entries import check_surface, without_texts
+    from stickiness.verdicts.rough_surface import Surface, describe_file
+
+    # The page names the file as the configuration does, in remarks and doubts, too.
+    given = re.compile(rf"(?<!\S){re.escape(str(options.file))}(?=[:;]| \||$)", re.MULTILINE)
+    texts = {
+        key: given.sub(lambda _: surface_texts["file"], text)
+        for key, text in surface.data.attrs.items()
+    }
+    named = Surface(surface.data.assign_attrs(texts))
+    entry = without_texts(check_surface(surface_texts, numbers=False))
+    contents = describe_file(name, entry)
+    path = options.output / f"results/draft/real_surfaces/{name}.nc"
+    if not datasets.holds(path, named.data, contents["parameters"]):
+        named.write(path, **contents)
 
 
 if __name__ == "__main__":

@@ -126,7 +126,7 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
             dataset = opened.load()
     except FileNotFoundError:
         raise DatasetError(f"{path}: no such file; the rule that makes it has not run") from None
-    except (OSError, ValueError, RuntimeError) as error:
+    except (OSError, ValueError, RuntimeError, AttributeError) as error:
         raise DatasetError(
             f"{path}: not a readable NetCDF file ({error}); delete it and re-run"
         ) from None
@@ -144,6 +144,17 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
 def parameters(dataset: xr.Dataset) -> dict[str, Any]:
     """The parameters that made a dataset, as given to `write`."""
     return json.loads(dataset.attrs["parameters"])
+
+
+def holds(path: str | Path, dataset: xr.Dataset, parameters: Mapping[str, Any]) -> bool:
+    """Whether a file has what `write` would write, apart from the versions of codes."""
+    try:
+        kept = read(path)
+    except DatasetError:
+        return False
+    told = json.dumps(write_quantities(parameters), sort_keys=True)
+    has_texts = all(kept.attrs.get(name) == text for name, text in dataset.attrs.items())
+    return kept.attrs["parameters"] == told and has_texts and kept.equals(dataset)
 
 
 @contextmanager

@@ -21,7 +21,10 @@ from helpers.copy_workflow import ROOT
 from helpers.pages import Page
 
 import stickiness
+from stickiness import datasets
+from stickiness.entries import check_surface, without_texts
 from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.rough_surface import describe_file
 
 pytestmark = pytest.mark.workflow
 
@@ -185,6 +188,34 @@ def test_the_page_has_the_numbers_of_the_answer(folder, first, verdict):
         assert law[name] == pytest.approx(numbers[name])
 
 
+def test_the_workflow_takes_over_the_analysis_that_it_would_make(folder, first, monkeypatch):
+    assert not (folder / RESULTS / "logs/analyse_surface").exists()
+    monkeypatch.chdir(folder / RESULTS.parts[0])
+    configured = Path("config/surfaces.yaml").read_text(encoding="utf-8").partition("\n")[2]
+    entry = check_surface(json.loads(configured)["surfaces"]["wall_1"], numbers=False)
+    made = stickiness.Surface.from_entry(entry)
+    path = Path("results/draft/real_surfaces/wall_1.nc")
+    parameters = describe_file("wall_1", without_texts(entry))["parameters"]
+    assert datasets.holds(path, made.data, parameters)
+    assert not datasets.holds(path, made.data, parameters | {"contact": 1.0})
+    assert not datasets.holds(path, made.data * 2, parameters)
+    assert not datasets.holds("nowhere.nc", made.data, parameters)
+    # Texts name the file as the configuration does.
+    kept = datasets.read(path).attrs
+    assert {name: kept[name] for name in made.data.attrs} == made.data.attrs
+
+
+def test_a_page_names_the_file_from_its_folder_in_doubts_too(folder, tmp_path):
+    heights = np.load(folder / "wall#1.npy")
+    np.save(tmp_path / "twice.npy", np.tile(heights, (2, 1)))
+    arguments = [tmp_path / "twice.npy", *TAPE, "--length", "2 mm x 4 mm", "--height-unit", "um"]
+    answer = run(tmp_path, *arguments, "--output", "out")
+    assert (answer.status, answer.errors) == (0, [])
+    page = (tmp_path / "out/results/draft/report/surfaces/twice.html").read_text(encoding="utf-8")
+    assert "../twice.npy: the map is 1 x 2 copies" in page
+    assert str(tmp_path) not in page
+
+
 def test_another_tape_repeats_the_verdict_alone(folder, first):
     analysed = folder / RESULTS / "real_surfaces/wall_1.nc"
     before = analysed.stat().st_mtime_ns
@@ -302,7 +333,7 @@ def test_a_configuration_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
     monkeypatch.setattr(Path, "write_text", write)
     options = argparse.Namespace(output=tmp_path, tape=None, file=tmp_path / "wall.txt")
     with pytest.raises(SystemExit) as caught:
-        command.write_configuration(options, "wall", {}, {})
+        command.fill_folder(options, "wall", {}, {}, surface=None)
     assert os.strerror(errno.ENOSPC) in caught.value.code
     assert "\n" not in caught.value.code
     assert sorted(os.listdir(tmp_path / "config")) == ["config.yaml", "materials.yaml"]

@@ -23,6 +23,7 @@ __all__ = [
     "list_common_materials",
     "list_measurements",
     "read_materials",
+    "without_texts",
 ]
 
 
@@ -78,6 +79,11 @@ def check_surface(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[str
 
     entry = {"label": "the surface", "source": "not stated"} | dict(entry)
     return _check(Surface, entry, numbers)
+
+
+def without_texts(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """Return an entry without what only readers need, which must not start a simulation."""
+    return {key: value for key, value in entry.items() if key not in ("label", "source", "note")}
 
 
 def read_materials(path: str | Path) -> dict[str, dict[str, Any]]:

@@ -45,6 +45,15 @@ NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
 _SAME_SHAPE = 1e-6  # relative, within which both ends have spectra of one shape
 
 
+def describe_file(name: str, entry: Mapping[str, Any]) -> dict[str, Any]:
+    """Title and parameters in the file of a real surface, for `Surface.write`.
+
+    `entry` is the entry of the configuration, as `entries.without_texts` leaves it.
+    """
+    title = f"spectrum of the real surface {name}"
+    return {"title": title, "parameters": {"surface": name, **entry}}
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """What is known of the roughness of a surface; lengths in m.
