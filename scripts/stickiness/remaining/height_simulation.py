@@ -40,7 +40,8 @@ from stickiness.traction_laws import Exponential
 #: hardly anything of them remains: broad tops hold with very little adhesion.
 ENERGY_RATIOS = np.append(np.geomspace(2.0, 0.2, 8), np.geomspace(0.1, 1e-4, 11))
 HARDLY_ANYTHING = 0.005
-LAST_STEP = 1.1  #: of the tension on separation, over the one before
+FIRST_STEP = 2.0**0.25  #: of the tension on separation, over the one before
+LAST_STEP = 1.05
 #: Shares of the area in contact by theory, for the loads without adhesion.
 CONTACT_AREAS = np.geomspace(1e-3, 0.9, 12)
 CONTACT_TOLERANCE = 1e-4
@@ -229,14 +230,15 @@ def _pull_off(
         states = _adhere(heights, sides, state.law, solid, (start,), is_stiffer, -tension)
         return next(states, None)
 
-    # Halve a tension until the surfaces withstand it, and then raise it in steps, each half as
-    # large as the one before that they did not withstand.
+    # Halve a tension until the surfaces withstand it.
     tension = state.law.adhesion_length * share / state.rms_height
     withstood = pull(tension, state)
     while withstood is None and tension > 0:
         tension /= 2
         withstood = pull(tension, state)
-    step = 2.0
+    # Raise it in steps, and then in shorter ones. From a state that is strained more, the surfaces
+    # may withstand a tension that tore them apart before.
+    step = FIRST_STEP
     while step > LAST_STEP:
         further = pull(tension * step, withstood)
         if further is None:
@@ -244,7 +246,8 @@ def _pull_off(
         else:
             tension *= step
             withstood = further
-    return tension * np.sqrt(step)
+    # Between a tension that they withstand and one that they do not.
+    return tension * step
 
 
 class _CountedState(NamedTuple):

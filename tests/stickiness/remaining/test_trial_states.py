@@ -1,15 +1,18 @@
 """What remains on given heights, by simulated states, against an independent minimiser."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy import optimize
 
 from stickiness import adhesive, surface
+from stickiness.remaining import height_simulation
 from stickiness.remaining.height_simulation import find_trial_states, simulate_heights
 from stickiness.remaining.measurement import measure
 from stickiness.spectrum import SelfAffine
+from stickiness.traction_laws import Exponential
 
 N = 64
 WAVES = 2
@@ -164,6 +167,24 @@ def test_states_bound_a_law_with_a_tail(simulated, energy_ratio):
     (high,) = states.high_limit(np.array([length]), np.array([range_]), "van_der_waals")
     assert 0.85 * share - 0.01 < low <= share + 2e-4
     assert high >= share - 2e-4
+
+
+@pytest.mark.parametrize("strength", [1e-3, 0.11, 0.62, 1.0, 7.3])
+@pytest.mark.parametrize("gain", [1.0, 1.6])
+def test_a_pull_off_is_found_to_5_percent(monkeypatch, strength, gain):
+    """Also where a state that is strained more withstands more, up to a `gain` as much."""
+
+    def adhere(heights, sides, law, solid, starts, is_stiffer, pressure):
+        (start,) = starts
+        tension = -pressure
+        is_close = tension < 1.1 * start.tension and tension <= gain * strength
+        holds = tension <= strength or is_close
+        return iter([SimpleNamespace(tension=tension)] if holds else [])
+
+    monkeypatch.setattr(height_simulation, "_adhere", adhere)
+    state = SimpleNamespace(law=Exponential(1.0, 1.0), rms_height=1.0, tension=0.0)
+    found = height_simulation._pull_off(None, None, state, 1.0, None, is_stiffer=False)
+    assert found == pytest.approx(gain * strength, rel=0.05)
 
 
 @pytest.mark.slow
