@@ -53,7 +53,8 @@ def project_file(path):
 
 
 # Of this process and, by its environment, of every job.
-SCRIPTS = f"{PROJECT}/scripts"
+# Numba keeps compiled loops by the path of the code; a folder may hold only a link to it.
+SCRIPTS = os.path.realpath(f"{PROJECT}/scripts")
 sys.path.insert(0, SCRIPTS)
 others = [path for path in os.environ.get("PYTHONPATH", "").split(os.pathsep) if path]
 os.environ.update(PYTHONPATH=os.pathsep.join([SCRIPTS, *others]))

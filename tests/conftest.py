@@ -2,6 +2,7 @@
 
 import atexit
 import os
+import platform
 import shutil
 import tempfile
 from functools import partial
@@ -25,6 +26,10 @@ settings.register_profile(
     "deep", settings.get_profile("quick"), derandomize=False, max_examples=300
 )
 settings.load_profile("quick")
+
+# Runs of the workflow that tests start, and those of this folder, use what these tests compile.
+_LOOPS = Path(__file__).parents[1] / ".snakemake/loops" / platform.node()
+os.environ.setdefault("NUMBA_CACHE_DIR", str(_LOOPS))
 
 # Snakemake keeps sources in the user's cache, also in runs that tests start. An account without a
 # home, or with one that cannot be written, gets a cache for the length of the tests.

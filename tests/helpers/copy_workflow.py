@@ -1,4 +1,7 @@
-"""Copy the workflow, with its tiny configuration, into a folder: copy_workflow.py FOLDER."""
+"""Copy the workflow, with its tiny configuration, into a folder: copy_workflow.py FOLDER.
+
+The code is linked to, so that the copy uses loops that are compiled already.
+"""
 
 import shutil
 import sys
@@ -9,17 +12,14 @@ import yaml
 ROOT = Path(__file__).parents[2]
 # Real surfaces that claims need, one by its spectrum and one by its heights.
 SURFACES = ("asphalt", "polished_steel", "uncd_diamond")
-PARTS = ("Snakefile", "rules", "scripts", "config", "envs", "profiles", "report")
+PARTS = ("Snakefile", "rules", "config", "envs", "profiles", "report")
 
 
 def copy_workflow(folder):
     for part in PARTS:
-        if (ROOT / part).is_dir():
-            ignore = shutil.ignore_patterns("__pycache__")
-            shutil.copytree(ROOT / part, folder / part, ignore=ignore)
-        else:
-            shutil.copy2(ROOT / part, folder / part)
-    for entry in ROOT.iterdir():  # whatever the configuration may name, such as data
+        copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
+        copy(ROOT / part, folder / part)
+    for entry in ROOT.iterdir():  # code, and whatever the configuration may name
         hidden = entry.name.startswith(".") or entry.name in (*PARTS, "results")
         if entry.is_dir() and not hidden:
             (folder / entry.name).symlink_to(entry)
@@ -27,6 +27,15 @@ def copy_workflow(folder):
     surfaces = yaml.safe_load((ROOT / "config/surfaces.yaml").read_text(encoding="utf-8"))
     few = {"surfaces": {name: surfaces["surfaces"][name] for name in SURFACES}}
     (folder / "config/tiny_surfaces.yaml").write_text(yaml.safe_dump(few), encoding="utf-8")
+
+
+def copy_code(folder):
+    """Put a copy in the place of the link, for tests that change the code."""
+    code = folder / "scripts"
+    if code.is_symlink():
+        code.unlink()
+        ignore = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(ROOT / "scripts", code, ignore=ignore)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from helpers.copy_workflow import copy_workflow
+from helpers.copy_workflow import copy_code, copy_workflow
 from helpers.dry_runs import dry_run, jobs
 
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
@@ -53,6 +53,8 @@ class Workflow:
 
     def edit(self, path, old, new):
         """Replace a text, which must be there, in a file of this copy."""
+        if path.startswith("scripts/"):
+            copy_code(self.folder)
         file = self / path
         text = file.read_text(encoding="utf-8")
         assert old in text, f"{old!r} is not in {path}"

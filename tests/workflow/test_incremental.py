@@ -4,6 +4,7 @@ import re
 import time
 
 import pytest
+from helpers.copy_workflow import copy_code
 
 pytestmark = pytest.mark.workflow
 
@@ -117,6 +118,7 @@ def test_a_new_case_leaves_the_figures_of_other_cases(copy_of_finished):
 
 def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished):
     time.sleep(1.1)  # file systems with whole-second time stamps
+    copy_code(copy_of_finished.folder)
     for file in (copy_of_finished / "scripts").rglob("*.py"):
         text = file.read_text(encoding="utf-8")
         file.write_text(text.replace('"""', '"""Other words. ', 1) + "\n# A comment.\n")

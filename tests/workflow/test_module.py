@@ -26,7 +26,7 @@ def folder(tmp_path):
 def cache(tmp_path_factory):
     """Snakemake's cache with a clone of the project as it stands, which saves the network."""
     place = tmp_path_factory.mktemp("git")
-    for part in PARTS:
+    for part in (*PARTS, "scripts"):
         copy = shutil.copytree if (ROOT / part).is_dir() else shutil.copy2
         copy(ROOT / part, place / part)
     git = ["git", "-c", "user.name=test", "-c", "user.email=test"]
