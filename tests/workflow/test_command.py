@@ -21,6 +21,7 @@ from helpers.copy_workflow import ROOT
 from helpers.pages import Page
 
 import stickiness
+import stickiness.__main__ as command
 from stickiness import datasets
 from stickiness.entries import check_surface, without_texts
 from stickiness.spectrum import SelfAffine
@@ -198,22 +199,26 @@ def test_the_workflow_takes_over_the_analysis_that_it_would_make(folder, first, 
     parameters = describe_file("wall_1", without_texts(entry))["parameters"]
     assert datasets.holds(path, made.data, parameters)
     assert not datasets.holds(path, made.data, parameters | {"contact": 1.0})
-    assert not datasets.holds(path, made.data * 2, parameters)
+    assert not datasets.holds(path, made.data.assign_attrs(not_judged="no"), parameters)
+    assert not datasets.holds(path, made.data.assign(h_rms=2 * made.data.h_rms), parameters)
     assert not datasets.holds("nowhere.nc", made.data, parameters)
     # Texts name the file as the configuration does.
     kept = datasets.read(path).attrs
     assert {name: kept[name] for name in made.data.attrs} == made.data.attrs
 
 
-def test_a_page_names_the_file_from_its_folder_in_doubts_too(folder, tmp_path):
-    heights = np.load(folder / "wall#1.npy")
-    np.save(tmp_path / "twice.npy", np.tile(heights, (2, 1)))
-    arguments = [tmp_path / "twice.npy", *TAPE, "--length", "2 mm x 4 mm", "--height-unit", "um"]
-    answer = run(tmp_path, *arguments, "--output", "out")
-    assert (answer.status, answer.errors) == (0, [])
-    page = (tmp_path / "out/results/draft/report/surfaces/twice.html").read_text(encoding="utf-8")
-    assert "../twice.npy: the map is 1 x 2 copies" in page
-    assert str(tmp_path) not in page
+def test_an_analysis_names_the_file_as_the_page_does(folder, tmp_path):
+    file = tmp_path / "all points.npy"
+    np.save(file, np.tile(np.load(folder / "wall#1.npy"), (2, 1)))
+    texts = {"kind": "measured", "length": ["2 mm", "4 mm"], "height_unit": "um"}
+    surface = stickiness.Surface.read(file, **texts)
+    assert str(file) in surface.data.remarks
+    options = argparse.Namespace(output=tmp_path / "out", file=file)
+    command.keep_analysis(options, "all", texts | {"file": "../all points.npy"}, surface)
+    kept = datasets.read(tmp_path / "out/results/draft/real_surfaces/all.nc").attrs
+    assert kept["files"] == "../all points.npy"
+    assert kept["remarks"].startswith("../all points.npy: the map is 1 x 2 copies")
+    assert str(tmp_path) not in str(kept)
 
 
 def test_another_tape_repeats_the_verdict_alone(folder, first):
@@ -322,7 +327,6 @@ def test_a_full_disk_is_one_line(folder):
 
 def test_a_configuration_is_written_whole_or_not_at_all(tmp_path, monkeypatch):
     """Also where the disk is full after its first file."""
-    import stickiness.__main__ as command
 
     def write(path, text, encoding):
         if "surfaces" in path.name:
