@@ -132,3 +132,14 @@ def test_texts_that_are_joined_keep_their_length(tmp_path):
     both = xr.concat([datasets.read(tmp_path / f"{name}.nc") for name in "ab"], "x")
     datasets.write(both, tmp_path / "both.nc", title="a", parameters={})
     assert datasets.read(tmp_path / "both.nc").t.values.tolist() == ["", "a longer text"]
+
+
+def test_a_damaged_attribute_is_named_with_its_file(monkeypatch, tmp_path):
+    """netCDF4 reports it as an error of a Python attribute."""
+
+    def fail(*arguments, **options):
+        raise AttributeError("NetCDF: Can't open HDF5 attribute")
+
+    monkeypatch.setattr(xr, "open_dataset", fail)
+    with pytest.raises(datasets.DatasetError, match="damaged.nc: not a readable NetCDF file"):
+        datasets.read(tmp_path / "damaged.nc")
