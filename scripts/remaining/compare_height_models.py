@@ -15,11 +15,11 @@ from stickiness import datasets, surface
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.remaining import height_simulation
 from stickiness.remaining.prediction import Roughness
-from stickiness.remaining.standard_heights import PIXELS_RESOLVED
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import Exponential
 from stickiness.verdicts.simulated_surface import find_lacking
 
+PIXELS_PER_WAVELENGTH = 4
 REMAINS = "share of the work of adhesion that remains: "
 SECONDS = "processor time: "
 MODELS = {
@@ -62,7 +62,7 @@ def main(job):
 def compare(setting, params):
     """What remains on one surface by every model, and the processor time that each takes."""
     length = cell_size(setting)
-    points = grid_points(setting, PIXELS_RESOLVED)
+    points = grid_points(setting, PIXELS_PER_WAVELENGTH)
     heights = make_heights(setting, points, params.seed)
     spectrum = surface.realised_spectrum(heights, length)
     energy = spectrum.elastic_energy()
@@ -126,7 +126,7 @@ def list_limits(model, lengths, ranges):
 def simulate(heights, length, rough):
     """`Roughness` by states simulated on the heights."""
     simulated = height_simulation.simulate_heights(heights, (length, length))
-    lacking = float(find_lacking(simulated, beyond=0.0))
+    lacking = float(find_lacking(simulated, unheld=0.0))
     return replace(rough, simulated=simulated, lacking=lacking)
 
 

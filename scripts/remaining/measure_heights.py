@@ -129,7 +129,7 @@ def simulate(heights, length, setting):
     simulated = simulate_heights(heights, (length, length), most_points=setting["points"] // 2)
     dataset = tabulate_simulated(simulated)
     dataset["seconds_states"] = time.process_time() - began
-    dataset["lacking"] = float(find_lacking(simulated, beyond=0.0))
+    dataset["lacking"] = float(find_lacking(simulated, unheld=0.0))
     return dataset
 
 

@@ -185,7 +185,7 @@ REFUSED = {
     "a torn text": (HEADER + "1 2 3 4\n5 6\n", {"format": "asc"}, "truncated"),
 }
 # What is read but not judged: heights, keys of the entry, words of the reasons.
-BLURRED = surface.synthesise(SelfAffine(hurst=0.8, q0=3, q1=40, h_rms=1), N, 2.1, 1)
+BLURRED = surface.synthesise(SelfAffine(hurst=0.8, q0=3, q1=20, h_rms=1), N, 2.1, 1)
 NOISE = np.random.default_rng(0).standard_normal((N, N))
 WAVE = np.sin(np.arange(N) * np.pi / 8)[:, None] * np.ones(N)
 SPIKES = changed((slice(None, None, 5), slice(None, None, 7)), value=40.0)
@@ -213,7 +213,7 @@ WITHHELD = {
         {"length": "0.3 mm"},
         "whole numbers with an rms slope of",
     ),
-    "noise extended": (NOISE, {"extend_to": "1 nm"}, "cannot extrapolate"),
+    "noise extended": (NOISE, {"extend_to": "1 nm"}, "outside 0 < H <= 1"),
     "noise": (NOISE, {}, "outside 0 < H <= 1"),
     "blurred": (BLURRED, {}, "it falls as blur does"),
 }

@@ -177,8 +177,11 @@ def find_pattern(heights: NDArray) -> tuple[float, ...] | None:
     return None
 
 
-def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
-    """Doubts about a spectrum by its self-affine fit; H counts within its error of 90 %."""
+def doubt_fit(fit: SelfAffineFit, is_end_told: bool = False) -> Iterator[str]:
+    """Doubts about a spectrum by its self-affine fit; H counts within its error of 90 %.
+
+    A user who tells where the waves end says that a steep spectrum is the surface's.
+    """
     error = COVERS * fit.hurst_se
     exponent = f"the spectrum has H = {fit.hurst:.2f} ± {error:.2f}, outside 0 < H <= 1"
     if fit.hurst + error <= 0:
@@ -187,10 +190,11 @@ def doubt_fit(fit: SelfAffineFit) -> Iterator[str]:
             "roll-off; look at the heights, scan with smaller steps, or limit the fit by "
             "resolution or fit_to to waves that the instrument resolves"
         )
-    if fit.hurst - error > 1 + HURST_BIAS:
+    if fit.hurst - error > 1 + HURST_BIAS and not is_end_told:
         yield (
             f"{exponent}: it falls as blur does; limit the fit by resolution or fit_to to waves "
-            "that the instrument resolves, or level by detrend: quadratic"
+            "that the instrument resolves, give extend_to if the surface has no shorter ones, or "
+            "level by detrend: quadratic"
         )
     if fit.misfit > LARGEST_MISFIT:
         yield (

@@ -27,6 +27,7 @@ TIP_FACTOR = 0.5  #: curvature over 1/R from which the tip's shape shows (Sanner
 LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
 NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist
 BLUR_EXPONENT = 5.0  #: C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
+EMPTY = 1e-6  #: q^5 C over its largest value, below which a spectrum is empty
 NOISE_EXPONENT = 1.5  #: and slower than any (s = 2 at H = 0)
 LOWEST_HURST = -0.4  #: of a profile; at -1/2 the transform of q^(-2(H+1)) no longer exists
 
@@ -38,6 +39,9 @@ class Cutoff:
     q: float  #: [1/length]
     reason: str
     detected: bool = False  #: in the spectrum or the heights, not given or by default
+    #: Whether the waves beyond are not the surface's, as noise or by the user's word. Blurred waves
+    #: are the surface's, only lower.
+    is_noise_beyond: bool = False
 
 
 @dataclass(frozen=True)
@@ -51,6 +55,9 @@ class MeasuredSpectrum:
     fit: SelfAffineFit  #: from the lowest to the highest q that taper and instrument leave
     cutoff: Cutoff  #: highest wave number that the instrument resolves, as the fit found data
     lowest: float  #: wave number of the scan [1/length]
+    #: Highest wave number that the heights hold: that of two steps of the grid, or that from which
+    #: on they are blurred or noise
+    held: Cutoff
     anisotropy: float = np.nan  #: amplitude of the dependence on direction; NaN for profiles
     trusted: bool = True  #: False if no waves are left within the limits of the instrument
 
@@ -126,6 +133,7 @@ def analyse(
         # Unevenly spaced points resolve no wave shorter than twice their largest gap.
         nyquist = min(modes.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
     lowest = min(modes.steps)
+    of_grid = Cutoff(nyquist, "two steps of the grid")
 
     # The interval of the fit.
     # `modes.blur` is by the taper, not by the instrument.
@@ -136,7 +144,7 @@ def analyse(
         cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
     else:
         q_min = lowest
-        cutoff = Cutoff(nyquist, "two steps of the grid")
+        cutoff = of_grid
 
     # The fit, and the rings that are shown and integrated.
     enough = demand and alone
@@ -160,6 +168,7 @@ def analyse(
         fit=fit,
         cutoff=replace(cutoff, q=fit.q_max),
         lowest=lowest,
+        held=cutoff if cutoff.detected or cutoff.is_noise_beyond else of_grid,
         anisotropy=anisotropy,
     )
 
@@ -225,10 +234,11 @@ def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> ND
 def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
     """Lowest of the cutoffs that are given, detected or general."""
     if limits.fit_to is not None:
-        return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)")
+        return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)", is_noise_beyond=True)
     candidates = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
     if limits.resolution is not None:
-        candidates.append(Cutoff(2 * np.pi / limits.resolution, "resolution of the instrument"))
+        resolved = 2 * np.pi / limits.resolution
+        candidates.append(Cutoff(resolved, "resolution of the instrument", is_noise_beyond=True))
     if limits.tip_radius is not None:
         blunt = tip_cutoff(heights, steps, limits.tip_radius)
         if blunt is not None:
@@ -300,17 +310,30 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None
     # Local exponents s of C ~ q^-s, by regression over a quarter of a decade.
     width = np.log(10) / 4
     centres = []
+    levels = []
     exponents = []
     for centre in x:
         near = np.abs(x - centre) <= width / 2
         if np.count_nonzero(near) < 4 or np.ptp(x[near]) < width * 0.7:
             continue
         w = weight[near]
-        dx = x[near] - np.average(x[near], weights=w)
-        centres.append(np.exp(centre))
-        exponents.append(-np.sum(w * dx * y[near]) / np.sum(w * dx**2))
-    q = np.array(centres)
+        mean_x = np.average(x[near], weights=w)
+        mean_y = np.average(y[near], weights=w)
+        dx = x[near] - mean_x
+        exponent = -np.sum(w * dx * y[near]) / np.sum(w * dx**2)
+        centres.append(centre)
+        levels.append(mean_y - exponent * (centre - mean_x))
+        exponents.append(exponent)
+    log_q = np.array(centres)
+    log_psd = np.array(levels)
     slope = np.array(exponents)
+
+    # A filter may leave nothing but rounding.
+    flattened = log_psd + BLUR_EXPONENT * log_q
+    is_empty = flattened < np.max(flattened, initial=-np.inf) + np.log(EMPTY)
+    filled = slice(_start_of_last_run(is_empty))
+    q = np.exp(log_q[filled])
+    slope = slope[filled]
 
     # Noise is the last run, up to the Nyquist wave number, of exponents below NOISE_EXPONENT; blur
     # is the last run before it of exponents above BLUR_EXPONENT.
@@ -320,8 +343,12 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None
         # A bend within half a decade of `q_min` is ignored; the surface may be smooth.
         if 0 < start < end and q[start - 1] > q_min * 10**0.5:
             falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
-            reason = f"{kind} of the instrument ({falls})"
-            return Cutoff(float(q[start - 1]), reason, detected=True)
+            return Cutoff(
+                float(q[start - 1]),
+                f"{kind} of the instrument ({falls})",
+                detected=True,
+                is_noise_beyond=kind == "noise",
+            )
     return None
 
 

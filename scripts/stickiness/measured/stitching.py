@@ -11,8 +11,12 @@ corner and to fall as a power law from there to the next band, no faster than q^
 the corner lies is not known: it is spread evenly over the orders of magnitude.
 
 Waves that the instrument does not resolve store elastic energy, most of it for H < 1/2, where the
-integral of q^2 C grows without end. Where the fitted law ends is not known: spectra are drawn whose
-ends are spread evenly over the orders of magnitude between the cutoff and a wave number given.
+integral of q^2 C grows without end. They continue the last octave that was measured. Their Hurst
+exponent lies between that of the fit and that of the last two octaves, which differ where the
+spectrum follows features, such as scratches or flat tops, rather than a law; it is kept within
+`HURST_BEYOND`. Where the waves end is not known: spectra are drawn whose ends are spread evenly
+over the orders of magnitude between the cutoff and a wave number given, or that at which the rms
+slope reaches a largest value.
 """
 
 from __future__ import annotations
@@ -36,6 +40,8 @@ SHORTEST_WAVE = 0.3e-9  #: [m]; the distance of atoms, where any roughness ends
 #: Energy of unresolved waves over that of the others, above which they decide.
 MOST_UNRESOLVED = 0.5
 STEEPEST_EXPONENT = 4.0  #: of C ~ q^-s in a gap: H = 1
+HURST_BEYOND = (0.3, 1.0)  #: between which the Hurst exponent beyond the cutoff is kept
+OCTAVES = 2  #: below the cutoff, which tell the local exponent
 REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
 ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
@@ -140,6 +146,7 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
         fit=replace(fit, log_covariance=covariance),
         cutoff=replace(top.cutoff, q=fit.q_max),
         lowest=lowest,
+        held=measurements[0].held,
         anisotropy=float(np.fmax.reduce([m.anisotropy for m in trusted])),
         levels=np.exp(logs + _log_bias(rings.dof)),
         offsets=np.array(offsets),
@@ -255,6 +262,36 @@ def _variance_between(logs: NDArray, variances: NDArray) -> float:
 
 
 @dataclass(frozen=True)
+class Continuation:
+    """Power laws by which drawn spectra continue beyond the cutoff, `(n,)` each."""
+
+    cutoff: float  #: [1/length]
+    level: NDArray  #: C at the cutoff [length^4]
+    hurst: NDArray  #: within `HURST_BEYOND`
+
+    def psd(self, q: NDArray) -> NDArray:
+        """C at wave numbers beyond the cutoff [length^4], `(n, m)`."""
+        exponent = -2 * (self.hurst[:, None] + 1)
+        return self.level[:, None] * (q / self.cutoff) ** exponent
+
+    def integrate(self, end: ArrayLike, order: int) -> NDArray:
+        """2 pi * integral of q^(1 + order) C from the cutoff to `end`."""
+        octaves = expm1_over(order - 2 * self.hurst, np.log(end / self.cutoff))
+        return 2 * np.pi * self.level * self.cutoff ** (2 + order) * octaves
+
+    def find_end(self, square_slope: NDArray) -> NDArray:
+        """Wave number at which this mean square slope is added; infinite if none is that far."""
+        of_octave = 2 * np.pi * self.level * self.cutoff**4
+        exponent = 2 - 2 * self.hurst
+        # The slope grows by of_octave expm1(exponent t)/exponent, with t = ln(q/cutoff).
+        steps = np.maximum(square_slope, 0.0) / of_octave
+        is_level = exponent < 1e-9
+        safe = np.where(is_level, 1.0, exponent)
+        log_ratio = np.where(is_level, steps, np.log1p(safe * steps) / safe)
+        return self.cutoff * np.exp(np.minimum(log_ratio, 500.0))
+
+
+@dataclass(frozen=True)
 class Draws:
     """Moments of spectra that agree with a measured one."""
 
@@ -265,11 +302,13 @@ class Draws:
     #: (n,), energy of all waves from the cutoff to `continue_to` over the measured energy
     unresolved: NDArray
     beyond: NDArray  #: (n,), energy of the waves beyond the cutoff over that of the others
+    unheld: NDArray  #: (n,), of the waves that the first measurement does not hold, likewise
     long_variance: NDArray  #: (n,), of heights, by the waves below those fitted [length^2]
     long_energy: NDArray  #: (n,), of these waves, per area over E* [length]
     hurst: NDArray  #: (n,), of the fitted law
     #: (n,), C of the law at the lowest wave number fitted or the end of a plateau [length^4]
     first_psd: NDArray
+    continuation: Continuation  #: of the spectrum beyond the cutoff
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -283,6 +322,7 @@ def draw(
     *,
     extend_to: float | None = None,
     continue_to: float | None = None,
+    steepest: float = np.inf,
 ) -> Draws:
     """Draw moments of spectra that agree with a measured one.
 
@@ -299,6 +339,8 @@ def draw(
         Without `extend_to`: highest wave number at which the fitted law may end [1/length]. The
         energies drawn contain the waves up to an end between the cutoff and there, whose logarithm
         is spread evenly. Default: they end at the cutoff.
+    steepest : float
+        Rms slope at which the law ends at the latest.
 
     Returns
     -------
@@ -320,31 +362,41 @@ def draw(
         inside = gap.contains(rings.q)
         ends = rng.normal(gap.log_psd, gap.log_psd_se, size=(count, 2))
         levels[:, inside] = np.exp(gap.bridge(rings.q[inside], _draw_places(count, rng), ends))
+    continuation = _continue(spectrum, levels, law, rng)
 
-    def integrate_law(end: ArrayLike, order: int) -> NDArray:
-        """2 pi * integral of q^(1 + order) C from the cutoff to `end`, by every law."""
-        level = np.exp(law.log_c0 - 2 * (law.hurst + 1) * np.log(cutoff))
-        integral = expm1_over(order - 2 * law.hurst, np.log(end / cutoff))
-        return 2 * np.pi * level * cutoff ** (2 + order) * integral
-
+    # Beyond the cutoff slope, curvature and energy would be the instrument's.
+    is_resolved = rings.q <= cutoff * (1 + 1e-9)
+    resolved = {
+        order: (levels * np.where(is_resolved, spectrum.area * rings.q**order, 0.0)).sum(1)
+        for order in ORDERS.values()
+    }
     moments = {}
     for name, order in ORDERS.items():
-        # Beyond the cutoff slope, curvature and energy would be the instrument's.
-        inside = rings.q <= (np.inf if order == 0 and extend_to is None else cutoff * (1 + 1e-9))
-        moment = (levels * np.where(inside, spectrum.area * rings.q**order, 0.0)).sum(1)
+        moment = resolved[order]
         if extend_to is not None:
-            moment = moment + integrate_law(extend_to, order)
+            moment = moment + continuation.integrate(extend_to, order)
+        elif order == 0:
+            moment = levels @ spectrum.area
         moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
 
-    # Waves that are not resolved, up to ends of the law that are spread over the magnitudes.
-    furthest = cutoff if extend_to is not None else max(continue_to or 0.0, cutoff)
-    unresolved = integrate_law(furthest, 1) / 4 / moments["elastic_energy"]
+    # Waves that are not resolved, up to ends that are spread over the orders of magnitude.
+    furthest: ArrayLike = cutoff
+    if extend_to is None and continue_to is not None:
+        of_slope = continuation.find_end(steepest**2 - resolved[2])
+        furthest = np.clip(of_slope, cutoff, max(continue_to, cutoff))
+    unresolved = continuation.integrate(furthest, 1) / 4 / moments["elastic_energy"]
     ends = cutoff * (furthest / cutoff) ** _draw_places(count, rng)
-    moments["elastic_energy"] = moments["elastic_energy"] + integrate_law(ends, 1) / 4
+    moments["elastic_energy"] = moments["elastic_energy"] + continuation.integrate(ends, 1) / 4
+    energy = moments["elastic_energy"]
+    beyond = np.maximum(4 * energy / resolved[1] - 1, 0.0)
 
-    inside = rings.q <= cutoff * (1 + 1e-9)
-    resolved = (levels * np.where(inside, spectrum.area * rings.q, 0.0)).sum(1) / 4
-    beyond = np.maximum(moments["elastic_energy"] / resolved - 1, 0.0)
+    # Waves that the heights of the first measurement hold, measured or by the law.
+    is_held = is_resolved & (rings.q <= spectrum.held.q * (1 + 1e-9))
+    held_energy = levels @ np.where(is_held, spectrum.area * rings.q, 0.0) / 4
+    last = extend_to if extend_to is not None else ends
+    held_end = np.clip(spectrum.held.q, cutoff, last)
+    held_energy = held_energy + continuation.integrate(held_end, 1) / 4
+    unheld = np.maximum(energy / held_energy - 1, 0.0)
 
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
@@ -358,21 +410,17 @@ def draw(
         q0=q0,
         unresolved=unresolved,
         beyond=beyond,
+        unheld=unheld,
         long_variance=long.sum(1),
         long_energy=long @ rings.q / 4,
         hurst=law.hurst,
         first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
+        continuation=continuation,
     )
 
 
 def _check_extension(spectrum: MeasuredSpectrum, extend_to: float | None) -> None:
-    """Raise an error if a fit cannot extrapolate the spectrum up to a wave number [1/length]."""
-    if extend_to is not None and not spectrum.fit.is_self_affine:
-        raise ValueError(
-            f"extend_to: the fitted H = {spectrum.fit.hurst:.2f} is outside the range of "
-            "self-affine surfaces and cannot extrapolate the spectrum; leave extend_to out or "
-            "narrow fit_from … fit_to"
-        )
+    """Raise an error if the spectrum does not end below a wave number [1/length]."""
     if extend_to is not None and not extend_to > spectrum.cutoff.q:
         raise ValueError(
             f"extend_to must be below the shortest wavelength measured, "
@@ -397,6 +445,35 @@ def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generato
         sampling = np.maximum(variance - tau**2 * np.sum(shares**2, axis=0), 0.0)
     normal = rng.normal(size=(count, len(variance)))
     return rings.psd * np.exp(offsets + normal * np.sqrt(sampling) - variance / 2)
+
+
+def _continue(
+    spectrum: MeasuredSpectrum, levels: NDArray, law: _Laws, rng: np.random.Generator
+) -> Continuation:
+    """Laws through the last octave of drawn spectra, `(count, m)`, with a bounded exponent."""
+    cutoff = spectrum.cutoff.q
+    q = spectrum.rings.q
+    is_resolved = q <= cutoff * (1 + 1e-9)
+
+    # The local exponent, by a regression of ln C on ln q.
+    first = min(cutoff / 2**OCTAVES, q[is_resolved][-2])
+    near = is_resolved & (q >= first * (1 - 1e-9))
+    weight = spectrum.rings.dof[near]
+    log_q = np.log(q[near]) - np.average(np.log(q[near]), weights=weight)
+    slope = np.log(levels[:, near]) @ (weight * log_q) / (weight @ log_q**2)
+    local_hurst = -slope / 2 - 1
+
+    # The fit and the last octaves are two opinions; what holds beyond lies between them.
+    place = rng.uniform(size=local_hurst.shape)
+    hurst = np.clip(law.hurst + place * (local_hurst - law.hurst), *HURST_BEYOND)
+
+    # The law has the energy of the last octave.
+    last = is_resolved & (q >= min(cutoff / 2, q[is_resolved][-1]) * (1 - 1e-9))
+    density = spectrum.area[last] * q[last]
+    shape = (q[last] / cutoff) ** (-2 * (hurst[:, None] + 1))
+    return Continuation(
+        cutoff=cutoff, level=(levels[:, last] @ density) / (shape @ density), hurst=hurst
+    )
 
 
 def _draw_places(count: int, rng: np.random.Generator) -> NDArray:

@@ -57,7 +57,6 @@ GAP_BINS = np.concatenate([[0.0], np.geomspace(1e-7, 30.0, 128)])
 def simulate_heights(
     heights: ArrayLike,
     sides: tuple[float, float],
-    cutoff: float = np.inf,
     most_points: int = MOST_POINTS,
     solid: Solid = HALF_SPACE,
 ) -> SimulatedHeights:
@@ -65,7 +64,7 @@ def simulate_heights(
 
     Parameters
     ----------
-    heights, sides, cutoff, most_points
+    heights, sides, most_points
         As of `standard_heights.standardise`.
     solid : solids.HalfSpace or solids.Layer
         Elastic solid; the thickness of a layer is in the unit of `sides`.
@@ -77,7 +76,7 @@ def simulate_heights(
     ValueError
         If the map has too few points along a side.
     """
-    return simulate_standard(standardise(heights, sides, cutoff, most_points), solid)
+    return simulate_standard(standardise(heights, sides, most_points=most_points), solid)
 
 
 def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> SimulatedHeights:

@@ -13,7 +13,6 @@ from stickiness.remaining.full_contact import full_contact_energy
 
 MOST_POINTS = 256  #: of the grid, along the longer side
 FEWEST_POINTS = 32  #: along the shorter side
-PIXELS_RESOLVED = 4  #: in the shortest wave that an instrument resolves, unless it says otherwise
 STANDARD_HEIGHT = 0.01  #: rms height of what is simulated, over the first side of the map
 DECIMALS = 10  #: of these heights; an instrument resolves far less
 _ROUNDING = 1e-9
@@ -35,7 +34,7 @@ class StandardHeights:
     whole: StandardMap
     quarters: tuple[StandardMap, ...]
     length_unit: float  #: first side of the whole map [length]
-    #: Energy of full contact of the map with all waves that it resolves, per nominal area [length]
+    #: Energy of full contact of the map's waves up to the cutoff, per nominal area [length]
     resolved_energy: float
     pixel: float  #: of the thinned grid [length]
 
@@ -45,6 +44,7 @@ def standardise(
     sides: tuple[float, float],
     cutoff: float = np.inf,
     most_points: int = MOST_POINTS,
+    is_noise_beyond: bool = False,
 ) -> StandardHeights:
     """Make levelled heights and their quarters periodic, and thin them.
 
@@ -58,10 +58,11 @@ def standardise(
     sides : pair of floats
         Sides of the map [length].
     cutoff : float
-        Highest wave number that the heights resolve [1/length]. Waves beyond it are filtered out
-        only where it is below that of four pixels: there they are noise or blur.
+        Highest wave number of `StandardHeights.resolved_energy` [1/length].
     most_points : int
         Points of the grid along the longer side, at most.
+    is_noise_beyond : bool
+        Whether waves beyond the cutoff are none of the surface, and are filtered out.
 
     Raises
     ------
@@ -77,13 +78,12 @@ def standardise(
     # Thin the longer side to as many points, but leave enough of them across a narrow strip.
     stride = -(-max(heights.shape) // most_points)
     stride = min(stride, min(heights.shape) // FEWEST_POINTS)
-    is_noisy = cutoff < 2 * np.pi / (PIXELS_RESOLVED * max(steps)) * (1 - _ROUNDING)
 
     def prepare(part: NDArray) -> NDArray:
         """A part, periodic, on a grid whose halves the solvers can thin again."""
         counts = tuple(n // (4 * stride) * (4 * stride) for n in part.shape)
         level = periodic.periodise(part[: counts[0], : counts[1]], "smooth")
-        return _filter_waves(level, steps, cutoff) if is_noisy else level
+        return _filter_waves(level, steps, cutoff) if is_noise_beyond else level
 
     def thin(part: NDArray) -> StandardMap:
         level = prepare(part)

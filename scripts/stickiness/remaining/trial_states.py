@@ -174,7 +174,7 @@ class SimulatedHeights:
 
     whole: TrialStates
     quarters: tuple[TrialStates, ...]
-    #: Energy of full contact of the map with all waves that it resolves, per nominal area [length]
+    #: Energy of full contact of the map's waves up to the cutoff, per nominal area [length]
     resolved_energy: float
     pixel: float  #: of the grid simulated [length]
 

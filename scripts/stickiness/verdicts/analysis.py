@@ -8,6 +8,7 @@ not resolve. Doubts about the data forbid a verdict, unless the user insists on 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import scipy
@@ -16,9 +17,10 @@ import xarray as xr
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
 from stickiness.measured import stitching
 from stickiness.measured.doubts import doubt_fit, doubt_pattern
-from stickiness.measured.instrument_spectrum import MeasuredSpectrum
+from stickiness.measured.instrument_spectrum import Cutoff, MeasuredSpectrum
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
+from stickiness.plausibility import LIMITS
 from stickiness.remaining.height_shape import find_shape_of
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
@@ -77,13 +79,15 @@ def analyse(
     is_fitted = len(unfitted) < len(analysed)
 
     # Doubts: no fit, a fit that no surface has, or heights that no instrument measures.
-    doubts = [*doubt_fit(fit)] if is_fitted else unfitted.copy()
+    is_end_told = extend_to is not None
+    doubts = [*doubt_fit(fit, is_end_told)] if is_fitted else unfitted.copy()
     if doubts:
         doubts = _find_patterns(heights) or doubts
     q_extended = None if extend_to is None else 2 * np.pi / extend_to
-    if q_extended is not None and not fit.is_self_affine:
-        doubts.append(f"H = {fit.hurst:.2f} cannot extrapolate the spectrum: leave out extend_to")
-        q_extended = None
+    end_of_grid = np.pi / max(heights[0].steps)
+    if q_extended is not None and q_extended <= end_of_grid * (1 + 1e-9):
+        # Whoever tells that the waves end within the grid says that the heights hold all of them.
+        spectrum = replace(spectrum, held=Cutoff(end_of_grid, "as given (extend_to)"))
     doubts += [doubt for each in heights for doubt in each.doubts]
     not_judged = [] if ignore_doubts else doubts
 
@@ -94,10 +98,11 @@ def analyse(
         SEED,
         extend_to=q_extended,
         continue_to=2 * np.pi / stitching.SHORTEST_WAVE,
+        steepest=LIMITS["rms_slope"].usual,
     )
     dataset = xr.merge(
         [
-            _tabulate_spectrum(spectrum, q_extended),
+            _tabulate_spectrum(spectrum, draws.continuation, q_extended),
             _thin_picture(heights[0]),
             _thin_reading(heights[0]),
             _describe_fit(spectrum, q_extended),
@@ -120,6 +125,8 @@ def analyse(
     remarks = [f"{LEFT_OUT}: {doubt}" for doubt in unfitted if is_fitted]
     remarks += [f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged]
     remarks += [remark for each in heights for remark in each.remarks]
+    if q_extended is None and not doubts:
+        remarks += _remark_on_exponent(fit)
     return dataset.assign_attrs(
         remarks="\n".join(remarks),
         cutoff=spectrum.cutoff.reason,
@@ -128,6 +135,17 @@ def analyse(
         choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
         not_judged="\n".join(not_judged),
     )
+
+
+def _remark_on_exponent(fit: SelfAffineFit) -> list[str]:
+    """Say that the spectrum does not continue with the fitted exponent; nothing if it does."""
+    low, high = stitching.HURST_BEYOND
+    if low - COVERS * fit.hurst_se <= fit.hurst <= high + COVERS * fit.hurst_se:
+        return []
+    return [
+        f"the fitted H = {fit.hurst:.2f} is outside {low:g} to {high:g}: waves that are not "
+        "resolved continue the last octave with an exponent within these bounds"
+    ]
 
 
 def _find_patterns(heights: Sequence[Topography | Profile]) -> list[str]:
@@ -139,8 +157,10 @@ def _find_patterns(heights: Sequence[Topography | Profile]) -> list[str]:
     ]
 
 
-def _tabulate_spectrum(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Dataset:
-    """Measured and fitted spectrum at both ends; extrapolated by the fit to `q_extended` [1/m]."""
+def _tabulate_spectrum(
+    spectrum: MeasuredSpectrum, continuation: stitching.Continuation, q_extended: float | None
+) -> xr.Dataset:
+    """Measured and fitted spectrum at both ends; continued to `q_extended` [1/m]."""
     fit = spectrum.fit
     rings = spectrum.rings
     q = rings.q
@@ -156,13 +176,12 @@ def _tabulate_spectrum(spectrum: MeasuredSpectrum, q_extended: float | None) -> 
         count = int(np.ceil(np.log10(q_extended / top) * POINTS_PER_DECADE)) + 1
         beyond = np.geomspace(top, q_extended, count)[0 if q[inside][-1] < top * 0.99 else 1 :]
         q = np.append(q[inside], beyond)
-        spread = fit.log_psd_se(beyond)
-        law = fit.psd(beyond)
+        continued = continuation.psd(beyond)
+        ends = np.quantile(continued, END_QUANTILES, axis=0)
         psd = [
-            np.append(end[inside], law * np.exp(sign * spread))
-            for end, sign in zip(psd, (-1, 1), strict=True)
+            np.append(of_rings[inside], of_law) for of_rings, of_law in zip(psd, ends, strict=True)
         ]
-        error = np.append(error[inside], law * spread)
+        error = np.append(error[inside], continued.std(axis=0))
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
     data = {
         "psd": (("end", "wave_number"), psd),
@@ -264,6 +283,8 @@ def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
         "q0_draws": ("draw", draws.q0),
         "beyond_energy": ("end", np.quantile(draws.beyond, END_QUANTILES)),
         "beyond_energy_draws": ("draw", draws.beyond),
+        "unheld_energy": ("end", np.quantile(draws.unheld, END_QUANTILES)),
+        "unheld_energy_draws": ("draw", draws.unheld),
         "hurst_draws": ("draw", draws.hurst),
         "first_psd_draws": ("draw", draws.first_psd),
         "long_variance_draws": ("draw", draws.long_variance),

@@ -447,7 +447,7 @@ class Surface:
             return np.zeros(count)
         return find_lacking(
             self.simulated,
-            beyond=self.data[f"beyond_energy{ending}"].values,
+            unheld=self.data[f"unheld_energy{ending}"].values,
             longer=np.asarray(self.data.get(f"longer_energy{ending}", 0.0)),
         )
 

@@ -57,7 +57,12 @@ def simulate_surface(
         return None
     if min(heights.heights.shape) < FEWEST_POINTS:
         return None
-    standard = standardise(heights.heights, heights.size, cutoff=spectrum.cutoff.q)
+    standard = standardise(
+        heights.heights,
+        heights.size,
+        cutoff=spectrum.held.q,
+        is_noise_beyond=spectrum.held.is_noise_beyond,
+    )
     simulated = _simulate(standard, HALF_SPACE)
     if simulated is None:
         return None
@@ -185,14 +190,14 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
 
 
 def find_lacking(
-    simulated: SimulatedHeights, beyond: ArrayLike, longer: ArrayLike = 0.0
+    simulated: SimulatedHeights, unheld: ArrayLike, longer: ArrayLike = 0.0
 ) -> NDArray:
     """Energy of the waves that a simulation lacks over that of the others; at least 0.
 
-    `beyond` is that of the waves beyond the instrument's resolution over that of those resolved,
+    `unheld` is that of the waves that the heights do not hold over that of those they hold,
     `longer` that of the waves longer than the scan over that of all others.
     """
-    energy = (1 + np.asarray(beyond)) * (1 + np.asarray(longer)) * simulated.resolved_energy
+    energy = (1 + np.asarray(unheld)) * (1 + np.asarray(longer)) * simulated.resolved_energy
     return np.maximum(energy / simulated.whole.full_contact_energy - 1, 0.0)
 
 

@@ -44,6 +44,8 @@ SURFACE_VARIABLES = {
     ),
     "beyond_energy": ("1", "energy of waves beyond the cutoff over that of the others"),
     "beyond_energy_draws": ("1", "the same of every draw"),
+    "unheld_energy": ("1", "energy of waves that the first map does not hold, over the others"),
+    "unheld_energy_draws": ("1", "the same of every draw"),
     "longer_energy": ("1", "energy that a contact larger than the scan adds, over the other"),
     "longer_energy_draws": ("1", "the same of every draw"),
     "hurst_draws": ("1", "Hurst exponent of the law fitted, of every draw"),

@@ -226,12 +226,25 @@ def test_law_carried_on_adds_its_waves_and_their_uncertainty():
     assert errors[0] > 2 * errors[1]
     with pytest.raises(ValueError, match="extend_to must be below the shortest wavelength"):
         stitching.draw(found, 5, seed=1, extend_to=0.5 * found.cutoff.q)
-    smooth = replace(found, fit=replace(found.fit, hurst=1.4))
-    with pytest.raises(ValueError, match=r"H = 1\.40"):
-        stitching.draw(smooth, 5, seed=1, extend_to=end)
 
 
-@pytest.mark.parametrize("hurst", [0.2, 0.4, 0.6, 0.8])
+@pytest.mark.parametrize("hurst", [45.0, 1.4, -0.1, -5.8])
+def test_law_carried_on_has_the_energy_of_the_last_octave_and_a_bounded_exponent(hurst):
+    _, h, dx = patch()
+    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
+    odd = replace(found, fit=replace(found.fit, hurst=hurst))
+    beyond = stitching.draw(odd, 50, seed=1, continue_to=1000 * found.cutoff.q).continuation
+    low, high = stitching.HURST_BEYOND
+    assert np.all((beyond.hurst >= low) & (beyond.hurst <= high))
+    # One octave further stores between 2^(1 - 2 H) of what the last one stores, for both bounds.
+    last = (found.rings.q > found.cutoff.q / 2) & (found.rings.q <= found.cutoff.q * (1 + 1e-9))
+    stored = np.sum((found.area * found.rings.q * found.rings.psd)[last])
+    ratio = beyond.integrate(2 * found.cutoff.q, 1) / stored
+    assert np.all(ratio > 0.5 * 0.7)
+    assert np.all(ratio < 2**0.4 * 1.3)
+
+
+@pytest.mark.parametrize("hurst", [0.3, 0.4, 0.6, 0.8])
 def test_limits_contain_the_energy_of_waves_that_the_instrument_does_not_resolve(hurst):
     length, n, atoms = 1e-5, 128, 2 * np.pi / 0.3e-9
     inside = {"with": [], "without": []}

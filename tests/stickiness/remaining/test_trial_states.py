@@ -5,12 +5,17 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy import optimize
+from references.energy_minimiser import find_full_contact_energy, minimise
 
 from stickiness import adhesive, surface
 from stickiness.remaining import height_simulation
-from stickiness.remaining.height_simulation import find_trial_states, simulate_heights
+from stickiness.remaining.height_simulation import (
+    find_trial_states,
+    simulate_heights,
+    simulate_standard,
+)
 from stickiness.remaining.measurement import measure
+from stickiness.remaining.standard_heights import standardise
 from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import Exponential
 
@@ -31,43 +36,6 @@ def make_heights(kind, n=N, seed=3):
     heights = surface.synthesise(ROUGH, n=n, length=1.0, seed=seed)
     heights = TRANSFORMS[kind](heights / heights.std())
     return 0.01 * (heights - heights.mean()) / heights.std()
-
-
-def stiffness(n):
-    q = 2 * np.pi * np.fft.fftfreq(n, 1 / n)
-    return np.hypot(q[:, None], q) / 2
-
-
-def find_full_contact_energy(heights):
-    modes = np.fft.fft2(heights) / heights.size
-    return float(np.sum(stiffness(len(heights)) * np.abs(modes) ** 2)) / 2
-
-
-def minimise(heights, adhesion_length, range_, starts):
-    """Largest share that remains, by L-BFGS-B over the gaps, which are at least zero."""
-    q = stiffness(len(heights))
-
-    def find_energy(gap):
-        gap = gap.reshape(heights.shape)
-        pressure = np.fft.ifft2(q * np.fft.fft2(gap + heights)).real
-        attraction = adhesion_length * np.exp(-gap / range_)
-        energy = np.mean(pressure * (gap + heights)) / 2 - np.mean(attraction)
-        gradient = (pressure + attraction / range_) / gap.size
-        unit = adhesion_length * 1e-3  # of energies of order 1
-        return energy / unit, gradient.ravel() / unit
-
-    energies = [
-        optimize.minimize(
-            find_energy,
-            start.ravel(),
-            jac=True,
-            method="L-BFGS-B",
-            bounds=[(0, None)] * start.size,
-            options={"maxiter": 4000, "maxfun": 8000, "ftol": 1e-12, "gtol": 1e-9},
-        ).fun
-        for start in starts
-    ]
-    return max(-min(energies) * 1e-3, 0.0)
 
 
 @pytest.fixture(scope="module")
@@ -251,9 +219,13 @@ def test_in_full_contact_waves_that_are_not_simulated_cost_their_energy(gaussian
 
 
 def test_last_bits_of_the_heights_do_not_matter():
+    def simulate_filtered(heights):
+        standard = standardise(heights, (1.0, 1.0), cutoff=2 * np.pi * 15, is_noise_beyond=True)
+        return simulate_standard(standard)
+
     heights = make_heights("tops cut")
-    first = simulate_heights(heights, (1.0, 1.0), cutoff=2 * np.pi * 15)
-    second = simulate_heights(heights * (1 + 1e-15) + 1e-17, (1.0, 1.0), cutoff=2 * np.pi * 15)
+    first = simulate_filtered(heights)
+    second = simulate_filtered(heights * (1 + 1e-15) + 1e-17)
     for one_part, other in zip(
         (first.whole, *first.quarters), (second.whole, *second.quarters), strict=True
     ):
