@@ -69,18 +69,13 @@ def describe_pull_off(pair):
 
 
 def show_probability(pair):
-    """Share of the draws that stick; of none or all of them a bound, for draws are few.
+    """Share of the draws that stick.
 
     An interval where a layer may not withstand all heights, which the draws do not know.
     """
     low = float(pair.probability_low)
     share = float(pair.probability)
-    if low < share:
-        return join(percent(low), percent(share), " to ")
-    if share not in (0, 1):
-        return percent(share)
-    error = float(pair.probability_total_error)
-    return f"< {percent(error)}" if share == 0 else f"> {percent(1 - error)}"
+    return join(percent(low), percent(share), " to ")
 
 
 BOUNDS = {"least": LEAST_STRESS, "most": MOST_STRESS}  #: of stresses, for `limited`

@@ -5,8 +5,6 @@ magnification, once over the magnification at fixed h_rms and longest wavelength
 the influence of the finest waves on each criterion.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import xarray as xr
 
@@ -14,10 +12,8 @@ from common.conventions import logarithmic_grid
 from stickiness import datasets
 from stickiness.criteria.pair import make_pair
 from stickiness.criteria.registry import CRITERIA, REMAINING
-from stickiness.error_budget import with_budget
 from stickiness.remaining.prediction import Roughness
 from stickiness.spectrum.kinds import SelfAffine
-from stickiness.verdicts.budgets import CLOSED_FORM, find_error_between
 
 LIMITS = {REMAINING: 0, f"{REMAINING}_low": 1, f"{REMAINING}_high": -1}  # names and signs
 TEXT = "adhesion length over range above which the criterion calls the surface sticky"
@@ -34,7 +30,7 @@ def write_comparison(settings, load, table, constant, output):
     """Write the thresholds; `constant` is the constant a_V of a broad spectrum."""
     dataset = datasets.annotate(compare(settings, load, table, constant), **COMPARED_VARIABLES)
     datasets.write(
-        add_budgets(dataset),
+        dataset,
         output,
         title="adhesion at the threshold of stickiness by every criterion",
         parameters={**settings, "pressure": load, "constant_a_v": constant},
@@ -89,14 +85,3 @@ def find_thresholds(settings, h_rms, magnification, load, table, constant):
         if criterion.has_length and name != REMAINING
     }
     return others | {name: pair.remaining_threshold(sign) for name, sign in LIMITS.items()}
-
-
-def add_budgets(dataset):
-    """Add error budgets to the thresholds; only that of what remains states an error."""
-    for name in ("against_roughness", "against_magnification"):
-        value = dataset[name]
-        low, high = (value.sel(criterion=end, drop=True) for end in list(LIMITS)[1:])
-        model = find_error_between(value, low=low, high=high)
-        model = replace(model, error=model.error.where(value.criterion == REMAINING))
-        dataset = with_budget(dataset, name, model=model, **CLOSED_FORM)
-    return dataset

@@ -20,7 +20,6 @@ from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
-from stickiness.verdicts.budgets import CLOSED_FORM, find_model_error
 
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
@@ -71,8 +70,6 @@ def main(job):
     dataset = dataset.assign(find_rule())
     dataset = dataset.assign(a_v=a_v, a_v_low=max(a_v - error, 0.01 * a_v), a_v_high=a_v + error)
     dataset = datasets.annotate(dataset, **MAP_VARIABLES)
-    for name in ("h_rms_limit", "h_rms_limit_edges", "rule"):
-        dataset = with_budget(dataset, name, model=find_model_error(dataset, name), **CLOSED_FORM)
     dataset = with_budget(dataset, "a_v", **parts)
     # In proportion to a_V^(3/5).
     scale = 3 / 5 * dataset.h_rms_limit_constant / a_v

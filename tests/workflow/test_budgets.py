@@ -15,7 +15,6 @@ QUOTED = {
     "fits/kappa/*.nc": ["kappa"],
     "cases/*.nc": ["value"],
     "claims/claims.nc": ["value"],
-    "criteria/verdicts.nc": ["margin", "remaining", "pull_off", "modulus_threshold"],
 }
 
 

@@ -12,15 +12,14 @@ What happens to them:
 - `pair_roughness`: the roughness that a material meets on a surface, with layers and two rough
   solids
 - `judgement`: `judge`, the only place where pairs become numbers
-- `draws`, `curves`, `thresholds`, `budgets`: what it says of draws, of other moduli, heights, rates
-  and dwells, of what would make a pair stick, and of errors
+- `draws`, `curves`, `thresholds`: what it says of draws, of other moduli, heights, rates and
+  dwells, and of what would make a pair stick
 - `limits`: the value and the limits that decide
 - `verdict`: `verdict` and `thresholds` of one pair
 """
 
 __all__ = [
     "analysis",
-    "budgets",
     "curves",
     "draws",
     "judgement",

@@ -90,14 +90,12 @@ def judge_draws(draws: Pair | None) -> dict[str, NDArray | float]:
             choose_factor(draws.pull_off_factor, errors),
         ),
     }
-    shares_by_spectrum = draws.share(length, draws.range)
     withstands = draws.withstands
     return {f"{name}_quantile": find_quantiles(drawn[name], withstands) for name in DRAWN} | {
         "probability": np.mean(margins > 1),
         "probability_low": np.mean((margins > 1) & withstands),
         "error_of_spectrum": np.std(np.log(margins_by_spectrum)),
         "error_of_model": np.std(np.log(margins / margins_by_spectrum)),
-        "share_error_of_spectrum": np.std(shares_by_spectrum * factor_of_value),
     }
 
 
@@ -107,5 +105,4 @@ DRAW_STATISTICS = (
     "probability_low",
     "error_of_spectrum",
     "error_of_model",
-    "share_error_of_spectrum",
 )

@@ -32,7 +32,6 @@ from stickiness.criteria.pair import (
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import REFERENCE_FREQUENCY
-from stickiness.verdicts.budgets import add_budgets
 from stickiness.verdicts.curves import AXES, PAIR_DIMENSIONS, follow_remaining
 from stickiness.verdicts.draws import (
     DRAW_STATISTICS,
@@ -100,8 +99,8 @@ def judge(
     Dataset
         Over `material`, `surface` and, for what differs between them, the smooth and rough `end` of
         what is known of the surface. `verdict` has codes, the places in `criteria.pair.WORDS`.
-        Every variable has its unit and description, and what is quoted has an error budget.
-        `verdicts.limits` has the value and the limits that decide. Numbers of pairs that are not
+        Every variable has its unit and description. `verdicts.limits` has the value and the limits
+        that decide. Numbers of pairs that are not
         judged are NaN; `not_judged` says why.
 
     Raises
@@ -145,11 +144,7 @@ def judge(
             _find_thresholds(materials, roughness, dataset, contact_area, wanted_share)
         )
     dataset = dataset.assign(_judge_larger(materials, surfaces, wanted_share))
-    dataset = _describe(dataset)
-    draw_counts = [
-        [0 if rough.draws is None else rough.draws.h_rms.size for rough in row] for row in roughness
-    ]
-    return _withhold(add_budgets(dataset, xr.DataArray(draw_counts, dims=PER_PAIR)))
+    return _withhold(_describe(dataset))
 
 
 def _check_shares(wanted_share: float, contact_area: float) -> None:
@@ -445,11 +440,6 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "probability_low": ("1", "share of draws that stick within linear elasticity", unmeasured),
         "error_of_spectrum": ("1", "standard deviation of ln margin by the spectrum", unmeasured),
         "error_of_model": ("1", "standard deviation of ln margin by the model", unmeasured),
-        "share_error_of_spectrum": (
-            "1",
-            f"standard deviation by the spectrum: {remains}",
-            unmeasured,
-        ),
         "margin": (
             "1",
             "threshold over actual value in the criterion's usual form; sticky above 1",

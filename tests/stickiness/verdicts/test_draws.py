@@ -4,15 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import xarray as xr
-from scipy.stats import binomtest, norm
 
 from stickiness import Material
 from stickiness.criteria.pair import make_pair
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.solids.moduli import Prony
-from stickiness.statistics import COVERS
-from stickiness.verdicts.budgets import add_budget_of_probability
 from stickiness.verdicts.draws import QUANTILES, draw_model_errors, judge_draws
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -111,7 +107,6 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
     pair = meet(material, Roughness(1e-6 * SAME, 1e5 * SAME, 1e-7 * SAME))
     judged = judge_draws(pair)
     assert judged["error_of_spectrum"] == pytest.approx(0, abs=1e-12)
-    assert judged["share_error_of_spectrum"] == pytest.approx(0, abs=1e-12)
     # What sticks is what keeps the wanted share.
     _, shares = draw(pair)
     assert np.mean(shares > DEFAULT_SHARE) == judged["probability"]
@@ -135,15 +130,3 @@ def test_quantiles_are_values_of_draws():
     assert np.isin(judged["margin_quantile"], margins).all()
     assert np.isin(judged["remaining_quantile"], shares).all()
     assert np.mean(margins <= judged["margin_quantile"][0]) == pytest.approx(QUANTILES[0])
-
-
-@pytest.mark.parametrize("count", [0, 3, 100, 200])
-def test_error_of_a_probability_is_that_of_its_interval(count):
-    covered = 2 * norm.cdf(COVERS) - 1
-    interval = binomtest(count, 200).proportion_ci(covered, method="wilson")
-    share = count / 200
-    attributes = {"units": "1", "long_name": "share of the draws that stick"}
-    pair = xr.Dataset({"probability": (("material", "surface"), [[share]], attributes)})
-    budget = add_budget_of_probability(pair, xr.DataArray(200))
-    farther = max(share - interval.low, interval.high - share)
-    assert float(budget.probability_total_error.squeeze()) == pytest.approx(farther, rel=1e-10)

@@ -9,7 +9,7 @@ from stickiness import Material, Surface, judge, verdict
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import REGIMES, WORDS
-from stickiness.criteria.registry import EDGES, REMAINING
+from stickiness.criteria.registry import EDGES
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
@@ -97,20 +97,6 @@ def test_verdict_is_the_prediction_of_what_remains(modulus, reach):
     stresses = (expected.pull_off, *expected.pull_off_limits)
     assert pull_off / modulus == pytest.approx(stresses, rel=1e-9)
     assert answer.energy_ratio == pytest.approx(expected.energy_ratio, rel=1e-9)
-
-
-@pytest.mark.slow
-def test_errors_of_the_spectrum_are_counted_once():
-    """Limits are of the model alone; the spectrum adds a part, which is 0 for one spectrum."""
-    cell = judge_one(1e4, 1e-9)
-    for name in ("remaining", "pull_off", "margin", "modulus_threshold"):
-        assert np.all(cell[f"{name}_error"].sel(source="sampling") == 0), name
-    error = cell.remaining_error.sel(source="model")
-    above = cell.remaining_high - cell.remaining
-    below = cell.remaining - cell.remaining_low
-    np.testing.assert_allclose(error, np.maximum(above, below))
-    others = cell.margin_error.sel(source="model").where(cell.criterion != REMAINING, drop=True)
-    assert np.isnan(others).all()  # other criteria state no error
 
 
 @pytest.mark.slow
