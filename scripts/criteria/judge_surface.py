@@ -50,8 +50,6 @@ def write_contact_laws(verdicts, materials, label, output):
             modulus_threshold=find_limited(cell, "modulus_threshold"),
             energy_ratio=float(cell.energy_ratio.max()),
             decided_by=DECIDED_BY[int(cell.decided_by)],
-            separation_factor=find_limited(cell, "separation_factor"),
-            pull_off_factor=find_limited(cell, "pull_off_factor"),
             contact=float(cell.contact),
             larger=find_larger(cell),
         )

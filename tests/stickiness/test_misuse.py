@@ -201,12 +201,6 @@ MISUSES = [
     (lambda: predict(BAND, 1e300, 1e-3), "give the work of adhesion over"),
     (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
     (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
-    (lambda: ROUGH.share(0.1, 0.1, 1, 0.5), "separation_factor must be at least 1, .* got 0.5"),
-    (lambda: ROUGH.tension(0.1, 0.1, 0, 0.0, [1.0, 0.9]), "pull_off_factor must be .* got 0.9"),
-    (
-        lambda: ROUGH.threshold(0.1, separation_factor=np.nan),
-        "separation_factor must be at least 1, .* got nan",
-    ),
     (lambda: share.tough_share(0.0, 0.4), "energy_ratio must"),
     (lambda: judge(modulus=-1.0), "modulus must"),
     (lambda: judge(poisson=0.7), "poisson must be above -1 and at most 0.5, got 0.7"),
@@ -278,11 +272,8 @@ MISUSES = [
     (lambda: Prony(1.0, ()), "must not be empty"),
     (lambda: Table((1.0,), (1.0,)), "two pairs"),
     (lambda: Table((2.0, 1.0), (1.0, 1.0)), "must increase"),
-    (lambda: Table((1.0, 2.0), (1.0, 1.0)).separation_factor(1.0, 0), "frequency must be pos"),
     (lambda: SERIES.storage(0.0), "frequency must be positive"),
     (lambda: SERIES.relaxation(-1.0), "time must be positive"),
-    (lambda: SERIES.separation_factor(0.0, 1.0), "dwell must be positive"),
-    (lambda: SERIES.separation_factor(1.0, -2.0), "frequency must be positive .*-2.0"),
     (
         lambda: model_choice.relative_error(
             {("maugis", 0.8): ((), 0, 0)}, "maugis", 0.8, 32, 0.0, 0.1, 0.1

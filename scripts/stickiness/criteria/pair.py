@@ -17,7 +17,6 @@ from stickiness.arguments import plain
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
-from stickiness.solids.moduli import choose_factor
 
 WORDS = (
     *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
@@ -29,26 +28,16 @@ REGIMES = ("DMT-like", "between DMT and JKR", "JKR-like", "strong but not JKR-li
 MOST_STRAIN = 0.3  #: up to which a layer is taken for linear
 BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
 SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
-NO_FACTOR = "contact spots too small"
-#: Units and descriptions of the quantities that have limits by the model, and why a value may lack
-LIMITED: dict[str, tuple[str, ...]] = {
+#: Units and descriptions of the quantities that have limits by the model
+LIMITED = {
     "remaining": ("1", "share of the work of adhesion that remains"),
     "pull_off": ("Pa", "largest mean tension on separation"),
     "margin": ("1", "adhesion length over the one at which the wanted share remains"),
     "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
-    "separation_factor": ("1", "factor on the work of separation by dissipation", NO_FACTOR),
-    "pull_off_factor": ("1", "factor on the pull-off by dissipation", NO_FACTOR),
 }
-FACTORS = ("separation_factor", "pull_off_factor")
-# Indentation over range of a sphere, from which simulations confirm the value of these factors.
-SPOT_INDENTATION = 20.0
 QUANTITIES = {
-    f"{name}{ending}": (
-        units,
-        f"{text}, {ending[1:]} limit of the model" if ending else text,
-        *missing,
-    )
-    for name, (units, text, *missing) in LIMITED.items()
+    f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
+    for name, (units, text) in LIMITED.items()
     for ending in SIGNS
 } | {
     "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
@@ -86,9 +75,6 @@ class Pair(Roughness):
     pressed: ArrayLike = 0.0  #: mean pressure before separation [Pa]
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
-    #: On the work of separation and on the pull-off (value, low, high), see `find_dissipation`
-    separation_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = (1.0, 1.0, 1.0)
-    pull_off_factor: tuple[ArrayLike, ArrayLike, ArrayLike] = (1.0, 1.0, 1.0)
     #: Strain that conforming demands of a layer: beyond `MOST_STRAIN` low limits are 0
     layer_strain: ArrayLike = 0.0
 
@@ -107,16 +93,8 @@ class Pair(Roughness):
         return replace(super().scaled(factor), layer_strain=self.layer_strain * factor)
 
     def remaining(self, sign: int = 0) -> float | NDArray:
-        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
-
-        It includes the separation factor, and exceeds 1 if that is large.
-        """
-        share = self.share(
-            adhesion_length=self.adhesion_length,
-            range=self.range,
-            sign=sign,
-            separation_factor=choose_factor(self.separation_factor, sign),
-        )
+        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
+        share = self.share(adhesion_length=self.adhesion_length, range=self.range, sign=sign)
         return self._unless_overstrained(share, sign, otherwise=0.0)
 
     def pull_off(self, sign: int = 0) -> float | NDArray:
@@ -126,7 +104,6 @@ class Pair(Roughness):
             range=self.range,
             sign=sign,
             pressed=self.pressed / self.modulus,
-            pull_off_factor=choose_factor(self.pull_off_factor, sign),
         )
         return self._unless_overstrained(tension * self.modulus, sign, otherwise=0.0)
 
@@ -140,7 +117,6 @@ class Pair(Roughness):
             range=self.range,
             share=self.wanted_share,
             sign=sign,
-            separation_factor=choose_factor(self.separation_factor, sign),
             adhesion_length=self.adhesion_length,
         )
         return self._unless_overstrained(length, sign, otherwise=np.inf)
@@ -192,40 +168,6 @@ def make_pair(
     )
 
 
-def find_dissipation(
-    pair: Pair, factor: ArrayLike, edge_path: ArrayLike
-) -> dict[str, tuple[NDArray, ...]]:
-    """Factors on the work of separation and on the pull-off (value, low, high), by name.
-
-    Parameters
-    ----------
-    pair : Pair
-        Its last axis is that of the ends of what is known of its surface.
-    factor : (..., 3) array
-        Value, low and high limit of an edge in steady motion in an infinite solid.
-    edge_path : array
-        Path of the edge during the dwell over the width of its zone, `Material.edge_path`.
-
-    Returns
-    -------
-    dict
-        Arrays with an end axis of length 1. A value on the pull-off needs spots of contact much
-        wider than the cohesive zone. One on the work needs that the edge moves by less than their
-        radius in the dwell, too, so that the spot has relaxed behind it. Else values are NaN.
-    """
-    zone = np.asarray(pair.zone(pair.adhesion_length, pair.range))
-    radius = np.asarray(pair.spot_radius(pair.adhesion_length, pair.range))
-    # In JKR contact of a sphere at zero load the radius is (9 pi w R^2/(2 E*))^(1/3), the
-    # indentation radius^2/(3 R): the zone E* range^2/w is pi/2 (range/indentation)^2 of the radius.
-    is_wide = (zone < np.pi / 2 / SPOT_INDENTATION**2 * radius).all(axis=-1, keepdims=True)
-    is_slow = (np.asarray(edge_path)[..., None] * zone < radius).all(axis=-1, keepdims=True)
-    value, low, high = np.moveaxis(np.asarray(factor)[..., None, :], -1, 0)
-    holds = {"separation_factor": is_wide & is_slow, "pull_off_factor": is_wide}
-    return {
-        name: (np.where(holds[name] | (high == 1), value, np.nan), low, high) for name in FACTORS
-    }
-
-
 def decide(
     low: ArrayLike, high: ArrayLike, grows: ArrayLike, wanted: float = DEFAULT_SHARE
 ) -> NDArray:
@@ -270,9 +212,6 @@ def find_quantities(pair: Pair) -> dict[str, NDArray]:
     }
     for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
         quantities[f"pair_{name}"] = getattr(pair, name)
-    for name in FACTORS:
-        for ending, factor in zip(SIGNS, getattr(pair, name), strict=True):
-            quantities[f"{name}{ending}"] = np.broadcast_to(factor, np.shape(length))
     # What has limits by the model: value, low and high limit.
     for ending, sign in SIGNS.items():
         threshold = pair.remaining_threshold(sign)

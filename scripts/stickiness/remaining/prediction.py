@@ -18,8 +18,6 @@ from stickiness.remaining.share import (
     find_narrowest_wave,
     find_onset,
     remaining_share,
-    tough_share,
-    weak_share,
 )
 from stickiness.remaining.thin_layers import find_flow, find_gain
 from stickiness.solids import HALF_SPACE, Film, Layer, Skin, Solid, check_solid
@@ -125,6 +123,8 @@ class Roughness:
     #: Energy of full contact of waves that are not simulated, over that of the others
     lacking: ArrayLike = 0.0
     height_factor: ArrayLike = 1.0  #: on the heights simulated
+    #: Instantaneous modulus over E* after a dwell, by which fast separation may exceed the share
+    instant_ratio: ArrayLike = 1.0
 
     def at_modulus(self, factor: ArrayLike) -> Self:
         """Return the same with E* times a factor: films and skins keep their stiffness."""
@@ -159,28 +159,16 @@ class Roughness:
         return replace(self, **scaled)
 
     def share(
-        self,
-        adhesion_length: ArrayLike,
-        range: ArrayLike,
-        sign: ArrayLike = 0,
-        separation_factor: ArrayLike = 1.0,
+        self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
     ) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
 
-        A factor on the work of separation, at least 1, multiplies the share where the edge of the
-        whole contact dissipates. At the high limit all edges of contact do, so that it multiplies
-        the area.
+        It is that of slow separation. The high limit after a dwell is that of a fast edge of
+        contact, and may exceed 1.
         """
-        if np.any(np.asarray(separation_factor) != 1):
-            factor = _check_factor("separation_factor", separation_factor)
-            value = self.share(adhesion_length, range)
-            beyond_value = np.maximum(self.area(adhesion_length, range) - value, 0)
-            all_edges = np.clip(sign, 0, 1) * beyond_value
-            dissipated = (factor - 1) * (value + all_edges)
-            return plain(self.share(adhesion_length, range, sign) + dissipated)
-
         by_theory = self._share_by_theory(adhesion_length, range, sign)
-        return self._replace_simulated("share", by_theory, adhesion_length, range, sign)
+        slow = self._replace_simulated("share", by_theory, adhesion_length, range, sign)
+        return plain(slow * np.asarray(self.instant_ratio) ** np.clip(sign, 0.0, 1.0))
 
     def _share_by_theory(self, adhesion_length, range, sign) -> NDArray:
         """Share by the spectrum; arguments as of `share`."""
@@ -380,19 +368,6 @@ class Roughness:
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
 
-    def spot_radius(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-        """Radius of the spots of contact at zero load, times q0; 0 where contact is not tough.
-
-        Tough contact conforms to the fine waves: it has one spot to every longest wave, which
-        together make the area. Others touch at the finest waves, with spots of any size.
-        """
-        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
-        onset = self.onset(adhesion_length, range)
-        weak = weak_share(energy_ratio, range / self.h_rms, self.load_scale, self.law)
-        is_tough = tough_share(energy_ratio, onset) > weak
-        radius = 2 * np.sqrt(np.pi * np.asarray(self.area(adhesion_length, range)))
-        return plain(np.where(is_tough, radius, 0.0))
-
     def separation(
         self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
     ) -> float | NDArray:
@@ -415,20 +390,17 @@ class Roughness:
         range: ArrayLike,
         sign: ArrayLike = 0,
         pressed: ArrayLike = 0.0,
-        pull_off_factor: ArrayLike = 1.0,
     ) -> float | NDArray:
         """Largest mean tension on separation over E*; `sign` as of `share`.
 
         Edges that lag behind on separation raise the high limit by theory as they do the work. It
         goes over to the strength of the law towards full contact, which was not simulated, and
-        takes it where full contact, `pressed` with that pressure over E*, lasts. A
-        factor by dissipation, at least 1, raises the tension up to the strength.
+        takes it where full contact, `pressed` with that pressure over E*, lasts.
         """
         length = np.asarray(adhesion_length)
         predicted = np.asarray(
             length
             / self.distance(length, range)
-            * _check_factor("pull_off_factor", pull_off_factor)
             * self.share(length, range, sign)
             * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
         )
@@ -452,7 +424,6 @@ class Roughness:
         range: ArrayLike,
         share: ArrayLike = DEFAULT_SHARE,
         sign: ArrayLike = 0,
-        separation_factor: ArrayLike = 1.0,
         adhesion_length: ArrayLike | None = None,
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
@@ -481,7 +452,6 @@ class Roughness:
             surface,
             range=range,
             sign=sign,
-            separation_factor=separation_factor,
             wanted_share=share,
             start_length=start,
         )
@@ -491,12 +461,11 @@ class Roughness:
             pair = pairs.take(row)
             length = np.exp(log_length)
             rough = pair.at_modulus(pair.start_length / length)
-            remains = rough.share(length, pair.range, pair.sign, pair.separation_factor)
-            return remains - pair.wanted_share
+            return rough.share(length, pair.range, pair.sign) - pair.wanted_share
 
         # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
-        # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits
-        # and separation factors. A film may raise the energy on the way there, at most by
+        # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
+        # A film may raise the energy on the way there, at most by
         # `log_stiffest`.
         log_stiffest = 0.0
         if pairs.film_response is not None:
@@ -524,18 +493,6 @@ class Roughness:
         return plain(lengths.reshape(shape))
 
 
-def _check_factor(name: str, factor: ArrayLike) -> NDArray:
-    """Return factors by dissipation; ValueError if one is below 1 by more than rounding."""
-    factor = np.asarray(factor, dtype=float)
-    least = np.min(factor)
-    if not least > 1 - 1e-9:
-        raise ValueError(
-            f"{name} must be at least 1, since dissipation adds to what separates the surfaces, "
-            f"got {least:.6g}"
-        )
-    return np.maximum(factor, 1.0)
-
-
 @dataclass(frozen=True, kw_only=True)
 class PairRows(Roughness):
     """Pairs as a flat table with one row each; all columns are arrays `(n,)`."""
@@ -544,7 +501,6 @@ class PairRows(Roughness):
     #: Error of the share in units of its limits, see `Roughness.share`: -1, 0 or 1 for low limit,
     #: value and high limit, any number for an error that is drawn
     sign: NDArray
-    separation_factor: NDArray
     wanted_share: NDArray
     start_length: NDArray  #: adhesion length of the pair as given; NaN if none is
 

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from stickiness.criteria.pair import SIGNS, Pair, find_dissipation
+from stickiness.criteria.pair import SIGNS, Pair
 from stickiness.verdicts.draws import QUANTILES, find_share_quantiles
 from stickiness.verdicts.limits import find_limits
 from stickiness.verdicts.material import Material
@@ -43,9 +43,7 @@ class _Path(NamedTuple):
 
     moduli: NDArray  #: E* [Pa], (point, material); NaN where it is not known
     heights: NDArray  #: factors on the heights, (point,)
-    #: Factors by dissipation at a steady edge, (point, material, 3), and the paths of the edge,
-    #: (point, material); None: as they are
-    dissipation: tuple[NDArray, NDArray] | None = None
+    instant_ratios: NDArray  #: `Material.instant_ratio` there, (point, material)
 
 
 def follow_remaining(
@@ -65,30 +63,27 @@ def follow_remaining(
     dwell_moduli = np.array(
         [[_find_modulus(material, factor) for material in materials] for factor in dwell_factors]
     )
-    dwell_separation = np.array(
-        [
-            [_find_separation_factor(material, factor) for material in materials]
-            for factor in dwell_factors
-        ]
-    )
-    edge_paths = np.outer(dwell_factors, [material.edge_path for material in materials])
+    instant_ratios = np.array([material.instant_ratio for material in materials])
     paths = {
         "modulus": _Path(
             moduli=MODULUS_FACTORS[:, None] * moduli,
             heights=np.ones(MODULUS_FACTORS.size),
+            instant_ratios=instant_ratios[None],
         ),
         "roughness": _Path(
             moduli=np.broadcast_to(moduli, (ROUGHNESS_FACTORS.size, moduli.size)),
             heights=ROUGHNESS_FACTORS,
+            instant_ratios=instant_ratios[None],
         ),
         "rate": _Path(
             moduli=np.where(has_dwell, np.nan, rate_moduli.T),
             heights=np.ones(rate_moduli.shape[1]),
+            instant_ratios=instant_ratios[None],
         ),
         "dwell": _Path(
             moduli=np.where(has_dwell, dwell_moduli, np.nan),
             heights=np.ones(dwell_factors.size),
-            dissipation=(dwell_separation, edge_paths),
+            instant_ratios=instant_ratios * moduli / dwell_moduli,
         ),
     }
     curves: dict[str, xr.DataArray | NDArray] = {
@@ -110,33 +105,21 @@ def _find_modulus(material: Material, dwell_factor: float) -> float:
     return float(material.plane_strain.relaxation(dwell_factor * material.dwell))
 
 
-def _find_separation_factor(material: Material, dwell_factor: float) -> tuple[float, float, float]:
-    """Factor by dissipation after the dwell times a factor; NaN beyond a table."""
-    if material.dwell is None:
-        return 1.0, 1.0, 1.0
-    return material.plane_strain.separation_factor(
-        dwell_factor * material.dwell, material.broken_at
-    )
-
-
 def _follow(
     pair: Pair, draws: Sequence[Sequence[Pair | None]], dimension: str, path: _Path
 ) -> list[xr.DataArray]:
     """Share along a path, with the limits that decide."""
     is_known = xr.DataArray(~np.isnan(path.moduli), dims=(dimension, "material"))
     moduli = np.where(is_known, path.moduli, pair.modulus[:, 0, 0])
+    ratios = np.where(is_known, path.instant_ratios, 1.0)
 
     # Both ends of every surface.
     scaled = pair.scaled(path.heights[:, None, None, None])
     changed = replace(
         scaled.at_modulus(moduli[..., None, None] / pair.modulus),
         modulus=moduli[..., None, None],
+        instant_ratio=ratios[..., None, None],
     )
-    if path.dissipation is not None:
-        steady, edge_paths = path.dissipation
-        steady = np.where(is_known.values[..., None], steady, 1.0)
-        dissipation = find_dissipation(changed, steady[:, :, None], edge_paths[..., None])
-        changed = replace(changed, **dissipation)
     shares = xr.Dataset(
         {
             f"remaining{ending}": ((dimension, *PAIR_DIMENSIONS), changed.remaining(sign))
@@ -144,13 +127,8 @@ def _follow(
         }
     )
     # The draws of measured surfaces.
-    shape = (*moduli.shape, len(draws[0]))
-    factors = np.stack([np.broadcast_to(x[..., 0], shape) for x in changed.separation_factor], -1)
     quantiles = [
-        [
-            _follow_draws(drawn, moduli[:, i], factors[:, i, j], path.heights)
-            for j, drawn in enumerate(row)
-        ]
+        [_follow_draws(drawn, moduli[:, i], ratios[:, i], path.heights) for drawn in row]
         for i, row in enumerate(draws)
     ]
     dims = (*PAIR_DIMENSIONS[:2], dimension, "quantile")
@@ -163,17 +141,17 @@ def _follow(
 
 
 def _follow_draws(
-    draws: Pair | None, moduli: NDArray, factors: NDArray, heights: NDArray
+    draws: Pair | None, moduli: NDArray, ratios: NDArray, heights: NDArray
 ) -> NDArray:
     """Quantiles of the share over the draws of a surface, ``(point, quantile)``; NaN without."""
     if draws is None:
         return np.full((len(moduli), len(QUANTILES)), np.nan)
     # Points at which nothing differs are evaluated once.
-    points, place = np.unique([moduli, heights, *factors.T], axis=1, return_inverse=True)
-    moduli, heights, *separation_factor = points[..., None]
+    points, place = np.unique([moduli, heights, ratios], axis=1, return_inverse=True)
+    moduli, heights, ratios = points[..., None]
     changed = replace(
         draws.scaled(heights).at_modulus(moduli / draws.modulus),
         modulus=moduli,
-        separation_factor=separation_factor,
+        instant_ratio=ratios,
     )
     return find_share_quantiles(changed)[place]

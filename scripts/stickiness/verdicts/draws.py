@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.criteria.pair import Pair
-from stickiness.solids.moduli import choose_factor
 from stickiness.statistics import COVERS
 
 QUANTILES = (0.05, 0.5, 0.95)
@@ -39,12 +38,8 @@ def draw_model_errors(draws: Pair) -> NDArray:
 
 def find_share_quantiles(draws: Pair) -> NDArray:
     """`QUANTILES` of the share that remains over the draws, along a last axis."""
-    errors = draw_model_errors(draws)
     shares = draws.share(
-        adhesion_length=draws.adhesion_length,
-        range=draws.range,
-        sign=errors,
-        separation_factor=choose_factor(draws.separation_factor, errors),
+        adhesion_length=draws.adhesion_length, range=draws.range, sign=draw_model_errors(draws)
     )
     return find_quantiles(shares, draws.withstands)
 
@@ -60,35 +55,20 @@ def judge_draws(draws: Pair | None) -> dict[str, NDArray | float]:
         return unknown | dict.fromkeys(DRAW_STATISTICS, np.nan)
     length = draws.adhesion_length
     errors = draw_model_errors(draws)
-    factor = choose_factor(draws.separation_factor, errors)
-    factor_of_value = choose_factor(draws.separation_factor, 0)
 
     # Margins by the model as it is, which scatter with the spectrum, and with its errors.
     margins_by_spectrum = length / draws.threshold(
-        range=draws.range,
-        share=draws.wanted_share,
-        adhesion_length=length,
-        separation_factor=factor_of_value,
+        range=draws.range, share=draws.wanted_share, adhesion_length=length
     )
     margins = length / draws.threshold(
-        range=draws.range,
-        share=draws.wanted_share,
-        sign=errors,
-        adhesion_length=length,
-        separation_factor=factor,
+        range=draws.range, share=draws.wanted_share, sign=errors, adhesion_length=length
     )
     drawn = {
         "margin": margins,
         "modulus_threshold": margins * draws.modulus,
-        "remaining": draws.share(length, draws.range, errors, factor),
+        "remaining": draws.share(length, draws.range, errors),
         "pull_off": draws.modulus
-        * draws.tension(
-            length,
-            draws.range,
-            errors,
-            draws.pressed / draws.modulus,
-            choose_factor(draws.pull_off_factor, errors),
-        ),
+        * draws.tension(length, draws.range, errors, draws.pressed / draws.modulus),
     }
     withstands = draws.withstands
     return {f"{name}_quantile": find_quantiles(drawn[name], withstands) for name in DRAWN} | {

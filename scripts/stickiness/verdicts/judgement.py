@@ -25,7 +25,6 @@ from stickiness.criteria.pair import (
     WORDS,
     Pair,
     decide,
-    find_dissipation,
     find_quantities,
     make_pair,
 )
@@ -217,6 +216,7 @@ def _judge_pairs(
         "modulus_quoted": [material.plane_strain_modulus for material in materials],
         "dwell": [np.nan if material.dwell is None else material.dwell for material in materials],
         "broken_at": [material.broken_at for material in materials],
+        "instant_ratio": [material.instant_ratio for material in materials],
         "depends_on_rate": [int(material.depends_on_rate) for material in materials],
     }
     dataset = dataset.assign({name: ("material", by_material[name]) for name in by_material})
@@ -260,9 +260,10 @@ def _stack_ends(
         shape_error=of_ends("shape_error"),
         simulated=of_ends("simulated"),
         lacking=of_ends("lacking"),
+        instant_ratio=of_materials([material.instant_ratio for material in materials]),
     )
     strain = [material.solid.strain(h_rms[i], q0[i]) for i, material in enumerate(materials)]
-    pair = make_pair(
+    return make_pair(
         rough,
         modulus=of_materials([material.plane_strain_modulus for material in materials]),
         work_of_adhesion=of_materials([material.work_of_adhesion for material in materials]),
@@ -273,9 +274,6 @@ def _stack_ends(
         wanted_share=wanted_share,
         layer_strain=np.array(strain),
     )
-    factors = np.array([material.separation_factor for material in materials])
-    edge_paths = np.array([material.edge_path for material in materials])
-    return replace(pair, **find_dissipation(pair, factors[:, None], edge_paths[:, None]))
 
 
 def _judge_all_draws(draws: list[list[Pair | None]]) -> dict[str, tuple]:
@@ -456,6 +454,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
         "dwell": ("s", "time for which contact is made", "judged at one frequency"),
         "broken_at": ("Hz", "frequency of the modulus, or after a dwell the rate of breaking"),
+        "instant_ratio": ("1", "instantaneous modulus over that after the dwell, 1 without one"),
         "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
         "verdict": ("1", "verdict: " + ", ".join(f"{i} {word}" for i, word in enumerate(WORDS))),
         "decided_by": (

@@ -47,9 +47,10 @@ class Material:
         Mean pressure [Pa] that pressed the pair together before separation.
     dwell : float, optional
         Time [s] for which contact is made. Then the relaxation modulus at this time decides, and
-        dissipation at the edge of contact multiplies the work of separation.
+        the high limits allow for separation with the instantaneous modulus.
     broken_at : float
-        Frequency [Hz] that stands for the rate at which contact is broken after a dwell.
+        Frequency [Hz] that stands for the rate at which contact is broken after a dwell. A table
+        must reach it.
     surface : Surface, optional
         Roughness of the solid itself, which adds to that of the other.
     label : str
@@ -115,7 +116,8 @@ class Material:
                     f"dwell = {self.dwell!r} needs a modulus that depends on time: give a Prony "
                     "series or a table"
                 )
-        if not np.isfinite([self.plane_strain_modulus, *self.separation_factor]).all():
+        breaks_within = self.dwell is None or np.isfinite(self.plane_strain.storage(self.broken_at))
+        if not (np.isfinite(self.plane_strain_modulus) and breaks_within):
             raise ValueError(
                 "modulus: the table must cover the frequency at which the verdict is made: 1 Hz, "
                 "or after a dwell 1/(pi^2 dwell) and `broken_at`"
@@ -186,16 +188,14 @@ class Material:
         return float(self.plane_strain.relaxation(self.dwell))
 
     @cached_property
-    def separation_factor(self) -> tuple[float, float, float]:
-        """Factor by dissipation at a steady edge (value, low, high); 1 without a dwell."""
-        if self.dwell is None:
-            return 1.0, 1.0, 1.0
-        return self.plane_strain.separation_factor(self.dwell, self.broken_at)
+    def instant_ratio(self) -> float:
+        """Largest modulus known over that after the dwell; 1 without a dwell.
 
-    @property
-    def edge_path(self) -> float:
-        """Path of the edge during the dwell over the radius of its tip; 0 without a dwell."""
-        return 0.0 if self.dwell is None else self.dwell * self.broken_at
+        Fast separation takes at most so many times the work and the stress of slow separation.
+        """
+        if self.dwell is None:
+            return 1.0
+        return self.plane_strain.largest / self.plane_strain_modulus
 
     def on_contact(self, contact: float) -> Material:
         """The material with its own roughness as a contact of a side [m] meets it."""

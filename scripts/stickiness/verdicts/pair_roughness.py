@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
-from stickiness.criteria.pair import Pair, find_dissipation, make_pair
+from stickiness.criteria.pair import Pair, make_pair
 from stickiness.remaining.prediction import (
     Roughness,
     find_film_response,
@@ -59,21 +59,11 @@ class PairRoughness:
 
     def meet_draws(self, material: Material, wanted_share: float) -> Pair | None:
         """`Pair` of the material with every draw; None of a surface that was not measured."""
-        if self.draws is None:
-            return None
-        ends = self.meet_ends(material, wanted_share)
-        return replace(
-            _meet(material, self.draws, wanted_share),
-            separation_factor=ends.separation_factor,
-            pull_off_factor=ends.pull_off_factor,
-        )
+        return None if self.draws is None else _meet(material, self.draws, wanted_share)
 
     def meet_ends(self, material: Material, wanted_share: float) -> Pair:
         """`Pair` of the material with both ends of the surface, for what needs no a_V."""
-        pair = _meet(material, self.ends, wanted_share)
-        return replace(
-            pair, **find_dissipation(pair, material.separation_factor, material.edge_path)
-        )
+        return _meet(material, self.ends, wanted_share)
 
 
 def _meet(material: Material, rough: Roughness, wanted_share: float) -> Pair:
@@ -84,6 +74,7 @@ def _meet(material: Material, rough: Roughness, wanted_share: float) -> Pair:
         work_of_adhesion=material.work_of_adhesion,
         range=material.range,
         law=material.law,
+        instant_ratio=material.instant_ratio,
         pressed=material.pressed,
         wanted_share=wanted_share,
         layer_strain=material.solid.strain(rough.h_rms, rough.q0),

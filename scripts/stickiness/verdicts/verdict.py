@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from stickiness import __version__
-from stickiness.criteria.pair import FACTORS, MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
+from stickiness.criteria.pair import MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
 from stickiness.plausibility import LIMITS, PlausibilityWarning
@@ -67,12 +67,6 @@ class StickinessVerdict:
     margin_limits: tuple[float, float]
     modulus_threshold: float  #: plane-strain modulus below which the wanted share remains [Pa]
     modulus_threshold_limits: tuple[float, float]
-    #: On the work of separation, by dissipation, included in what remains; NaN where contact spots
-    #: are too small for a value, see `pair.find_dissipation`: what remains then has a factor of 1.
-    separation_factor: float
-    separation_factor_limits: tuple[float, float]
-    pull_off_factor: float  #: the same on the pull-off
-    pull_off_factor_limits: tuple[float, float]
     regime: str  #: one of `REGIMES`, by the Tabor parameter of the contact edges
     simulated: bool  #: whether full simulation covers the state of the edges
     a_v: float  #: a_V of the pair
@@ -104,8 +98,6 @@ class StickinessVerdict:
             modulus_threshold=Limited(self.modulus_threshold, *self.modulus_threshold_limits),
             energy_ratio=self.energy_ratio,
             decided_by=self.decided_by,
-            separation_factor=Limited(self.separation_factor, *self.separation_factor_limits),
-            pull_off_factor=Limited(self.pull_off_factor, *self.pull_off_factor_limits),
             contact=self.contact,
             larger=self.larger,
         )
@@ -194,12 +186,10 @@ class StickinessVerdict:
         """What a dwell does, in one line; none without one."""
         if self.material.dwell is None:
             return []
-        as_number = in_units_of(1.0)
-        work = limited(self.separation_factor, *self.separation_factor_limits, as_number)
-        pull_off = limited(self.pull_off_factor, *self.pull_off_factor_limits, as_number)
         return [
-            f"after a dwell of {self.material.dwell:g} s; dissipation multiplies the work of "
-            f"separation by {work}, the pull-off by {pull_off}"
+            f"after a dwell of {self.material.dwell:g} s: values are for slow separation, high "
+            f"limits for up to {number(self.material.instant_ratio, 2)} times the work and stress, "
+            "the instantaneous modulus over the relaxed one"
         ]
 
 
@@ -410,8 +400,7 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
     margins = {name: float(cell.margin.sel(criterion=name, end="rough")) for name in CRITERIA}
     margins[REMAINING] = margin.value
     limited = {
-        name: find_limited(cell, name)
-        for name in ("remaining", "pull_off", "modulus_threshold", *FACTORS)
+        name: find_limited(cell, name) for name in ("remaining", "pull_off", "modulus_threshold")
     }
     reasons = str(cell.not_judged.item()).splitlines()
     remarks = [text for text in pair.surface.remarks if text not in reasons]
@@ -431,10 +420,6 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
         margin_limits=margin[1:],
         modulus_threshold=limited["modulus_threshold"].value,
         modulus_threshold_limits=limited["modulus_threshold"][1:],
-        separation_factor=limited["separation_factor"].value,
-        separation_factor_limits=limited["separation_factor"][1:],
-        pull_off_factor=limited["pull_off_factor"].value,
-        pull_off_factor_limits=limited["pull_off_factor"][1:],
         regime=REGIMES[int(cell.regime.sel(end="rough"))],
         simulated=bool(cell.simulated.all()),
         a_v=float(cell.pair_a_v.sel(end="rough")),
@@ -484,16 +469,13 @@ def describe_contact_law(
     modulus_threshold: Limited,
     energy_ratio: float,
     decided_by: str,
-    separation_factor: Limited,
-    pull_off_factor: Limited,
     contact: float,
     larger: LargerContact | None,
 ) -> dict[str, Any]:
     """Return a verdict and the effective attraction of a smooth surface, for DEM and FE models.
 
     What is not known is left out: all but the low limit of the pull-off where `energy_ratio`, the
-    work of adhesion over the energy of full contact, is large, and the value of a factor by
-    dissipation after a dwell where contact spots are small.
+    work of adhesion over the energy of full contact, is large.
     """
     if energy_ratio > PULL_OFF_UNKNOWN:
         pull_off = pull_off._replace(value=np.nan, high=np.nan)
@@ -511,9 +493,6 @@ def describe_contact_law(
         ),
         "pull_off_stress": _quantity(pull_off, "Pa"),
     }
-    if material.dwell is not None:
-        contact_law["separation_factor"] = _quantity(separation_factor, "1")
-        contact_law["pull_off_factor"] = _quantity(pull_off_factor, "1")
     if not np.isnan(contact):
         contact_law["contact"] = {"value": contact, "unit": "m"}
     if larger is not None:

@@ -1,5 +1,7 @@
 """Predicted adhesion: inverse, limits, units, what must not matter."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -151,12 +153,18 @@ def test_bad_arguments_are_named(name, bad):
         predict(rough(), **(TOUGH | {name: bad}))
 
 
-def test_a_factor_of_one_within_rounding_leaves_the_share():
-    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0)
-    just_below = 1 - 1e-16
-    for sign in (-1, 0, 1):
-        plain_share = rough.share(1e-3, 1e-4, sign)
-        assert rough.share(1e-3, 1e-4, sign, just_below) == plain_share >= 0
+def test_fast_separation_multiplies_the_high_limits_alone():
+    slow = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0, rms_slope=3.0)
+    fast = replace(slow, instant_ratio=4.0)
+    length, range_ = 0.8, 0.05
+    for sign, factor in ((-1, 1), (0, 1), (0.5, 2), (1, 4), (2, 4)):
+        for quantity in (Roughness.share, Roughness.tension):
+            expected = factor * quantity(slow, length, range_, sign)
+            assert quantity(fast, length, range_, sign) == pytest.approx(expected, rel=1e-12)
+        at_threshold = fast.share(fast.threshold(range_, 0.2, sign), range_, sign)
+        assert at_threshold == pytest.approx(0.2, rel=1e-6)
+    strength = length / range_
+    assert replace(slow, instant_ratio=1e4).tension(length, range_, 1) == pytest.approx(strength)
 
 
 def test_a_range_that_holds_always_has_the_least_threshold_in_any_unit():

@@ -78,7 +78,7 @@ def test_entries_are_the_same_materials_as_properties(texts, expected):
         theirs = getattr(expected, name)
         assert ours == theirs or ours == pytest.approx(theirs, rel=1e-12), name
     assert material.plane_strain_modulus == pytest.approx(expected.plane_strain_modulus, rel=1e-12)
-    assert material.separation_factor == pytest.approx(expected.separation_factor, rel=1e-12)
+    assert material.instant_ratio == pytest.approx(expected.instant_ratio, rel=1e-12)
     waves = np.geomspace(1e3, 1e8, 7)
     np.testing.assert_allclose(material.solid.factor(waves), expected.solid.factor(waves))
     assert (material.solid == HALF_SPACE) == (expected.solid == HALF_SPACE)
@@ -108,10 +108,11 @@ def test_a_dwell_decides_by_the_relaxed_modulus():
     at_once = replace(TAPE, modulus=SERIES)
     rested = replace(at_once, dwell=10.0)
     assert at_once.plane_strain_modulus == pytest.approx(SERIES.storage(1.0) / 0.75)
-    assert at_once.separation_factor == (1.0, 1.0, 1.0)
+    assert at_once.instant_ratio == 1
     assert rested.plane_strain_modulus == pytest.approx(SERIES.relaxation(10.0) / 0.75)
-    value, low, high = rested.separation_factor
-    assert low == 1 < value < high
+    assert rested.instant_ratio == pytest.approx(SERIES.relaxation(1e-30) / SERIES.relaxation(10.0))
+    tabulated = replace(TAPE, modulus=TABLE, dwell=1.0)
+    assert tabulated.instant_ratio == pytest.approx(max(TABLE.moduli) / TABLE.relaxation(1.0))
 
 
 @pytest.mark.parametrize(
@@ -128,6 +129,7 @@ def test_a_dwell_decides_by_the_relaxed_modulus():
         ({"modulus": SERIES, "dwell": 0.0}, "dwell must"),
         ({"modulus": Table((10.0, 100.0), (1e5, 1e6))}, "the table must cover the frequency"),
         ({"modulus": TABLE, "dwell": 1e4}, "the table must cover the frequency"),
+        ({"modulus": TABLE, "dwell": 1.0, "broken_at": 1e9}, "the table must cover the frequency"),
     ],
 )
 def test_impossible_materials_are_refused(properties, message):

@@ -25,7 +25,7 @@ TEXTS = {
 TAPE = {"youngs_modulus": "0.2 MPa"}
 SERIES = {"equilibrium": "0.1 MPa", "terms": [["0.5 MPa", "0.1 s"], ["10 MPa", "1 ms"]]}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
-LIMITED = ("remaining", "pull_off", "modulus_threshold", "separation_factor")
+LIMITED = ("remaining", "pull_off", "modulus_threshold")
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning"),
