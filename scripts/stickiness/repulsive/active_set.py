@@ -2,11 +2,12 @@
 
 For a guess of the contact set, preconditioned conjugate gradients solve ``g = 0`` there for the
 pressure. Points under tension are released and points that penetrate are added, until neither is
-left. Between updates of the set the pressure is corrected in single precision; the next update
-starts from the gap computed anew (iterative refinement), in double precision as soon as rounding
-matters. Below a per cent of contact only points that may touch take part (`dilute_contact`), and
-with free edges their displacement is added up without a convolution on the whole grid
-(`free_edges`).
+left. Where sets cycle, as on long strips, all points are the next set, and none is added until none
+is under tension. Between updates of the set the pressure is corrected in single precision; the next
+update starts from the gap computed anew (iterative refinement), in double precision as soon as
+rounding matters. Below a per cent of contact only points that may touch take part
+(`dilute_contact`), and with free edges their displacement is added up without a convolution on the
+whole grid (`free_edges`).
 """
 
 from dataclasses import dataclass
@@ -31,7 +32,7 @@ _SPLIT_LIMIT = (
 )
 _LARGEST_KEPT = 2**22  # points: beyond this memory is dearer than the time to make operators again
 # Updates without progress …
-_STALLED_UPDATES_TO_TIGHTEN = 8  # … after which the set is solved ten times tighter
+_STALLED_UPDATES_TO_RESTART = 5  # … after which it begins again; square grids have at most 3
 _MAX_STALLED_DILUTE = 2  # … after which corrections among few points are given up
 _MAX_STALLED_UPDATES = 40  # … after which rounding is what limits the residual
 _MAX_STALLED_UNSURE = 8  # … and where `projected_gradients` takes over
@@ -164,7 +165,7 @@ def relax(problem, guess, *, tol, max_iterations, approximate=False):
             continue
 
         # Keep the best iterate, and end where it is good enough or no better one is in sight.
-        stalled += 1
+        stalled += not contact.shrinks
         if best is None or contact.residual < best.residual:
             best = contact.iterate()
             stalled = 0
@@ -189,10 +190,15 @@ def relax(problem, guess, *, tol, max_iterations, approximate=False):
             field = grid.quick if contact.residual > 10 * grid.single_limit else grid.exact
             continue
 
+        # Where sets cycle, begin again with all points.
+        if stalled == _STALLED_UPDATES_TO_RESTART and not contact.shrinks:
+            points = np.arange(problem.heights.size)
+            pressure = np.full(points.size, problem.load)
+            contact = _Contact(grid, points, pressure, contact.total, shrinks=True)
+            contact.measure(field)
+
         # Otherwise correct it on the contact set: admit what penetrates, close the gap in contact,
         # release what is under tension.
-        if stalled and stalled % _STALLED_UPDATES_TO_TIGHTEN == 0:
-            contact.reduction /= 10
         admitted = contact.admit_penetrating(field)
         iterations += contact.correct(tol, limit=max_iterations - iterations)
         contact.release_tension()
@@ -214,16 +220,22 @@ class _Iterate:
 
 
 class _Contact:
-    """Contact set, flat and increasing `points`, and the `pressure` on it, which updates change."""
+    """Contact set, flat and increasing `points`, and the `pressure` on it, which updates change.
 
-    def __init__(self, grid, points, pressure, total):
+    A set that `shrinks` admits no point until none is under tension, so that it cannot cycle. If it
+    begins with all points, it ends near the solution, because the stiffness of a half-space is
+    nearly an M-matrix (Hintermüller, Ito and Kunisch, SIAM J. Optim. 13:865, 2002, doi
+    10.1137/S1052623401383558).
+    """
+
+    def __init__(self, grid, points, pressure, total, shrinks=False):
         self.grid = grid
         self.points = points
         self.pressure = pressure
         self.total = total  # of the pressure over all points
         self.precondition = None  # of this set, made when it is needed
         self.changed = points.size  # points that the last update admitted or released
-        self.reduction = _REDUCTION_WHILE_CHANGING
+        self.shrinks = shrinks
 
     def measure(self, field):
         """Measure the gap, whose image stays in `field`, and how it violates contact conditions."""
@@ -245,6 +257,8 @@ class _Contact:
 
     def admit_penetrating(self, field):
         """Admit, without pressure, points that penetrate deep; returns their number."""
+        if self.shrinks:
+            return 0
         rms_gap = np.sqrt(self.gaps @ self.gaps / self.gaps.size)
         deepest_allowed = -dilute_contact.ADMITTED_PENETRATION * rms_gap
         admitted = self.below[field.image[self.below] + self.shift < deepest_allowed]
@@ -270,9 +284,8 @@ class _Contact:
             self.precondition = Preconditioner(self.grid, self.points)
         # A set that still changes much is not worth a small gap.
         spread = float(np.std(self.gaps))
-        reduction = self.reduction
-        if self.changed <= _FEW_CHANGES * self.points.size:
-            reduction = min(reduction, _REDUCTION_NEARLY_SETTLED)
+        settles = self.shrinks or self.changed <= _FEW_CHANGES * self.points.size
+        reduction = _REDUCTION_NEARLY_SETTLED if settles else _REDUCTION_WHILE_CHANGING
         goal = max(reduction * spread, 0.1 * tol) if self.changed else 0.5 * tol
         # In single precision, of numbers about one.
         scale = spread or 1.0
@@ -304,6 +317,8 @@ class _Contact:
             self.pressure = self.pressure[keep]
             self.pressure *= self.total / self.pressure.sum()
             self.precondition = None
+        else:
+            self.shrinks = False
 
 
 def _first_contact(problem, grid, guess):

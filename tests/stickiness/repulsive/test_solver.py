@@ -38,6 +38,15 @@ def test_any_grid(shape):
         assert_solves(contact, heights, sides)
 
 
+@pytest.mark.parametrize("shape", [(1, 10_000), (3, 1000), (5, 1000), (8, 1000), (1000, 5)])
+def test_narrow_strips(shape):
+    """Where releasing and admitting points at once goes round in circles."""
+    heights = np.random.default_rng(0).standard_normal(shape)
+    sides = (float(shape[0]), float(shape[1]))
+    contact = repulsive.solve(heights, sides, 0.05, max_iterations=150)
+    assert_solves(contact, heights, sides)
+
+
 def test_solution_is_that_of_a_direct_method():
     """Against the stationary point found by exhaustion of active sets, with dense algebra."""
     heights = rough(16, magnification=4, seed=3)
