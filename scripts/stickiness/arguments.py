@@ -10,13 +10,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+#: Of lengths whose powers stay in the range of floats; files mark missing points by up to 3.4e38.
+LEAST_SIZE, LARGEST_SIZE = 1e-40, 1e40
+
 
 def numbers(name: str, value: ArrayLike) -> NDArray:
-    """Return `value` as an array of floats; ValueError unless it holds real numbers."""
-    array = np.asarray(value)
-    if array.dtype.kind not in "biuf":
-        raise ValueError(f"{name} must be a number, got {value!r}")
-    return np.asarray(array, dtype=float)
+    """Return `value` as an array of floats; ValueError unless it holds real numbers, unmasked."""
+    masked = int(np.count_nonzero(np.ma.getmask(value)))
+    if masked:
+        raise ValueError(
+            f"{name} must not be masked, got {masked} masked points: fill them or cut them off"
+        )
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        raise ValueError(f"{name} must have rows of one length, got {value!r}") from None
+    if array.dtype.kind not in "iuf":
+        demand = "real numbers" if array.ndim else "a number"
+        what = repr(value) if array.size < 4 else f"an array of {array.dtype}"
+        raise ValueError(f"{name} must be {demand}, got {what}")
+    with np.errstate(over="ignore"):  # of longer floats
+        return array.astype(float, copy=False)
 
 
 def positive(**values: ArrayLike) -> tuple[NDArray, ...]:
@@ -89,22 +103,59 @@ def integer(name: str, value: int, least: int) -> int:
 
 def grid(name: str, values: ArrayLike, square: bool = False) -> NDArray:
     """Return finite, unmasked real values on a (square) grid ``(n0, n1)`` as floats in C order."""
-    masked = int(np.count_nonzero(np.ma.getmask(values)))
-    if masked:
-        raise ValueError(
-            f"{name} must not be masked, got {masked} masked points: fill them or cut them off"
-        )
-    array = np.asarray(values)
-    if array.dtype.kind not in "iuf":
-        raise ValueError(f"{name} must be real numbers, got an array of {array.dtype}")
-    array = np.ascontiguousarray(array, dtype=float)
+    array = numbers(name, values)
     if array.ndim != 2 or array.size == 0 or (square and array.shape[0] != array.shape[1]):
         shape = "square array (n, n)" if square else "grid (n0, n1)"
         raise ValueError(f"{name} must be a {shape}, got shape {array.shape}")
     bad = array.size - int(np.count_nonzero(np.isfinite(array)))
     if bad:
         raise ValueError(f"{name} must be finite, got {bad} NaN or infinite values")
+    _check_size(name, max(float(array.max()), -float(array.min())))
+    return np.ascontiguousarray(array)
+
+
+def with_gaps(name: str, values: ArrayLike) -> NDArray:
+    """Return real values of any shape as floats, NaN where they are masked; others stay as is."""
+    data = np.ma.getdata(values) if np.ma.isMaskedArray(values) else values
+    array = np.where(np.ma.getmask(values), np.nan, numbers(name, data))
+    known = np.abs(array[np.isfinite(array)])
+    # The largest of them may stand for a missing point.
+    _check_size(name, float(np.median(known)) if known.size else 0.0)
     return array
+
+
+def _check_size(name: str, size: float) -> None:
+    """Raise a ValueError if the largest or typical value is neither zero nor of a usable size."""
+    if size > 0 and not LEAST_SIZE <= size <= LARGEST_SIZE:
+        raise ValueError(
+            f"{name} must be zero or {LEAST_SIZE:g} to {LARGEST_SIZE:g} in size, got {size:.3g}: "
+            "take another unit"
+        )
+
+
+def side(name: str, value: float) -> float:
+    """Return one length; ValueError unless it is a number from `LEAST_SIZE` to `LARGEST_SIZE`."""
+    array = numbers(name, value)
+    if array.ndim or not LEAST_SIZE <= array <= LARGEST_SIZE:
+        raise ValueError(
+            f"{name} must be one positive number, {LEAST_SIZE:g} to {LARGEST_SIZE:g}, got {value!r}"
+        )
+    return float(array)
+
+
+def check_length(
+    length: float | tuple[float, float], shape: tuple[int, ...]
+) -> tuple[float, float]:
+    """Return the sides of a grid of `shape` points from one (pixels are then square) or both."""
+    sides = numbers("length", length)
+    usable = sides.shape in ((), (1,), (2,))
+    if not (usable and np.all((sides >= LEAST_SIZE) & (sides <= LARGEST_SIZE))):
+        raise ValueError(
+            f"length must be one or two positive numbers, {LEAST_SIZE:g} to {LARGEST_SIZE:g}, "
+            f"got {length!r}"
+        )
+    first = float(sides.flat[0])
+    return first, float(sides[1]) if sides.size == 2 else first * shape[1] / shape[0]
 
 
 def plain(value: ArrayLike) -> Any:

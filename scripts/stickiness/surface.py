@@ -15,7 +15,7 @@ import scipy  # scipy.special is loaded when first used, a third of a second
 from numpy.typing import NDArray
 from scipy import fft
 
-from stickiness.arguments import grid, integer, number, numbers
+from stickiness.arguments import grid, integer, numbers, side
 from stickiness.spectrum.direction import find_ratio_of_modes
 from stickiness.spectrum.interface import LATTICE_ROUNDING, Spectrum, check_spectrum
 from stickiness.spectrum.kinds import Shells
@@ -162,7 +162,7 @@ def realised_spectrum(heights: NDArray, length: float) -> Shells:
     i, j, power = _periodogram(heights)
     if not power.ravel()[1:].any():
         raise ValueError("heights must not be flat: they hold no wave")
-    length = number("length", length)
+    length = side("length", length)
     square, total = _sum_shells(i, j, power)
     # Modes that hold nothing but rounding are not part of the surface's band.
     keep = (square > 0) & (total > 1e-24 * total[1:].sum())
@@ -173,7 +173,7 @@ def realised_spectrum(heights: NDArray, length: float) -> Shells:
 def moments(heights: NDArray, length: float) -> Moments:
     """Spectral moments of periodic heights `(n, n)`, derivatives taken in Fourier space."""
     i, j, power = _periodogram(heights)
-    length = number("length", length)
+    length = side("length", length)
     power = np.where((i == 0) & (j == 0), 0.0, power)
     dq = 2 * np.pi / length
     kx = i * dq
@@ -220,7 +220,7 @@ def resample(heights: NDArray, n: int) -> NDArray:
 def check_window(spectrum: Spectrum, length: float) -> None:
     """Raise a ValueError unless a cell of side `length` holds the longest waves of `spectrum`."""
     check_spectrum(spectrum)
-    length = number("length", length)
+    length = side("length", length)
     longest = 2 * np.pi / spectrum.band[0]
     if longest > length * (1 + LATTICE_ROUNDING):
         raise ValueError(

@@ -10,6 +10,7 @@ from stickiness import (
     adhesive,
     criteria,
     dmt,
+    full_contact_energy,
     repulsive,
     spectrum,
     surface,
@@ -23,6 +24,7 @@ from stickiness.measured import instrument_spectrum, levelling, periodic, psd, t
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import Roughness, measure, predict, share
+from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.repulsive import richardson, subpixel
 from stickiness.solids import Film, HalfSpace, Layer, Skin
 from stickiness.solids.moduli import Constant, Prony, Table
@@ -50,6 +52,10 @@ def press(heights=HEIGHTS, length=SIDE, pressure=0.1, **options):
     return repulsive.solve(heights, length, pressure, **options)
 
 
+def attract(heights=HEIGHTS, length=SIDE, **options):
+    return adhesive.solve(heights, length, LONG, pressure=0.1, **options)
+
+
 def average(fine, coarse, many):
     return multilevel.multilevel_mean(fine, coarse, many, ONES, ONES)
 
@@ -67,11 +73,16 @@ MISUSES = [
     (lambda: press(HOLED), "heights must be finite, got"),
     (lambda: press(MASKED), "heights must not be masked, got"),
     (lambda: press(HEIGHTS > 0), "heights must be real numbers"),
-    (lambda: press(length=-1.0), "length must be positive"),
+    (lambda: press(length=-1.0), "length must be one or two positive numbers, .* got -1.0"),
     (lambda: press(pressure="0.1"), "pressure must be a number"),
     (lambda: press(pressure=-0.1), "pressure must be non-negative"),
     (lambda: press(tol=10.0), "tol must be positive and at most"),
     (lambda: press(start=HEIGHTS), "start must be a Contact"),
+    (lambda: press([[1.0, 2.0], [3.0]]), "heights must have rows of one length"),
+    (lambda: press(pressure=True), "pressure must be a number, got True"),
+    (lambda: list(repulsive.load_path(HEIGHTS, SIDE, [0.1, "a"])), "pressures must be a number"),
+    (lambda: attract(start=1j * HEIGHTS), "start must be real numbers, got .* complex128"),
+    (lambda: next(adhesive.path(HEIGHTS, SIDE, LONG, ("1", "2"))), "values must be real numbers"),
     (lambda: surface.synthesise(BAND, 16, SIDE, None), "seed must be an integer"),
     (lambda: surface.synthesise(BAND, 16, SIDE, 1, "uniform"), "amplitudes must be 'gaussian' or"),
     (lambda: surface.synthesise(BAND, 16, SIDE, 1, skewness=4.1), "skewness must be .*got 4.1"),
@@ -158,7 +169,7 @@ MISUSES = [
     (lambda: multilevel.descriptors(BAND, SIDE, [1], "gaussian", 0.5), "cutoff must be at least 1"),
     (lambda: multilevel.descriptors(BAND, SIDE, [1], "uniform"), "amplitudes must be"),
     (lambda: multilevel.descriptors(BAND, 0.01, [1]), "the window does not hold the band"),
-    (lambda: multilevel.descriptors(BAND, np.nan, [1]), "length must be positive and finite"),
+    (lambda: multilevel.descriptors(BAND, np.nan, [1]), "length must be one positive number"),
     (lambda: average([1], [1], [1, 2]), "fine must hold at least 2 samples"),
     (lambda: average([1, np.nan], [1, 2], [1, 2]), "fine must be finite"),
     (lambda: average([1, 2], [1, 2, 3], [1, 2]), r"coarse must be of .*\(2,\)"),
@@ -292,13 +303,13 @@ MISUSES = [
     (lambda: periodic.band_limited(np.zeros((8, 8)), (1.0, 1.0), 99.0, 4), "Nyquist"),
     (lambda: psd.power_spectrum(np.zeros(5), 1.0), "heights must be a grid"),
     (lambda: psd.power_spectrum(np.zeros((3, 9)), 1.0), r"at least 4 x 4 points, got \(3, 9\)"),
-    (lambda: psd.power_spectrum(HEIGHTS, 1.0, np.inf), "dy must be positive.*inf"),
+    (lambda: psd.power_spectrum(HEIGHTS, 1.0, np.inf), "dy must be one positive number.*inf"),
     (lambda: psd.power_spectrum(HEIGHTS, 1.0, taper="hamming"), "taper must be.*'hamming'"),
     (lambda: psd.profile_spectrum(np.ones(8), 1.0, "hann"), "at least 16"),
     (lambda: psd.profile_spectrum(np.ones((20, 20)), 1.0, "hann"), "1D"),
-    (lambda: psd.profile_spectrum(np.ones(20), 0.0, "hann"), "dx must be positive"),
+    (lambda: psd.profile_spectrum(np.ones(20), 0.0, "hann"), "dx must be one positive number"),
     (lambda: psd.profile_spectrum(np.ones(20), 1.0, "box"), "taper must be"),
-    (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), "heights leave the range of floats"),
+    (lambda: psd.power_spectrum(1e160 * HEIGHTS, 1.0), r"heights must be .* in size, got .*e\+160"),
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),
     (lambda: instrument_spectrum.tip_cutoff(HEIGHTS, (1.0, 1.0), 0.0), "radius must be positive"),
@@ -311,6 +322,67 @@ MISUSES = [
 def test_misuse_is_refused_by_name(call, message):
     with pytest.raises(ValueError, match=message):
         call()
+
+
+#: Everything public that takes heights and a length, by name.
+ENTRIES = {
+    "repulsive.solve": press,
+    "load_path": lambda *surface: list(repulsive.load_path(*surface, [0.1])),
+    "adhesive.solve": attract,
+    "adhesive.path": lambda *surface: next(adhesive.path(*surface, LONG, (0.1, 0.2))),
+    "measure": lambda *surface: measure(*surface, LONG, 0.1),
+    "share_at_zero_load": lambda *surface: share_at_zero_load(*surface, LONG),
+    "moments": surface.moments,
+    "realised_spectrum": surface.realised_spectrum,
+    "full_contact_energy": lambda heights, length: full_contact_energy(heights, 1e6, length),
+    "from_heights": Surface.from_heights,
+    "from_profile": lambda heights, length: Surface.from_profile(np.ravel(heights), length),
+    "verdict": lambda heights, length: judge(heights, length=length),
+}
+LENGTHS = [1e-300, 1e300, -1.0, np.nan, (1.0, 1.0, 1.0), [[1.0, 1.0]], (1.0, 1e-300), ()]
+NO_LENGTHS = ["1", None, True, 1 + 0j, {}, ["1", "1"], np.ma.masked]
+WRONG_HEIGHTS = {
+    "complex": HEIGHTS + 0j,
+    "huge": 1e150 * HEIGHTS,
+    "tiny": 1e-300 * HEIGHTS,
+    "booleans": HEIGHTS > 0,
+    "texts": HEIGHTS.astype(str),
+    "objects": HEIGHTS.astype(object),
+    "durations": np.zeros(HEIGHTS.shape, "m8[s]"),
+    "no points": HEIGHTS[:0, :0],
+}
+
+
+@pytest.mark.parametrize("length", LENGTHS + NO_LENGTHS, ids=repr)
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_no_entry_takes_a_wrong_length(entry, length):
+    with pytest.raises(ValueError, match=r"^length (must|is)"):
+        ENTRIES[entry](HEIGHTS, length)
+
+
+@pytest.mark.parametrize("kind", WRONG_HEIGHTS)
+@pytest.mark.parametrize("entry", ENTRIES)
+def test_no_entry_takes_wrong_heights(entry, kind):
+    with pytest.raises(ValueError, match=r"^(heights|surface|a profile) must"):
+        ENTRIES[entry](WRONG_HEIGHTS[kind], 1.0)
+
+
+@pytest.mark.filterwarnings("ignore:(heights of|pressure =)")
+@pytest.mark.parametrize(("height", "side"), [(1e39, 1e-39), (1e-39, 1e39), (1e39, 1e39)])
+def test_any_unit_that_is_taken_gives_the_same_contact(height, side):
+    contact = press(height * HEIGHTS, side * SIDE, 0.1 * height / side)
+    assert contact.area_fraction == press().area_fraction
+    scaled = adhesive.Exponential(0.3 * height * (height / side), 0.5 * height)
+    state = adhesive.solve(height * HEIGHTS, side * SIDE, scaled, pressure=0.1 * height / side)
+    assert state.repulsive_area_fraction == attract().repulsive_area_fraction
+    curvature = surface.moments(height * HEIGHTS, side * SIDE).rms_curvature
+    expected = surface.moments(HEIGHTS, SIDE).rms_curvature
+    assert curvature * side * (side / height) == pytest.approx(expected)
+
+
+def test_energy_of_one_length_is_that_of_square_pixels():
+    energy = full_contact_energy(HEIGHTS[:8], 1.0, 1.0, edges="given")
+    assert energy == full_contact_energy(HEIGHTS[:8], 1.0, (1.0, 2.0), edges="given")
 
 
 def test_a_missing_argument_is_named_with_its_function():

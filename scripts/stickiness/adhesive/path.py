@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike
 
 from stickiness.adhesive import solver
 from stickiness.adhesive.solver import APPROACH, SEPARATION, Adhesion, PullOffError
-from stickiness.arguments import grid, number
+from stickiness.arguments import grid, number, numbers
 from stickiness.repulsive.solver import Contact
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import TractionLaw
@@ -104,9 +104,10 @@ def path(
     ConvergenceError
         If a state does not converge or `max_states` do not suffice.
     """
-    values = [float(value) for value in values]
-    if len(values) < 2 or not np.all(np.isfinite(values)):
+    controls = numbers("values", values)
+    if controls.ndim != 1 or controls.size < 2 or not np.all(np.isfinite(controls)):
         raise ValueError(f"values must be at least two finite numbers, got {values!r}")
+    values = controls.tolist()
     if not np.all(np.diff(values)):
         raise ValueError(f"values must differ from one to the next, got {values!r}")
     if control not in ("pressure", "mean_gap"):

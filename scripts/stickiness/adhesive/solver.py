@@ -9,10 +9,10 @@ from numpy.typing import ArrayLike
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.equilibrium import relax
 from stickiness.adhesive.problem import Problem, lowered
-from stickiness.arguments import grid, integer, number, numbers
+from stickiness.arguments import check_length, grid, integer, number, numbers
 from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
-from stickiness.repulsive.half_space import check_length, measure_scale, measure_slope
+from stickiness.repulsive.half_space import measure_scale, measure_slope
 from stickiness.repulsive.solver import Contact, ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
 from stickiness.traction_laws import TractionLaw, check_law
@@ -275,7 +275,7 @@ def _check_start(start, shape, mean_gap):
                 f"{mean_gap!r}: follow the mean gap back with path, or start from a state"
             )
     elif start is not None:
-        gap = np.asarray(getattr(start, "gap", start), dtype=float)
+        gap = numbers("start", getattr(start, "gap", start))
         if gap.shape != shape:
             raise ValueError(f"start has the shape {gap.shape}, the heights {shape}")
         if not np.all(np.isfinite(gap)):

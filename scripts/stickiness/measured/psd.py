@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from stickiness.arguments import grid, number
+from stickiness.arguments import grid, number, side, with_gaps
 
 Taper = Literal["none", "hann", "hann_radial"]
 
@@ -100,8 +100,8 @@ def power_spectrum(
     heights = grid("heights", heights)
     if min(heights.shape) < 4:
         raise ValueError(f"heights must have at least 4 x 4 points, got {heights.shape}")
-    dx = number("dx", dx)
-    dy = dx if dy is None else number("dy", dy)
+    dx = side("dx", dx)
+    dy = dx if dy is None else side("dy", dy)
     nx, ny = heights.shape
     # In units of the sides, from the middle of the area (SurfaceTopography's tapers: from pixel
     # n//2), so that a mirrored map has the same rings.
@@ -140,12 +140,12 @@ def power_spectrum(
 
 def profile_spectrum(heights: ArrayLike, dx: float, taper: Taper = "hann") -> Modes:
     """One-dimensional power spectral density of levelled heights (n,) along a line."""
-    heights = np.asarray(heights, dtype=float)
+    heights = with_gaps("heights", heights)
     if heights.ndim != 1 or len(heights) < 16 or not np.all(np.isfinite(heights)):
         raise ValueError(
             f"heights of a profile must be 1D, finite and at least 16, got {heights.shape}"
         )
-    dx = number("dx", dx)
+    dx = side("dx", dx)
     n = len(heights)
     if taper not in ("none", "hann", "hann_radial"):
         raise ValueError(f"taper must be 'none', 'hann' or 'hann_radial', got {taper!r}")
@@ -181,13 +181,9 @@ def _transform(heights: NDArray, w: NDArray, cell: float) -> _Transform:
     power = np.mean(w**2)
     # Less the mean weighted by the taper: else a constant would leak into the lowest modes.
     tapered = w * (heights - np.mean(w * heights) / np.mean(w))
-    with np.errstate(over="ignore"):
-        variance = float(np.mean(tapered**2) / power)
-    if not np.isfinite(variance / cell):
-        raise ValueError("heights leave the range of floats: take a larger unit of length")
     return _Transform(
         psd=np.abs(fft.rfftn(tapered) / heights.size) ** 2 / (power * cell),
-        variance=variance,
+        variance=float(np.mean(tapered**2) / power),
         independence=float(power**2 / np.mean(w**4)),
         blur=2.0 if w.size > 1 else 0.0,
     )

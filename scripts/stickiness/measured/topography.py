@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.arguments import numbers, positive
+from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
@@ -296,9 +296,7 @@ def from_array(
     (1, (32, 32))
     """
     _check_options(missing, max_missing, missing_rim, spikes)
-    if np.ma.isMaskedArray(heights):
-        heights = heights.astype(float).filled(np.nan)
-    heights = numbers("heights", heights)
+    heights = with_gaps("heights", heights)
     if heights.ndim not in (1, 2) or heights.size == 0:
         raise ValueError(
             f"{source}: heights must be a map (nx, ny) or a profile (n,), got shape {heights.shape}"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stickiness.arguments import grid, number, positive
+from stickiness.arguments import check_length, grid, number
 from stickiness.measured.levelling import detrend
 from stickiness.measured.periodic import Periodisation, periodise
 from stickiness.measured.psd import power_spectrum
@@ -32,7 +32,7 @@ def full_contact_energy(
     modulus : float
         Plane-strain modulus E* [Pa], of the layer or below the skin if `solid` has one.
     length : float or pair of float, optional
-        Sides [m] along x and y; only with heights.
+        Side [m] along x (pixels are then square), or both sides; only with heights.
     solid : HalfSpace, Layer or Skin
         Elastic solid, a thickness in m.
     edges : {"mirror", "smooth", "taper", "given"}
@@ -58,8 +58,7 @@ def full_contact_energy(
     if isinstance(surface, Spectrum):
         return modulus * surface.elastic_energy(solid)
     heights = grid("surface", surface)
-    sides = np.broadcast_to(positive(length=length)[0], 2)
-    dx, dy = sides / heights.shape
+    dx, dy = np.divide(check_length(length, heights.shape), heights.shape)
     if edges != "given":
         heights = periodise(detrend(heights, "plane"), edges)
     plane = power_spectrum(heights, float(dx), float(dy))

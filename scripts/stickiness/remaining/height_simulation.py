@@ -20,7 +20,7 @@ from scipy.special import erfinv
 
 from stickiness.adhesive import solver as adhesive
 from stickiness.adhesive.edge_zone import COARSEST
-from stickiness.arguments import grid
+from stickiness.arguments import check_length, grid
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.full_contact import full_contact_energy
 from stickiness.remaining.standard_heights import (
@@ -31,7 +31,7 @@ from stickiness.remaining.standard_heights import (
 )
 from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
 from stickiness.repulsive import solver as repulsive
-from stickiness.repulsive.half_space import check_length, half_space, measure_slope
+from stickiness.repulsive.half_space import half_space, measure_slope
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import Exponential

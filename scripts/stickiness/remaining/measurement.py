@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.path import PathPoint, path
 from stickiness.adhesive.solver import SEPARATION
-from stickiness.arguments import grid, number
+from stickiness.arguments import check_length, grid, number
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid, check_solid
@@ -115,7 +115,7 @@ def measure(
     squeeze = number("squeeze", squeeze)
     steps = number("steps", steps)
     check_law(law)
-    pixel = float(np.broadcast_to(length, 2)[0]) / heights.shape[0]
+    pixel = check_length(length, heights.shape)[0] / heights.shape[0]
     resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)
     if np.ptp(heights) == 0:
         return _part_flat(law, 1 / resolution)

@@ -13,7 +13,6 @@ from functools import cache, cached_property, lru_cache
 import numpy as np
 from scipy import fft
 
-from stickiness.arguments import positive
 from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, free_edges, sharing
 from stickiness.repulsive.free_edges import displace_by_pixel
@@ -165,17 +164,6 @@ def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True
     if not kept:
         return kind(tuple(shape), tuple(lengths), np.dtype(dtype), solid)
     return keep(kind, tuple(shape), tuple(lengths), np.dtype(dtype), solid, most=most)
-
-
-def check_length(length, shape):
-    """Sides of a cell of `shape` points from one (pixels are then square) or both, checked."""
-    (sides,) = positive(length=length)
-    if sides.size == 1:
-        side = float(sides.ravel()[0])
-        return side, side * shape[1] / shape[0]
-    if sides.shape != (2,):
-        raise ValueError(f"length must be one or two positive numbers, got {length!r}")
-    return float(sides[0]), float(sides[1])
 
 
 def measure_scale(heights):

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stickiness.arguments import grid, integer, number
+from stickiness.arguments import check_length, grid, integer, number
 from stickiness.plausibility import warn_of_heights, warn_of_pressure
 from stickiness.repulsive import active_set, half_space, projected_gradients, sharing
 from stickiness.solids import HALF_SPACE, Skin, Solid, check_solid
@@ -163,7 +163,7 @@ def solve(
     1.15
     """
     heights = grid("heights", heights)
-    lengths = half_space.check_length(length, heights.shape)
+    lengths = check_length(length, heights.shape)
     pressure = number("pressure", pressure, zero=True)
     tol = number("tol", tol, most=_MAX_TOLERANCE)
     max_iterations = integer("max_iterations", max_iterations, least=1)
@@ -304,6 +304,7 @@ def load_path(
     """
     last = None
     for pressure in pressures:
+        pressure = number("pressures", pressure, zero=True)
         loaded = last.mean_pressure if last else 0.0
         near = loaded and abs(pressure - loaded) < _MAX_LOAD_CHANGE * loaded
         last = solve(heights, length, pressure, tol=tol, start=last if near else None, **options)

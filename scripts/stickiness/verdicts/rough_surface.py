@@ -20,7 +20,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness import datasets
-from stickiness.arguments import positive
+from stickiness.arguments import check_length, positive, side, with_gaps
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
@@ -137,7 +137,7 @@ class Surface:
         ValueError
             If the heights are no map, a side is missing, or too many points are missing.
         """
-        heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+        heights = with_gaps("heights", heights)
         if heights.ndim != 2:
             raise ValueError(f"heights must be an (nx, ny) array, got the shape {heights.shape}")
         if min(heights.shape) < 4:
@@ -146,10 +146,10 @@ class Surface:
             raise ValueError(
                 f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
             )
-        sides = np.broadcast_to(positive(length=length)[0], 2)
-        for side in dict.fromkeys(map(float, sides)):
-            warn_of_si(length=side)
-        steps = tuple(float(side) / n for side, n in zip(sides, heights.shape, strict=True))
+        sides = check_length(length, heights.shape)
+        for one_side in dict.fromkeys(sides):
+            warn_of_si(length=one_side)
+        steps = tuple(a / n for a, n in zip(sides, heights.shape, strict=True))
         for doubt in doubt_pixels("heights", heights.shape, steps):
             warnings.warn(doubt, PlausibilityWarning, stacklevel=2)
         return cls._from_array(heights, steps, options)
@@ -169,14 +169,14 @@ class Surface:
         **options
             As of `from_heights`.
         """
-        heights = np.ma.filled(np.ma.asarray(heights, dtype=float), np.nan)
+        heights = with_gaps("heights", heights)
         if heights.ndim != 1:
             raise ValueError(f"a profile must be an (n,) array, got the shape {heights.shape}")
         if heights.size < 16:
             raise ValueError(f"a profile must have at least 16 points, got {heights.size}")
-        (side,) = positive(length=length)
-        warn_of_si(length=float(side))
-        return cls._from_array(heights, float(side) / heights.size, options)
+        length = side("length", length)
+        warn_of_si(length=length)
+        return cls._from_array(heights, length / heights.size, options)
 
     @classmethod
     def _from_array(
