@@ -63,9 +63,9 @@ SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 THRESHOLD_TOLERANCE = 1e-9  #: of their logarithm
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
-# Factors on the modulus of a layer on a film, between which logarithms are interpolated; the energy
-# of full contact is off by less than 1e-3 of itself.
-FILM_FACTORS = 10.0 ** (np.arange(-60, 61) / 10)
+# Factor on E* to which thresholds are searched: beside so soft a layer a film is rigid, and full
+# contact of a half-space that is as soft takes the bending of its skin alone.
+SOFTEST = 1e-6
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
 UNLIKE = 2.0
 
@@ -110,9 +110,9 @@ class Roughness:
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
     rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
     law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
-    #: How elastic energy and compliance depend on the modulus of a layer on a film, or below a
-    #: skin, see `find_film_response`; zeros without these, None: not varied
-    film_response: ArrayLike | None = None
+    #: `FilmResponse`, or an array of these, by which elastic energy and compliance depend on the
+    #: modulus of a layer on a film, or below a skin; None without these
+    film_response: Any = None
     #: ln of the factor by which heights that are not Gaussian change the energy ratio at which a
     #: share remains, and its error: see `height_shape`
     shape: ArrayLike = 0.0
@@ -128,22 +128,21 @@ class Roughness:
 
     def at_modulus(self, factor: ArrayLike) -> Self:
         """Return the same with E* times a factor: films and skins keep their stiffness."""
-        if self.film_response is None:
+        if not np.any(np.not_equal(self.film_response, None)):
             return self
-        # Position of the factor in `FILM_FACTORS`, whose logarithms are evenly spaced.
-        log_factors = np.log(FILM_FACTORS)
-        position = np.asarray(np.log(factor) - log_factors[0]) / (log_factors[1] - log_factors[0])
-        position, log_response = np.broadcast_arrays(position[..., None, None], self.film_response)
-        position = position[..., :1]
-        below = np.clip(np.floor(position).astype(int), 0, log_response.shape[-1] - 2)
-        # Interpolate the logarithms of energy and compliance between the two factors around it.
-        log_low = np.take_along_axis(log_response, below, axis=-1)
-        log_high = np.take_along_axis(log_response, below + 1, axis=-1)
-        response = np.exp(log_low + (position - below) * (log_high - log_low))[..., 0]
+        factor, responses = np.broadcast_arrays(factor, self.film_response)
+        energy_ratio = np.ones(factor.shape)
+        compliance_ratio = np.ones(factor.shape)
+        for response in set(responses.ravel()) - {None}:
+            rows = responses == response
+            factors, place = np.unique(factor[rows], return_inverse=True)
+            energies, compliances = response.at_modulus(factors)
+            energy_ratio[rows] = energies[place]
+            compliance_ratio[rows] = compliances[place]
         return replace(
             self,
-            elastic_energy=self.elastic_energy * response[..., 0],
-            relative_compliance=self.relative_compliance * response[..., 1],
+            elastic_energy=self.elastic_energy * energy_ratio,
+            relative_compliance=self.relative_compliance * compliance_ratio,
         )
 
     def scaled(self, factor: ArrayLike) -> Self:
@@ -465,14 +464,11 @@ class Roughness:
 
         # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
         # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
-        # A film may raise the energy on the way there, at most by
-        # `log_stiffest`.
-        log_stiffest = 0.0
-        if pairs.film_response is not None:
-            log_stiffest = pairs.film_response[:, 0].max(axis=-1)
+        # A film may raise the energy on the way there.
         energy = pairs.elastic_energy
+        most_energy = pairs.at_modulus(SOFTEST).elastic_energy
         lowest = np.log(LEAST_LENGTH * energy)
-        highest = np.log(20 * energy / (1 - pairs.wanted_share)) + log_stiffest
+        highest = np.log(20 * most_energy / (1 - pairs.wanted_share))
 
         # Shares need not rise with the length. The threshold must agree with the share at the
         # start: search below that if enough remains there, else above.
@@ -507,39 +503,58 @@ class PairRows(Roughness):
     def take(self, row: NDArray) -> Self:
         """Return some rows of the table."""
         columns = {field.name: getattr(self, field.name) for field in fields(self)}
-        return replace(self, **{name: x[row] for name, x in columns.items() if x is not None})
+        return replace(self, **{name: x[row] for name, x in columns.items()})
 
 
 def flatten_pairs(rough: Roughness, **columns: ArrayLike) -> tuple[tuple[int, ...], PairRows]:
     """Common shape of what a roughness and other columns hold, and all of it as rows of a table."""
-    film_response = rough.film_response
     for field in fields(Roughness):
-        if field.name != "film_response":
-            columns[field.name] = getattr(rough, field.name)
+        columns[field.name] = getattr(rough, field.name)
     if rough.half_space_energy is None:
         columns["half_space_energy"] = np.nan
     shape = np.broadcast_shapes(*(np.shape(values) for values in columns.values()))
-    if film_response is not None:
-        table = np.shape(film_response)[-2:]
-        film_response = np.broadcast_to(film_response, (*shape, *table)).reshape(-1, *table)
     rows = {name: np.broadcast_to(values, shape).ravel() for name, values in columns.items()}
-    return shape, PairRows(film_response=film_response, **rows)
+    return shape, PairRows(**rows)
 
 
-def find_film_response(spectrum: Spectrum, solid: Solid, q0: float) -> NDArray | None:
-    """Logarithms of elastic energy over E* and of the relative compliance, over both as they are.
+@dataclass(frozen=True, eq=False)
+class FilmResponse:
+    """How full contact of a layer on a film, or on a skin, depends on E*; films and skins do not.
 
-    For factors on E* where a film or a skin stays as it is, ``(2, FILM_FACTORS)``; None without.
+    It is evaluated at the moduli that are needed, all at once, with the waves in common.
     """
-    if solid.at_modulus(2.0) == solid:
-        return None
-    responses = []
-    for factor in np.append(1.0, FILM_FACTORS):
-        changed = solid.at_modulus(float(factor))
-        energy = spectrum.elastic_energy(changed)
-        responses.append((energy, find_relative_compliance(spectrum, changed, q0)))
-    log_responses = np.log(responses).T
-    return log_responses[:, 1:] - log_responses[:, :1]
+
+    spectra: tuple[Spectrum, ...]  #: several: of draws between them, by the geometric mean
+    solid: Solid
+    q0: float
+
+    @cached_property
+    def _waves(self) -> list[tuple[NDArray, NDArray]]:
+        """Wave numbers of every spectrum, and what they add to the energy of a half-space."""
+        waves = []
+        for spectrum in self.spectra:
+            averaged = spectrum.averaged()
+            q, weight = averaged.quadrature(*averaged.band)
+            waves.append((q, weight * q))
+        return waves
+
+    def at_modulus(self, factor: NDArray) -> tuple[NDArray, NDArray]:
+        """Elastic energy over E* and relative compliance with E* times factors ``(n,)``.
+
+        Both over what they are as it is.
+        """
+        modulus = np.append(1.0, factor)[:, None]
+        energies = [(1 / self.solid.factor(q, modulus)) @ energy for q, energy in self._waves]
+        energy = np.exp(np.mean(np.log(energies), axis=0))
+        # See `find_relative_compliance`.
+        is_skin = isinstance(self.solid, Skin)
+        compliance = 1 / energy if is_skin else self.solid.factor(self.q0, modulus[:, 0])
+        return energy[1:] / energy[0], compliance[1:] / compliance[0]
+
+
+def is_on_film(solid: Solid) -> bool:
+    """Whether a solid is a layer on a film."""
+    return isinstance(solid, Layer) and isinstance(solid.backing, Film)
 
 
 def find_relative_compliance(spectrum: Spectrum, solid: Solid, q0: float) -> float:
@@ -558,8 +573,7 @@ def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
 
     A film is softer to long waves.
     """
-    is_on_film = isinstance(solid, Layer) and isinstance(solid.backing, Film)
-    if solid == HALF_SPACE or is_on_film:
+    if solid == HALF_SPACE or is_on_film(solid):
         return None
     return spectrum.elastic_energy()
 

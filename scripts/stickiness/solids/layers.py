@@ -34,8 +34,11 @@ class _Compliant(ABC):
     """What follows from the compliance over that of a half-space."""
 
     @abstractmethod
-    def factor(self, q: ArrayLike) -> float | NDArray:
-        """Compliance over that of a half-space."""
+    def factor(self, q: ArrayLike, modulus: ArrayLike = 1.0) -> float | NDArray:
+        """Compliance over that of a half-space, with E* times `modulus`.
+
+        Films and skins keep their stiffness.
+        """
 
     def compliance(self, q: ArrayLike) -> float | NDArray:
         """Displacement per pressure u_q E*/p_q = 2 S/q [length] of waves `q` > 0 [1/length]."""
@@ -62,13 +65,9 @@ class _Deep(_Compliant):
 class HalfSpace(_Deep):
     """Elastic half-space: the default everywhere."""
 
-    def factor(self, q: ArrayLike) -> float:
+    def factor(self, q: ArrayLike, modulus: ArrayLike = 1.0) -> float:
         """Compliance over that of a half-space: one."""
         return 1.0
-
-    def at_modulus(self, factor: float) -> HalfSpace:
-        """Return the solid with E* times a factor."""
-        return self
 
     def in_unit(self, length: float) -> HalfSpace:
         """Return the solid with `length` as the unit of length."""
@@ -147,15 +146,18 @@ class Layer(_Compliant):
         """
         return self.thickness * (1 - 2 * self.poisson) / (1 - self.poisson) ** 2
 
-    def factor(self, q: ArrayLike) -> float | NDArray:
-        """Compliance over that of a half-space, S, of waves `q` >= 0 [1/length]."""
+    def factor(self, q: ArrayLike, modulus: ArrayLike = 1.0) -> float | NDArray:
+        """Compliance over that of a half-space, S, of waves `q` >= 0 [1/length].
+
+        A factor on E*, `modulus`, leaves the film as it is.
+        """
         k = self._scale(q)
         factor = np.ones(k.shape)
         is_long = k < 25.0  # beyond, S is 1 to rounding
         on_base = self._slipping if self.backing == "slip" else self._bonded
         factor[is_long] = on_base(k[is_long])
         if isinstance(self.backing, Film):
-            factor += self._bending(self.backing, q)
+            return plain(factor + np.asarray(modulus) * self._bending(self.backing, q))
         return plain(factor)
 
     def strain(self, h_rms: ArrayLike, q0: ArrayLike) -> float | NDArray:
@@ -179,13 +181,6 @@ class Layer(_Compliant):
         if isinstance(backing, Film):
             backing = replace(backing, thickness=backing.thickness / length)
         return replace(self, thickness=self.thickness / length, backing=backing)
-
-    def at_modulus(self, factor: float) -> Layer:
-        """Return the solid with E* times a factor; a film keeps its modulus."""
-        if not isinstance(self.backing, Film):
-            return self
-        ratio = self.backing.modulus_ratio / factor
-        return replace(self, backing=replace(self.backing, modulus_ratio=ratio))
 
     def _scale(self, q: ArrayLike) -> NDArray:
         """Wave numbers `q` times the thickness; ValueError if floats cannot carry their cubes."""
@@ -277,13 +272,16 @@ class Skin(_Deep):
         for name in ("skin_poisson", "poisson"):
             _set(self, name, number(name, getattr(self, name), zero=True, most=0.5))
 
-    def factor(self, q: ArrayLike) -> float | NDArray:
-        """Compliance over that of the half-space alone, S, of waves `q` >= 0 [1/length]."""
+    def factor(self, q: ArrayLike, modulus: ArrayLike = 1.0) -> float | NDArray:
+        """Compliance over that of the half-space alone, S, of waves `q` >= 0 [1/length].
+
+        A factor on E*, `modulus`, leaves the skin as it is.
+        """
         skin = 1 - self.skin_poisson
         deep = 1 - self.poisson
         skin_volume = 1 - 2 * self.skin_poisson  # zero if incompressible
         deep_volume = 1 - 2 * self.poisson
-        g = self.modulus_ratio * (1 + self.poisson) / (1 + self.skin_poisson)
+        g = self.modulus_ratio / modulus * (1 + self.poisson) / (1 + self.skin_poisson)
         # The coefficients over g, so that squares of large and small ratios do not overflow.
         both = 8 * skin * deep
         common = (3 - 4 * self.poisson) * g
@@ -295,18 +293,13 @@ class Skin(_Deep):
 
         # Numerator and denominator times 2 exp(-2k).
         with np.errstate(over="ignore"):
-            k = np.minimum(np.ravel(q) * self.thickness, 1 / LEAST_SCALE)
+            k = np.minimum(np.multiply(q, self.thickness), 1 / LEAST_SCALE)
         decay = np.exp(-2 * k)
         odd, even = _less_leading_terms(2 * k)
         numerator = both * (1 + decay**2) + common * odd + 2 * linear * k * decay
         denominator = both * -np.expm1(-4 * k) + common * even
         denominator += 2 * (8 * skin**2 / g + square * k**2) * decay
-        factor = skin / (g * deep) * (numerator / denominator)
-        return plain(factor.reshape(np.shape(q)))
-
-    def at_modulus(self, factor: float) -> Skin:
-        """Return the solid with E* times a factor; the skin keeps its modulus."""
-        return replace(self, modulus_ratio=self.modulus_ratio / factor)
+        return plain(skin / (g * deep) * (numerator / denominator))
 
     def in_unit(self, length: float) -> Skin:
         """Return the solid with `length` as the unit of length."""
@@ -335,8 +328,8 @@ def _set(frozen: Film | Layer | Skin, name: str, value: float) -> None:
 def _less_leading_terms(x: NDArray) -> tuple[NDArray, NDArray]:
     """Return sinh x - x and cosh x - 1 - x^2/2, both times 2 exp(-x), without cancellation."""
     decay = np.exp(-x)
-    odd = -np.expm1(-2 * x) - 2 * x * decay
-    even = 1 + decay**2 - (2 + x**2) * decay
+    odd = np.array(-np.expm1(-2 * x) - 2 * x * decay)
+    even = np.array(1 + decay**2 - (2 + x**2) * decay)
 
     # Where the terms cancel, the series sinh x - x = x^3 (1/6 + ...) and
     # cosh x - 1 - x^2/2 = x^4/2 (1/12 + ...), summed from their last terms.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import copy
 from functools import cached_property
 
@@ -319,9 +318,9 @@ class Shells(Spectrum):
         keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep], self.anisotropy)
 
-    def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
+    def quadrature(self, low: float, high: float) -> tuple[NDArray, NDArray]:
         inside = (self.q >= low) & (self.q <= high)
-        return float(np.sum(self.variance[inside] * function(self.q[inside])))
+        return self.q[inside], self.variance[inside]
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance of each mode of the band: its shell's variance in equal parts."""

@@ -16,10 +16,11 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair, make_pair
 from stickiness.remaining.prediction import (
+    FilmResponse,
     Roughness,
-    find_film_response,
     find_half_space_energy,
     find_relative_compliance,
+    is_on_film,
 )
 from stickiness.remaining.thin_layers import find_flow
 from stickiness.solids import HALF_SPACE, Skin, Solid
@@ -327,11 +328,11 @@ def _put_on_layer(
             is_skin=is_skin[0],
             **_keep_simulation(draws, added=_find_largest_change(stiffening, compliance)),
         )
-    if solid.at_modulus(2.0) != solid:
-        responses = np.array([find_film_response(spectrum, solid, q0) for spectrum in spectra])
-        ends = replace(ends, film_response=responses)
+    if is_on_film(solid) or isinstance(solid, Skin):
+        responses = [FilmResponse((spectrum,), solid, q0) for spectrum in spectra]
+        ends = replace(ends, film_response=np.array(responses))
         if draws is not None:
-            draws = replace(draws, film_response=responses.mean(axis=0))
+            draws = replace(draws, film_response=FilmResponse(spectra, solid, q0))
     if find_half_space_energy(spectra[0], solid) is None:
         # A film makes the solid softer to long waves, the layer stiffer to others: energies on a
         # half-space bound neither way.
@@ -368,7 +369,8 @@ def _simulate_on_layer(
     States scale with one modulus, which a film under the layer does not share: there theory stays.
     """
     is_kept = ends.simulated[0] is not None
-    if surface.simulated is None or draws is None or is_kept or np.any(ends.film_response):
+    is_scaled = ends.film_response[0] is None
+    if surface.simulated is None or draws is None or is_kept or not is_scaled:
         return ends, draws
     simulated = surface.simulate_on(solid)
     if simulated is None:

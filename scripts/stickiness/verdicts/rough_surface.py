@@ -25,7 +25,7 @@ from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
-from stickiness.remaining.prediction import FILM_FACTORS, Roughness, find_anisotropy_error_factor
+from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
@@ -382,7 +382,7 @@ class Surface:
             is_skin=np.zeros(2, dtype=bool),
             anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
             rms_slope=data.rms_slope.values,
-            film_response=np.zeros((2, 2, FILM_FACTORS.size)),
+            film_response=np.full(2, None),
             shape=np.full(2, self._find_shape("shape")),
             shape_error=np.full(2, self._find_shape("shape_error")),
             simulated=np.full(2, self.simulated),
@@ -406,7 +406,6 @@ class Surface:
             anisotropy_error_factor=np.float64(self._anisotropy_error_factor),
             # Slopes of the draws are not kept; those of both ends hardly differ.
             rms_slope=self.ends.rms_slope.mean(),
-            film_response=np.zeros((2, FILM_FACTORS.size)),
             shape=self._find_shape("shape"),
             shape_error=self._find_shape("shape_error"),
             simulated=self.simulated,

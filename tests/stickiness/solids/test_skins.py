@@ -109,12 +109,16 @@ def test_rigid_half_space(skin_poisson):
     np.testing.assert_allclose(skin.compliance(waves) * in_unit, layer.compliance(waves), rtol=1e-4)
 
 
-def test_at_modulus_keeps_the_skin():
+def test_a_factor_on_the_modulus_keeps_the_skin():
     skin = Skin(0.1, 100.0, 0.3, 0.5)
-    softer = skin.at_modulus(0.5)
     # Short waves see the skin alone: half the E*, half the S.
-    assert softer.factor(1e4) == pytest.approx(skin.factor(1e4) / 2, rel=1e-12)
-    assert softer.factor(1e-6) == pytest.approx(1.0)
+    short, long = skin.factor([1e4, 1e-6], modulus=0.5)
+    assert short == pytest.approx(skin.factor(1e4) / 2, rel=1e-12)
+    assert long == pytest.approx(1.0)
+    waves = np.geomspace(0.01, 1e3, 7)
+    moduli = np.array([[0.5], [1.0], [3.0]])
+    expected = [Skin(0.1, 100.0 / m, 0.3, 0.5).factor(waves) for m in moduli[:, 0]]
+    np.testing.assert_allclose(skin.factor(waves, moduli), expected, rtol=1e-13)
     assert skin.in_unit(2.0).factor(3.0) == skin.factor(1.5)
 
 
