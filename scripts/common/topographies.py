@@ -147,7 +147,7 @@ def plateau_honed(cell: Cell, cut: float = 0.3, softness: float = 0.05) -> NDArr
     """Crossed grooves, and then tops cut softly at `cut` rms heights."""
     heights = self_affine(cell) - 2 * crossed_grooves(cell)
     heights = (heights - heights.mean()) / heights.std()
-    return cut - softness * np.logaddexp(0.0, (cut - heights) / softness) + 0.02 * fine(cell)
+    return cut - softness * np.logaddexp(0.0, (cut - heights) / softness) + 0.05 * fine(cell)
 
 
 def crossed_grooves(cell: Cell) -> NDArray:
@@ -233,8 +233,8 @@ def square_distances(cell: Cell, random: np.random.Generator, each: float):
 def cobbled(cell: Cell, roughness: float = 0.05) -> NDArray:
     """Round caps side by side, with fine roughness."""
     random = cell.random()
-    heights = np.full((cell.points, cell.points), -0.35)
-    for square in square_distances(cell, random, each=2.0):
+    heights = np.full((cell.points, cell.points), -np.inf)
+    for square in square_distances(cell, random, each=4.0):
         top = random.uniform(0.0, 0.3)
         np.maximum(heights, top - square * random.uniform(0.7, 1.5), out=heights)
     heights = (heights - heights.mean()) / heights.std()
