@@ -49,7 +49,7 @@ def share_at_zero_load(
     Returns
     -------
     float
-        0 to 1; NaN if no descent converges.
+        0 to 1; NaN if no descent converges, or if the deepest of them stopped before.
 
     Examples
     --------
@@ -64,6 +64,7 @@ def share_at_zero_load(
     h_rms = float(np.std(heights))
     gaps = [np.maximum(plane * h_rms - (heights - heights.mean()), 0.0) for plane in PLANES]
     energies = []
+    stopped = []
     for start in (adhesive.APPROACH, adhesive.SEPARATION, *gaps):
         try:
             with warnings.catch_warnings():
@@ -74,6 +75,11 @@ def share_at_zero_load(
                 )
         except ConvergenceError as error:
             logging.info("%s: %s", law, error)
+            if isinstance(error.contact, adhesive.Adhesion):
+                stopped.append(error.contact.energy)
             continue
         energies.append(state.energy)
-    return max(-min(energies), 0.0) / law.adhesion_length if energies else np.nan
+    # A descent that stopped would have gone deeper still.
+    if not energies or min(stopped, default=np.inf) < min(energies):
+        return np.nan
+    return max(-min(energies), 0.0) / law.adhesion_length
