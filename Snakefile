@@ -41,6 +41,7 @@ include: "rules/cases.smk"
 include: "rules/adhesion.smk"
 include: "rules/real_surfaces.smk"
 include: "rules/remaining.smk"
+include: "rules/limits.smk"
 include: "rules/criteria.smk"
 include: "rules/experiments.smk"
 include: "rules/figures.smk"
@@ -66,6 +67,7 @@ TARGETS = {
     "dmt_error": f"{RESULTS}/adhesion/dmt_error.csv",
     "remaining_measured": f"{REMAINING}/remaining.csv",
     "heights_measured": f"{REMAINING}/heights.csv",
+    "limits_measured": expand(f"{LIMITS}/{{kind}}.csv", kind=SIMULATED_SETS),
     "tradeoff": expand(
         f"{TRADEOFF}/{{file}}",
         file=["tradeoff.md", "tradeoff.png"],

@@ -47,6 +47,7 @@ EXPERIMENTS = checked["experiments"]["experiments"]
 TRADE = checked["tradeoff"]
 REMAINING_CAMPAIGN = checked["remaining"]
 HEIGHT_CAMPAIGN = checked["heights"]
+LIMIT_CAMPAIGN = checked["limits"]
 
 FIDELITY = config["fidelities"][config["fidelity"]]
 MODEL_SURFACES = config["model_surfaces"]
@@ -73,6 +74,7 @@ COMPLETE = [
 RESULTS = f"{config['results']}/{config['fidelity']}"
 TRADEOFF = f"{config['results']}/tradeoff"
 REMAINING = f"{config['results']}/remaining"
+LIMITS = f"{config['results']}/limits"
 for folder in (Path(RESULTS), *Path(RESULTS).parents):
     if folder.exists() and not folder.is_dir():
         sys.exit(f"{folder} must be a folder: move this file, or set `results` in {load.USER}")

@@ -93,6 +93,19 @@ def make_topography(
     return heights / heights.std()
 
 
+def make_set(setting: dict, seed: int) -> NDArray:
+    """Heights of one realisation of a set of the configuration."""
+    parameters = {} if setting["hurst"] is None else {"hurst": setting["hurst"]}
+    return make_topography(
+        setting["family"],
+        setting["points"],
+        setting["waves"],
+        seed,
+        setting["shortest"],
+        **parameters,
+    )
+
+
 def limit_band(heights: NDArray, points: int, band: float) -> NDArray:
     """Heights without their mean and without more than `band` waves a side, on another grid."""
     modes = fft.fft2(heights) / heights.size

@@ -2,12 +2,12 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import AfterValidator, Field, ValidationInfo, model_validator
 
 from common.config.simulations import GaussianSurface, Loads, ModelSurface, Pixels, Values
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError, suggest
-from stickiness.entries.fields import Section, optional
+from stickiness.entries.fields import Section, needed, optional
 
 EvenNumbers = Annotated[f.Several[Annotated[int, Field(ge=2, multiple_of=2)]], Field(min_length=2)]
 
@@ -169,3 +169,122 @@ class HeightCampaign(Section):
     energies: Values
     pixels_in_zone: Values
     sets: f.Names[HeightSet]
+
+
+Role = Annotated[
+    Literal["fitted", "unseen"],
+    Field(description="whether limits are fitted to a set, or compared with it afterwards"),
+]
+SolidKind = Literal["layer", "film", "thin", "skin"]
+
+
+class SolidSet(SimulatedSet):
+    """A solid, and a surface on which the energy at zero load is simulated; lengths in 1/q0."""
+
+    one_of = (("backing", "skin_modulus_ratio and skin_poisson"),)
+
+    kind: SolidKind = needed("class of solids")
+    role: Role
+    thickness: f.Positive = needed("of the layer or of the skin")
+    poisson: f.Poisson = needed("Poisson's ratio of the layer, or below the skin")
+    backing: Literal["bonded", "slip", "film"] = optional("what a layer lies on")
+    film_modulus_ratio: f.Positive = optional("Young's modulus of the film over the layer's")
+    film_poisson: f.Poisson = optional("Poisson's ratio of the film")
+    film_thickness: f.Positive = optional("thickness of the film")
+    skin_modulus_ratio: f.Positive = optional("Young's modulus of the skin over that below")
+    skin_poisson: f.Poisson = optional("Poisson's ratio of the skin")
+
+    @model_validator(mode="after")
+    def check_film(self) -> Self:
+        """Check that a film is described, and none where there is none."""
+        for key in ("film_modulus_ratio", "film_poisson", "film_thickness"):
+            if (getattr(self, key) is None) == (self.backing == "film"):
+                raise EntryError(
+                    key, getattr(self, key), "belongs to backing: film, and to no other"
+                )
+        return self
+
+
+class SolidCampaign(Section):
+    """Energies at zero load on other solids than half-spaces."""
+
+    energies: Values
+    pixels_in_zone: dict[SolidKind, Values] = needed(
+        "widths of the cohesive zone on a half-space, in pixels, by class"
+    )
+    sets: f.Names[SolidSet]
+
+
+def check_family(name: str) -> str:
+    """Check that there is a family of topographies of this name."""
+    from common.topographies import FAMILIES
+
+    if name not in FAMILIES:
+        raise ValueError(f"unknown family; {suggest(name, FAMILIES)}")
+    return name
+
+
+class TopographySet(Section):
+    """Synthetic topographies of one family."""
+
+    role: Role
+    family: Annotated[str, AfterValidator(check_family)]
+    hurst: f.Hurst = optional("of a family that has one, if not its own")
+    points: Annotated[int, Field(ge=32, multiple_of=4)]
+    waves: Annotated[int, Field(ge=1)] = needed("longest waves along a side")
+    shortest: Annotated[float, Field(ge=2)] = needed("shortest wave in pixels")
+    seeds: f.Several[f.Index]
+
+
+class Patches(Section):
+    """Patches of one size that are cut from a surface."""
+
+    waves: Annotated[int, Field(ge=1)] = needed("longest waves along a side of the patch")
+    count: f.Count = needed("patches of a surface")
+
+
+class PatchCampaign(Section):
+    """What patches tell of the surface that they were cut from."""
+
+    range: f.Positive = needed("range over h_rms of the surface")
+    patches: f.Several[Patches]
+    sets: f.Names[TopographySet]
+
+
+class Refinement(Section):
+    """A range shorter than that of the states, and the grid on which it is simulated."""
+
+    ratio: f.Share = needed("range over that of the states")
+    finer: f.Count = needed("points along a side over those of the states")
+
+
+class RangeSet(TopographySet):
+    """Topographies on which shorter ranges are simulated."""
+
+    refinements: f.Several[Refinement]
+
+
+class RangeCampaign(Section):
+    """What remains at ranges shorter than those of the states."""
+
+    works: f.Count = needed("works of adhesion on a surface, at most")
+    shares: f.Interval[f.Share] = needed("between which the shares on the states are")
+    sets: f.Names[RangeSet]
+
+
+class UnresolvedCampaign(Section):
+    """What states on every second or fourth point tell of a surface."""
+
+    ranges: Values = needed("ranges over h_rms")
+    strides: f.Several[Annotated[int, Field(ge=2)]] = needed("of which every so many-th point")
+    sets: f.Names[TopographySet]
+
+
+class LimitCampaign(Section):
+    """Simulations behind the limits of verdicts, as `snakemake limits_measured` makes them."""
+
+    law: f.Law
+    solids: SolidCampaign
+    patches: PatchCampaign
+    ranges: RangeCampaign
+    unresolved: UnresolvedCampaign

@@ -14,7 +14,9 @@ from snakemake.utils import update_config
 TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
 USER, PAPER = "config/config.yaml", "config/campaigns/paper.yaml"  #: files that are read as one
 #: Files of what this project measures once, which users do not configure.
-CAMPAIGNS = {name: f"config/campaigns/{name}.yaml" for name in ("tradeoff", "remaining", "heights")}
+CAMPAIGNS = {
+    name: f"config/campaigns/{name}.yaml" for name in ("tradeoff", "remaining", "heights", "limits")
+}
 
 
 class ConfigError(ValueError):

@@ -5,7 +5,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from common.config.campaigns import HeightCampaign, Remaining, Tradeoff
+from common.config.campaigns import HeightCampaign, LimitCampaign, Remaining, Tradeoff
 from common.config.experiments import Experiments
 from common.config.simulations import (
     AdhesionSet,
@@ -277,4 +277,5 @@ MODELS = {
     "tradeoff": Tradeoff,
     "remaining": Remaining,
     "heights": HeightCampaign,
+    "limits": LimitCampaign,
 }

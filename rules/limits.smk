@@ -1,0 +1,136 @@
+# Simulations behind the limits of verdicts: on other solids, on patches of surfaces, at ranges
+# shorter than a grid resolves, and with waves that it lacks. Limits are calibrated on the committed
+# tables.
+
+SIMULATED_SETS = {
+    kind: LIMIT_CAMPAIGN[kind]["sets"] for kind in ("solids", "patches", "ranges", "unresolved")
+}
+
+
+wildcard_constraints:
+    limits_kind=choices(SIMULATED_SETS),
+    solid_set=choices(SIMULATED_SETS["solids"]),
+    patch_set=choices(SIMULATED_SETS["patches"]),
+    range_set=choices(SIMULATED_SETS["ranges"]),
+    unresolved_set=choices(SIMULATED_SETS["unresolved"]),
+
+
+def solid_of(wildcards):
+    """Solid and surface of a set."""
+    return SIMULATED_SETS["solids"][wildcards.solid_set]
+
+
+rule measure_solids:
+    output:
+        f"{LIMITS}/solids/{{solid_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_solids/{{solid_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_solids/{{solid_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=solid_of,
+        law=LIMIT_CAMPAIGN["law"],
+        pixels_in_zone=lambda wildcards: LIMIT_CAMPAIGN["solids"]["pixels_in_zone"][
+            solid_of(wildcards)["kind"]
+        ],
+        energies=LIMIT_CAMPAIGN["solids"]["energies"],
+        code=source_hash("limits/measure_solids.py"),
+    script:
+        "../scripts/limits/measure_solids.py"
+
+
+rule measure_patches:
+    output:
+        f"{LIMITS}/patches/{{patch_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_patches/{{patch_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_patches/{{patch_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: SIMULATED_SETS["patches"][wildcards.patch_set],
+        patches=LIMIT_CAMPAIGN["patches"]["patches"],
+        range=LIMIT_CAMPAIGN["patches"]["range"],
+        code=source_hash("limits/measure_patches.py"),
+    script:
+        "../scripts/limits/measure_patches.py"
+
+
+rule measure_ranges:
+    output:
+        f"{LIMITS}/ranges/{{range_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_ranges/{{range_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_ranges/{{range_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: SIMULATED_SETS["ranges"][wildcards.range_set],
+        law=LIMIT_CAMPAIGN["law"],
+        works=LIMIT_CAMPAIGN["ranges"]["works"],
+        shares=LIMIT_CAMPAIGN["ranges"]["shares"],
+        code=source_hash("limits/measure_ranges.py"),
+    script:
+        "../scripts/limits/measure_ranges.py"
+
+
+rule measure_unresolved:
+    output:
+        f"{LIMITS}/unresolved/{{unresolved_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_unresolved/{{unresolved_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_unresolved/{{unresolved_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: SIMULATED_SETS["unresolved"][wildcards.unresolved_set],
+        ranges=LIMIT_CAMPAIGN["unresolved"]["ranges"],
+        strides=LIMIT_CAMPAIGN["unresolved"]["strides"],
+        code=source_hash("limits/measure_unresolved.py"),
+    script:
+        "../scripts/limits/measure_unresolved.py"
+
+
+def simulated_files(wildcards):
+    """Files of all sets of one kind."""
+    kind = wildcards.limits_kind
+    return [
+        f"{LIMITS}/{kind}/{name}/seed{seed}.nc"
+        for name, simulated in SIMULATED_SETS[kind].items()
+        for seed in simulated["seeds"]
+    ]
+
+
+# The committed tables are copies of these.
+rule tabulate_limits:
+    input:
+        simulated_files,
+    output:
+        f"{LIMITS}/{{limits_kind}}.csv",
+    log:
+        f"{LIMITS}/logs/tabulate_limits/{{limits_kind}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/tabulate_limits/{{limits_kind}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("limits/tabulate_limits.py"),
+    script:
+        "../scripts/limits/tabulate_limits.py"

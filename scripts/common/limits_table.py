@@ -1,0 +1,93 @@
+"""The committed tables of simulations behind the limits of verdicts."""
+
+import pandas as pd
+
+OF_TOPOGRAPHY = ("set", "role", "family", "hurst", "points", "waves", "shortest", "seed")
+SHARES = ("3", "10", "30", "60")  # in percent, by which columns of thresholds end
+#: Columns of the tables by their kind.
+COLUMNS = {
+    "solids": (
+        *("set", "role", "kind", "hurst", "magnification", "window", "points", "seed"),
+        *("thickness", "poisson", "backing"),
+        *("film_modulus_ratio", "film_poisson", "film_thickness"),
+        *("skin_modulus_ratio", "skin_poisson"),
+        *("full_contact_energy", "half_space_energy", "rms_slope", "q1"),
+        *("relative_compliance", "flow"),
+        *("energy_ratio", "pixels_in_zone", "adhesion_length", "range", "simulated"),
+    ),
+    "patches": (
+        *OF_TOPOGRAPHY,
+        *("patch_waves", "patch", "h_rms", "skewness", "kurtosis"),
+        *("independent_areas", "mean_cube", "full_contact_energy"),
+        *("whole_skewness", "whole_kurtosis", "whole_full_contact_energy", "range"),
+        *(
+            f"{name}_{share}"
+            for name in ("threshold", "whole_threshold", "share")
+            for share in SHARES
+        ),
+        *(f"q{number}_{share}" for share in ("10", "30") for number in (1, 2, 3, 4)),
+    ),
+    "ranges": (
+        *OF_TOPOGRAPHY,
+        *("full_contact_energy", "adhesion_length", "energy_ratio", "is_between"),
+        *("range", "range_ratio", "finer", "bound", "chord", "simulated"),
+    ),
+    "unresolved": (
+        *OF_TOPOGRAPHY,
+        *("full_contact_energy", "stride", "lacking", "range"),
+        *(f"{grid}_{share}" for grid in ("full", "thinned") for share in SHARES),
+    ),
+}
+DESCRIPTIONS = {
+    "solids": """\
+Adhesion that remains at zero load on layers and below skins, simulated on Gaussian surfaces.
+kind: layer (on a rigid base), film (layer on a film), thin (incompressible and bonded), skin.
+energy_ratio: work of adhesion over full_contact_energy, which is that of the solid.
+pixels_in_zone: width of the cohesive zone that sets the range, for that ratio on a half-space.
+simulated: deepest state of four starts; none where that did not converge.""",
+    "patches": """\
+What patches tell of the surface that they were cut from, by states simulated on their heights as on
+those of a measured map. waves, shortest: of the surface, longest along a side, shortest in pixels.
+threshold_3 … threshold_60: ln of the adhesion length at which 3 % … 60 % of w remains, at a range;
+whole_…: on the surface; q1_10 … q4_30: on quarters of the patch; none where so much remains at any.
+share_3 … share_60: share on the patch at the thresholds of the surface.
+independent_areas: 1 over the mean square of its autocorrelation; mean_cube: mean of the cube.""",
+    "ranges": """\
+What remains at ranges shorter than those of states on a coarse grid. waves, shortest, points: of
+the coarse grid. is_between: 1 for works of adhesion between two that were simulated.
+range_ratio: range over that of the states at this work. finer: points along a side of the finer
+grid over those of the coarse one. bound: deepest of the states at this range. chord: between the
+shares of the states at their own ranges. simulated: on the finer grid.""",
+    "unresolved": """\
+What states on every second or fourth point tell of a surface.
+lacking: energy of full contact that the thinned grid lacks, over that of the others.
+full_3 … full_60: ln of the adhesion length at which 3 % … 60 % of w remains, on the full grid.
+thinned_…: the same on the thinned grid, for w over 1 + lacking; none where so much remains at
+any.""",
+}
+ALL = """\
+role: limits are fitted to rows that are fitted, and compared with those that are unseen.
+Shares are over the work of adhesion, lengths over h_rms, wave numbers over q0, thicknesses over
+1/q0, energies and adhesion lengths over q0 h_rms^2."""
+
+
+def describe(kind, version):
+    """Comment at the head of a table."""
+    origin = (
+        f"Simulated with version {version} (target limits_measured, config/campaigns/limits.yaml). "
+        "To take\na new measurement over, copy it here."
+    )
+    lines = "\n".join([DESCRIPTIONS[kind], ALL, origin]).splitlines()
+    return "".join(f"# {line}\n" for line in lines)
+
+
+def read(path, kind):
+    """Read a table; ValueError naming the file and what it lacks."""
+    try:
+        table = pd.read_csv(path, comment="#")
+    except FileNotFoundError:
+        raise ValueError(f"{path}: no such file; the target limits_measured makes it") from None
+    missing = [name for name in COLUMNS[kind] if name not in table]
+    if missing:
+        raise ValueError(f"{path}: lacks the columns {', '.join(missing)}")
+    return table

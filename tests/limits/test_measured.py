@@ -1,0 +1,223 @@
+"""Files of the simulations behind the limits of verdicts, and the tables made of them."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+from helpers.entries import complete
+from helpers.jobs import make_job
+
+from common import limits_table
+from common.config.campaigns import RangeSet, SolidSet, TopographySet
+from common.model_surfaces import cell_size, make_heights
+from common.topographies import make_set
+from limits import (
+    measure_patches,
+    measure_ranges,
+    measure_solids,
+    measure_unresolved,
+    tabulate_limits,
+)
+from stickiness import surface
+from stickiness.remaining.height_simulation import find_trial_states
+from stickiness.remaining.prediction import Roughness, predict
+
+SURFACE = {"role": "fitted", "hurst": 0.8, "magnification": 4.0, "window": 2.0, "points": 64}
+LAYER = complete(
+    SolidSet, **SURFACE, kind="layer", seeds=[5], thickness=0.5, poisson=0.4, backing="bonded"
+)
+SKIN = complete(
+    SolidSet,
+    **SURFACE | {"role": "unseen"},
+    kind="skin",
+    seeds=[6],
+    thickness=0.1,
+    poisson=0.5,
+    skin_modulus_ratio=100.0,
+    skin_poisson=0.35,
+)
+TOPOGRAPHY = {"role": "fitted", "family": "gaussian", "points": 128, "waves": 4, "seeds": [5]}
+ROUGH = complete(TopographySet, **TOPOGRAPHY, shortest=4.0)
+FINE = complete(TopographySet, **TOPOGRAPHY, shortest=2.0)
+COARSE = complete(
+    RangeSet,
+    **TOPOGRAPHY | {"points": 32, "waves": 2},
+    shortest=5.0,
+    refinements=[{"ratio": 1.0, "finer": 2}, {"ratio": 0.25, "finer": 8}],
+)
+
+
+def tabulate(folder, kind, script, settings, **params):
+    """Table of one file for each setting."""
+    paths = []
+    for number, setting in enumerate(settings):
+        seed = str(setting["seeds"][0])
+        paths.append(folder / kind / f"set_{number}" / f"seed{seed}.nc")
+        script.main(make_job(paths[-1], {"surface": setting, **params}, {"seed": seed}))
+    output = folder / f"{kind}.csv"
+    wildcards = SimpleNamespace(limits_kind=kind)
+    tabulate_limits.main(SimpleNamespace(input=paths, output=[output], wildcards=wildcards))
+    return limits_table.read(output, kind)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("limits")
+
+
+@pytest.fixture(scope="module")
+def solids(folder):
+    params = {"law": "exponential", "energies": [0.3, 1.3], "pixels_in_zone": [8]}
+    return tabulate(folder, "solids", measure_solids, [LAYER, SKIN], **params)
+
+
+@pytest.fixture(scope="module")
+def patches(folder):
+    sizes = [{"waves": 4, "count": 1}, {"waves": 2, "count": 2}]
+    params = {"range": 0.15, "patches": sizes}
+    return tabulate(folder, "patches", measure_patches, [ROUGH], **params)
+
+
+@pytest.fixture(scope="module")
+def ranges(folder):
+    params = {"law": "exponential", "works": 3, "shares": [0.03, 0.8]}
+    return tabulate(folder, "ranges", measure_ranges, [COARSE], **params)
+
+
+@pytest.fixture(scope="module")
+def unresolved(folder):
+    params = {"ranges": [0.3], "strides": [2]}
+    return tabulate(folder, "unresolved", measure_unresolved, [ROUGH, FINE], **params)
+
+
+def test_rows_of_solids_tell_set_and_role(solids):
+    assert solids["set"].tolist() == ["set_0"] * 2 + ["set_1"] * 2
+    assert solids.role.tolist() == ["fitted"] * 2 + ["unseen"] * 2
+    assert solids.kind.tolist() == ["layer"] * 2 + ["skin"] * 2
+    assert solids.seed.tolist() == [5, 5, 6, 6]
+    assert solids.energy_ratio.tolist() == [0.3, 1.3] * 2
+
+
+def test_shares_on_solids_lie_between_full_contact_and_all(solids):
+    assert (solids.simulated > 1 - 1 / solids.energy_ratio).all()
+    assert solids.simulated.between(0, 1).all()
+    assert (solids.full_contact_energy > solids.half_space_energy).all()
+    assert (solids.adhesion_length / solids.full_contact_energy).values == pytest.approx(
+        solids.energy_ratio.values, rel=1e-4
+    )
+    # The zone has so many pixels on a half-space.
+    pixel = solids.window * 2 * np.pi / solids.points
+    zone = solids.range**2 / (solids.energy_ratio * solids.half_space_energy)
+    assert (zone / pixel).values == pytest.approx(8, rel=1e-4)
+
+
+@pytest.mark.parametrize("setting", [LAYER, SKIN], ids=["layer", "skin"])
+def test_theory_needs_no_heights(solids, setting):
+    """What the table holds of a surface is what theory takes of its heights."""
+    row = solids[solids.kind == setting["kind"]].iloc[0]
+    solid = measure_solids.make_solid(setting)
+    heights = make_heights(setting, setting["points"], setting["seeds"][0])
+    spectrum = surface.realised_spectrum(heights, cell_size(setting))
+    prediction = predict(spectrum, row.adhesion_length, row.range, q0=1.0, solid=solid)
+    rebuilt = Roughness(
+        h_rms=1.0,
+        q0=1.0,
+        elastic_energy=row.full_contact_energy,
+        half_space_energy=row.half_space_energy,
+        q1=row.q1,
+        rms_slope=row.rms_slope,
+        relative_compliance=row.relative_compliance,
+        flow=row.flow,
+        is_skin=row.kind == "skin",
+    )
+    assert rebuilt.share(row.adhesion_length, row.range) == pytest.approx(
+        prediction.separation, rel=1e-3, abs=1e-6
+    )
+    assert rebuilt.share(row.adhesion_length, row.range, 1) == pytest.approx(
+        prediction.approach_limits[1], rel=1e-3
+    )
+
+
+def test_a_patch_of_the_whole_surface_tells_the_same(patches):
+    (whole,) = patches[patches.patch_waves == 4].itertuples()
+    for share in limits_table.SHARES:
+        of_patch = getattr(whole, f"threshold_{share}")
+        assert of_patch == pytest.approx(getattr(whole, f"whole_threshold_{share}"), abs=0.02)
+        assert getattr(whole, f"share_{share}") == pytest.approx(int(share) / 100, abs=5e-3)
+    assert whole.full_contact_energy == pytest.approx(whole.whole_full_contact_energy, rel=0.03)
+
+
+def test_thresholds_rise_with_the_share(patches):
+    for columns in (
+        [f"threshold_{share}" for share in limits_table.SHARES],
+        *([f"q{number}_10", f"q{number}_30"] for number in (1, 2, 3, 4)),
+    ):
+        assert (np.diff(patches[columns].values, axis=1) > 0).all()
+
+
+@pytest.mark.parametrize(("count", "bumps"), [(5, 3), (9, 5)])
+def test_patches_stand_side_by_side(count, bumps):
+    """Bumps in the first row and the first column of a chessboard of three by three."""
+    heights = np.zeros((96, 96))
+    heights[12:20, 12::32] = 1
+    heights[12::32, 12:20] = 1
+    tiles = list(measure_patches.cut(heights, waves=6, patch_waves=2, count=count))
+    assert [tile.shape for tile in tiles] == [(32, 32)] * count
+    assert sum(np.ptp(tile) > 0.5 for tile in tiles) == bumps
+    for tile in tiles:
+        assert tile.mean() == pytest.approx(0, abs=1e-12)
+
+
+def test_autocorrelation_of_waves():
+    """One wave along a side: cos at every shift, whose square is a half and cube vanishes."""
+    wave = np.cos(2 * np.pi * np.arange(32) / 32)[:, None] + np.zeros(32)
+    autocorrelation = measure_patches.find_autocorrelation(3 * wave + 1)
+    np.testing.assert_allclose(autocorrelation, wave, atol=1e-12)
+
+
+def test_shorter_ranges_lie_between_bound_and_chord(ranges):
+    assert ranges.groupby("adhesion_length").size().tolist() == [2, 2, 2]
+    assert set(ranges.is_between) == {0, 1}
+    shorter = ranges[ranges.range_ratio < 1]
+    # Between the points of a coarse grid contact is not seen to end.
+    assert (shorter.bound < shorter.simulated + 5e-3).all()
+    assert (shorter.simulated < shorter.chord).all()
+    same = ranges[(ranges.range_ratio == 1) & (ranges.is_between == 0)]
+    assert same.simulated.values == pytest.approx(same.chord.values, rel=0.08)
+
+
+def test_works_are_those_of_the_states_and_between():
+    heights = make_set(COARSE, 5)
+    states = find_trial_states(heights, 4 * np.pi, pull=False)
+    works = measure_ranges.choose_works(states, shares=[0.0, 1.0], most=1000)
+    nodes = [work for work, is_between in works if not is_between]
+    between = [work for work, is_between in works if is_between]
+    assert nodes == pytest.approx(states.simulated_length)
+    assert between == pytest.approx(np.sqrt(nodes[1:] * np.array(nodes[:-1])))
+
+
+def test_thinned_grids_lack_what_they_do_not_show(unresolved):
+    resolved = unresolved[unresolved.shortest == 4]
+    lost = unresolved[unresolved.shortest == 2]
+    assert abs(resolved.lacking).max() < 1e-3
+    assert lost.lacking.min() > 0.01
+    # Above full contact both agree, whatever the grid.
+    assert unresolved.thinned_60.values == pytest.approx(unresolved.full_60.values, abs=0.02)
+
+
+def test_a_table_without_a_column_is_refused(tmp_path):
+    path = tmp_path / "solids.csv"
+    path.write_text("set,role\nx,fitted\n")
+    with pytest.raises(ValueError, match=r"solids.csv: lacks the columns kind"):
+        limits_table.read(path, "solids")
+    with pytest.raises(ValueError, match="no such file"):
+        limits_table.read(tmp_path / "none.csv", "solids")
+
+
+def test_tables_are_described(folder, solids):
+    lines = (folder / "solids.csv").read_text().splitlines()
+    comment = [line for line in lines if line.startswith("#")]
+    assert any("limits_measured" in line for line in comment)
+    assert max(map(len, comment)) <= 100
+    assert len(pd.read_csv(folder / "solids.csv", comment="#")) == len(solids)
