@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, Field, ValidationInfo, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
 from common.config.simulations import GaussianSurface, Loads, ModelSurface, Pixels, Values
 from stickiness.entries import fields as f
@@ -215,20 +215,17 @@ class SolidCampaign(Section):
     sets: f.Names[SolidSet]
 
 
-def check_family(name: str) -> str:
-    """Check that there is a family of topographies of this name."""
-    from common.topographies import FAMILIES
-
-    if name not in FAMILIES:
-        raise ValueError(f"unknown family; {suggest(name, FAMILIES)}")
-    return name
+Family = Literal[
+    *("gaussian", "skewed_up", "skewed_down", "plateau_honed", "terraced", "scratched", "dimpled"),
+    *("cobbled", "beaded", "turned", "printed", "bifractal", "rolloff", "ground"),
+]
 
 
 class TopographySet(Section):
     """Synthetic topographies of one family."""
 
     role: Role
-    family: Annotated[str, AfterValidator(check_family)]
+    family: Family = needed("name in common.topographies.FAMILIES, which takes long to load")
     hurst: f.Hurst = optional("of a family that has one, if not its own")
     points: Annotated[int, Field(ge=32, multiple_of=4)]
     waves: Annotated[int, Field(ge=1)] = needed("longest waves along a side")
