@@ -52,6 +52,6 @@ def coarse_simulation():
     For tests of what is done with the simulated states, rather than of their numbers.
     """
     with pytest.MonkeyPatch.context() as patch:
-        coarse = partial(simulated_surface.standardise, most_points=64)
+        coarse = partial(simulated_surface.standardise, most_points=32)
         patch.setattr(simulated_surface, "standardise", coarse)
         yield

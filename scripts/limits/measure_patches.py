@@ -97,7 +97,9 @@ def measure_patch(patch, side, whole_thresholds, range_):
     """Row of one patch, whose states are simulated as those of a map and of its quarters."""
     standard = standardise(patch, (side, side), most_points=patch.shape[0])
     states = [
-        find_trial_states(part.heights, part.sides, pull=False).scaled(part.height_unit, side)
+        find_trial_states(part.mirrored, part.mirrored_sides, pull=False).scaled(
+            part.height_unit, side
+        )
         for part in (standard.whole, *standard.quarters)
     ]
     autocorrelation = find_autocorrelation(standard.whole.heights)

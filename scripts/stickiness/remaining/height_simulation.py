@@ -60,7 +60,7 @@ def simulate_heights(
     most_points: int = MOST_POINTS,
     solid: Solid = HALF_SPACE,
 ) -> SimulatedHeights:
-    """Simulate contact on levelled heights, which are made periodic.
+    """Simulate contact on levelled heights and their mirror images.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def simulate_heights(
 
 
 def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> SimulatedHeights:
-    """Simulate contact on heights that are periodic and thinned; errors as of `simulate_heights`.
+    """Simulate contact on heights that are thinned; errors as of `simulate_heights`.
 
     The thickness of a layer is in the unit of the surface.
     """
@@ -88,7 +88,7 @@ def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> S
     in_unit = solid.in_unit(length_unit)
 
     def simulate(part: StandardMap, pull: bool = False) -> TrialStates:
-        states = find_trial_states(part.heights, part.sides, solid=in_unit, pull=pull)
+        states = find_trial_states(part.mirrored, part.mirrored_sides, solid=in_unit, pull=pull)
         return states.scaled(height_unit=part.height_unit, length_unit=length_unit)
 
     return SimulatedHeights(
