@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import logging
 import warnings
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.adhesive import solver as adhesive
 from stickiness.arguments import grid
 from stickiness.plausibility import PlausibilityWarning
+from stickiness.repulsive.half_space import check_length
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import TractionLaw
@@ -18,6 +21,13 @@ from stickiness.traction_laws import TractionLaw
 #: Mean planes over h_rms of rigid heights, whose gaps are starts of the descent in energy.
 PLANES = (0.6, 1.4)
 TOLERANCE = 1e-4
+# A solid that is stiff to long waves stops far above its deepest state: at short ranges a grid
+# holds the edges of contact. So contact is made at a long range, and the range shortened.
+STIFF = 0.9  # compliance over that of a half-space, of the longest waves, below which a solid is so
+STRONGER = (1.0, 1.3, 1.7)  # works of adhesion by which contact is made, over the one in question
+LONGEST_RANGE = 2.0  # over h_rms
+ROUGHLY = 1e-2  # residual of contact at longer ranges,
+FEW = 300  # and its iterations, which need not suffice: descents go on from there
 
 
 def share_at_zero_load(
@@ -31,7 +41,8 @@ def share_at_zero_load(
 
     The states of four descents in energy are compared: from contact without adhesion, from full
     contact, and from the gaps under two planes that cut the heights. An independent minimiser finds
-    the same energy in four digits.
+    the same energy in four digits. On layers that are stiff to long waves, three further descents
+    start from contact that was made at longer ranges.
 
     Parameters
     ----------
@@ -41,8 +52,8 @@ def share_at_zero_load(
         Sides of the cell [length].
     law : TractionLaw
         Attraction; its range may be as short as one pixel in the width of the cohesive zone.
-    solid : solids.HalfSpace or solids.Layer
-        Elastic solid; the thickness of a layer is in the unit of `length`.
+    solid : solids.HalfSpace, solids.Layer or solids.Skin
+        Elastic solid; a thickness is in the unit of `length`.
     tol : float
         Residual of every state, see `adhesive.solve`.
 
@@ -61,25 +72,67 @@ def share_at_zero_load(
     0.56
     """
     heights = grid("heights", heights)
+    sides = check_length(length, heights.shape)
     h_rms = float(np.std(heights))
     gaps = [np.maximum(plane * h_rms - (heights - heights.mean()), 0.0) for plane in PLANES]
+    starts: list[str | NDArray] = [adhesive.APPROACH, adhesive.SEPARATION, *gaps]
+    if solid.factor(2 * np.pi / max(sides)) < STIFF:
+        starts += _make_contact(heights, sides, law, solid)
     energies = []
     stopped = []
-    for start in (adhesive.APPROACH, adhesive.SEPARATION, *gaps):
+    for start in starts:
         try:
-            with warnings.catch_warnings():
-                # The cohesive zone may be as narrow as a pixel: energies need no more.
-                warnings.simplefilter("ignore", PlausibilityWarning)
-                state = adhesive.solve(
-                    heights, length, law, pressure=0.0, start=start, tol=tol, solid=solid
-                )
+            energies.append(_descend(heights, sides, law, solid, start, tol).energy)
         except ConvergenceError as error:
             logging.info("%s: %s", law, error)
             if isinstance(error.contact, adhesive.Adhesion):
                 stopped.append(error.contact.energy)
-            continue
-        energies.append(state.energy)
     # A descent that stopped would have gone deeper still.
     if not energies or min(stopped, default=np.inf) < min(energies):
         return np.nan
     return max(-min(energies), 0.0) / law.adhesion_length
+
+
+def _make_contact(
+    heights: NDArray, sides: tuple[float, float], law: TractionLaw, solid: Solid
+) -> Iterator[NDArray]:
+    """Gaps of contact that stronger adhesion makes at a long range, which is then shortened."""
+    for stronger in STRONGER:
+        gap = np.zeros(heights.shape)
+        range_ = LONGEST_RANGE * float(np.std(heights))
+        while range_ > law.range:
+            longer = replace(law, adhesion_length=stronger * law.adhesion_length, range=range_)
+            try:
+                gap = _descend(heights, sides, longer, solid, gap, ROUGHLY, FEW).gap
+            except ConvergenceError as error:
+                gap = error.contact.gap
+            except ValueError as error:  # the grid would set the edges
+                logging.info("%s: %s", longer, error)
+                break
+            range_ /= 2
+        yield gap
+
+
+def _descend(
+    heights: NDArray,
+    sides: tuple[float, float],
+    law: TractionLaw,
+    solid: Solid,
+    start: str | NDArray,
+    tol: float,
+    max_iterations: int = 3000,
+) -> adhesive.Adhesion:
+    """State of zero load in which a descent from a start ends; errors as of `adhesive.solve`."""
+    with warnings.catch_warnings():
+        # The cohesive zone may be as narrow as a pixel: energies need no more.
+        warnings.simplefilter("ignore", PlausibilityWarning)
+        return adhesive.solve(
+            heights,
+            sides,
+            law,
+            pressure=0.0,
+            start=start,
+            tol=tol,
+            max_iterations=max_iterations,
+            solid=solid,
+        )

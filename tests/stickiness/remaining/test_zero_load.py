@@ -5,8 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from stickiness import surface
 from stickiness.adhesive import solver as adhesive
 from stickiness.remaining import zero_load
+from stickiness.remaining.height_simulation import find_trial_states
+from stickiness.solids import Layer
+from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import Exponential
 
 LENGTH = 2 * np.pi
@@ -44,3 +48,15 @@ def test_a_descent_that_stopped_deepest_leaves_the_share_open(
     monkeypatch.setattr(adhesive, "solve", descend)
     remaining = zero_load.share_at_zero_load(WAVE[:, None] * WAVE, LENGTH, LAW)
     assert remaining == pytest.approx(share, nan_ok=True)
+
+
+def test_contact_on_a_thin_layer_is_made_at_longer_ranges():
+    """States that were simulated for other works of adhesion bound the share from below."""
+    rough = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
+    heights = surface.synthesise(rough, n=64, length=2 * LENGTH, seed=1)
+    layer = Layer(0.2, 0.5)
+    states = find_trial_states(heights, 2 * LENGTH, solid=layer, pull=False)
+    law = Exponential(adhesion_length=0.5 * states.full_contact_energy, range=0.2)
+    bound = states.share(np.array([law.adhesion_length]), np.array([law.range]))[0]
+    share = zero_load.share_at_zero_load(heights, 2 * LENGTH, law, solid=layer, tol=1e-3)
+    assert share > 0.99 * bound
