@@ -277,6 +277,13 @@ class UnresolvedCampaign(Section):
     sets: f.Names[TopographySet]
 
 
+class TouchingSurface(ModelSurface):
+    """A surface whose highest summits are looked for."""
+
+    points: Annotated[int, Field(ge=32, multiple_of=2)]
+    seeds: f.Count = needed("realisations")
+
+
 class LimitCampaign(Section):
     """Simulations behind the limits of verdicts, as `snakemake limits_measured` makes them."""
 
@@ -285,3 +292,4 @@ class LimitCampaign(Section):
     patches: PatchCampaign
     ranges: RangeCampaign
     unresolved: UnresolvedCampaign
+    touching: f.Several[TouchingSurface]

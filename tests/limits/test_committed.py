@@ -1,0 +1,108 @@
+"""The committed tables behind the limits of verdicts, against the campaign that made them."""
+
+from pathlib import Path
+from typing import get_args
+
+import numpy as np
+import pytest
+from helpers.entries import complete
+
+from common import limits_table
+from common.config import load
+from common.config.campaigns import Family, LimitCampaign
+from common.topographies import FAMILIES
+
+ROOT = Path(__file__).parents[2]
+CAMPAIGN = complete(LimitCampaign, **load.load(ROOT / load.CAMPAIGNS["limits"]))
+KINDS = tuple(limits_table.COLUMNS)
+CLASS = {"solids": "kind", "patches": "family", "ranges": "family", "unresolved": "family"}
+
+
+def read(kind):
+    return limits_table.read(ROOT / f"config/{kind}.csv", kind)
+
+
+def test_all_families_can_be_configured():
+    assert get_args(Family) == tuple(FAMILIES)
+
+
+def rows_of_set(kind, entry):
+    """Rows that one seed of a set gives."""
+    campaign = CAMPAIGN[kind]
+    if kind == "solids":
+        return len(campaign["energies"]) * len(campaign["pixels_in_zone"][entry["kind"]])
+    if kind == "patches":
+        return sum(size["count"] for size in campaign["patches"])
+    if kind == "unresolved":
+        return len(campaign["strides"]) * len(campaign["ranges"])
+    return None  # as many works of adhesion as have such shares
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_table_has_the_sets_of_the_campaign(kind):
+    table = read(kind)
+    sets = CAMPAIGN[kind]["sets"]
+    assert set(table["set"]) == set(sets)
+    for name, rows in table.groupby("set"):
+        entry = sets[name]
+        assert set(rows.role) == {entry["role"]}
+        assert set(rows.seed) == set(entry["seeds"])
+        assert set(rows[CLASS[kind]]) == {entry[CLASS[kind]]}
+        wanted = rows_of_set(kind, entry)
+        if wanted is not None:
+            assert len(rows) == wanted * len(entry["seeds"])
+        else:
+            most = CAMPAIGN[kind]["works"] * len(entry["refinements"]) * len(entry["seeds"])
+            assert most / 5 <= len(rows) <= most
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_class_is_fitted_and_unseen(kind):
+    table = read(kind)
+    sets = table.drop_duplicates("set")
+    assert 0.4 < np.mean(sets.role == "fitted") < 0.6
+    assert (table.groupby(CLASS[kind]).role.nunique() == 2).all()
+    # No realisation is in both.
+    assert (table.groupby("seed").role.nunique() == 1).all()
+
+
+def test_shares_on_solids_are_possible():
+    table = read("solids")
+    assert table.simulated.isna().mean() < 0.05
+    table = table.dropna(subset="simulated")
+    assert table.simulated.between(0, 1).all()
+    assert (table.simulated >= 1 - 1 / table.energy_ratio - 1e-3).all()
+    skins = table[table.kind == "skin"]
+    assert (skins.full_contact_energy / skins.half_space_energy).between(1.05, 5).all()
+    assert (table[table.kind == "thin"].poisson == 0.5).all()
+    assert (table[table.kind == "film"].backing == "film").all()
+
+
+def test_thresholds_of_patches_are_possible():
+    table = read("patches")
+    for prefix in ("threshold", "whole_threshold"):
+        thresholds = table[[f"{prefix}_{share}" for share in limits_table.SHARES]].values
+        assert not (np.diff(thresholds, axis=1) <= 0).any()
+    # Full contact keeps 1 - U/w.
+    highest = np.log(table.full_contact_energy / 0.4)
+    assert (table.threshold_60 <= highest + 1e-4).all()
+    larger = table[table.patch_waves == 4]
+    smaller = table[table.patch_waves == 2]
+    assert larger.independent_areas.median() > 2 * smaller.independent_areas.median()
+    spread = [np.std(rows.threshold_30 - rows.whole_threshold_30) for rows in (larger, smaller)]
+    assert spread[0] < spread[1]
+
+
+def test_shorter_ranges_keep_between_bound_and_chord():
+    table = read("ranges").dropna(subset="simulated")
+    # The coarse grid resolves edges of two pixels, which makes shares a little too high.
+    assert (table.bound <= table.simulated * 1.03 + 2e-3).all()
+    assert (table.simulated <= table.chord * 1.03 + 2e-3).all()
+    assert table.groupby("range_ratio").size().min() >= 5
+
+
+def test_lacking_energy_grows_with_the_stride():
+    table = read("unresolved")
+    lacking = table.pivot_table(index=["set", "seed"], columns="stride", values="lacking")
+    assert (lacking[4] > lacking[2]).all()
+    assert table.lacking.between(-0.01, 3).all()
