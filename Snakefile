@@ -67,6 +67,7 @@ TARGETS = {
     "dmt_error": f"{RESULTS}/adhesion/dmt_error.csv",
     "remaining_measured": f"{REMAINING}/remaining.csv",
     "heights_measured": f"{REMAINING}/heights.csv",
+    "limits_calibrated": [f"{LIMITS}/limits.csv", f"{RESULTS}/figures/limits.png"],
     "limits_measured": expand(f"{LIMITS}/{{kind}}.csv", kind=SIMULATED_SETS),
     "tradeoff": expand(
         f"{TRADEOFF}/{{file}}",

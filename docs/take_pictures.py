@@ -37,7 +37,7 @@ PAGES = {
         "{ display: none !important }",
     ),
 }
-FIGURES = ("fig11", "fig12", "fig13")
+FIGURES = ("fig11", "fig12", "fig13", "limits")
 
 
 def shot(browser: str, page: Path, height: int, hidden: str) -> Image.Image:

@@ -134,3 +134,43 @@ rule tabulate_limits:
         code=source_hash("limits/tabulate_limits.py"),
     script:
         "../scripts/limits/tabulate_limits.py"
+
+
+# The committed table is a copy of this one: the library reads it, so that a calibration changes
+# verdicts only when it is taken over.
+rule calibrate_limits:
+    input:
+        [project_file(f"config/{table}.csv") for table in ("heights", "remaining", *SIMULATED_SETS)],
+    output:
+        table=f"{LIMITS}/limits.csv",
+        summary=f"{LIMITS}/limits.md",
+        dataset=f"{LIMITS}/limits.nc",
+    log:
+        f"{LIMITS}/logs/calibrate_limits/limits.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/calibrate_limits/limits.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        touching=LIMIT_CAMPAIGN["touching"],
+        code=source_hash("limits/calibrate_limits.py"),
+    script:
+        "../scripts/limits/calibrate_limits.py"
+
+
+rule plot_limits:
+    input:
+        errors=f"{LIMITS}/limits.nc",
+    output:
+        png=f"{RESULTS}/figures/limits.png",
+        pdf=f"{RESULTS}/figures/limits.pdf",
+    log:
+        f"{RESULTS}/logs/plot_limits/figures/limits.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/plot_limits/figures/limits.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("limits/plot_limits.py"),
+    script:
+        "../scripts/limits/plot_limits.py"

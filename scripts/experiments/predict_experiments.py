@@ -24,7 +24,8 @@ from stickiness.criteria.pair import Pair, make_pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
-from stickiness.remaining.prediction import DEFAULT_SHARE, LATE, Roughness
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.traction_laws import find_strength
 
@@ -309,7 +310,7 @@ def predict_quantity(observation, pair, spheres):
     else:
         predicted = np.array([pair.remaining(sign) for sign in SIGNS])
         if quantity == "work_of_approach":
-            predicted[0] /= LATE
+            predicted[0] *= np.exp(find_spread("spectrum", "ln_approach").low)
     if quantity.startswith("work_of"):
         predicted = predicted * pair.work_of_adhesion
     return predicted

@@ -5,8 +5,9 @@ import numpy as np
 from common import plotting, remaining_table
 from common.job import start
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.measurement import RESOLVED
-from stickiness.remaining.prediction import HYSTERESIS, LATE, SHORT_RANGE, Roughness
+from stickiness.remaining.prediction import SHORT_RANGE, Roughness
 
 LEAST = 0.05
 WORKS = {"approach": "v", "separation": "^"}
@@ -87,7 +88,9 @@ def draw_hysteresis(ax, table):
             look = {"color": colour, "mfc": colour if pressed else "white", "markersize": 3.5}
             for name, marker in WORKS.items():
                 ax.plot(here.zone * (0.94 + 0.06 * i), here[name] / here.bound, marker, **look)
-    for limit in (1 / LATE, HYSTERESIS):
+    late = find_spread("spectrum", "ln_approach").low
+    jumps = find_spread("spectrum", "ln_separation").high
+    for limit in np.exp([late, jumps]):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
     keys = [make_dot(f"ζ = {a} to {b}", color=c, marker="s") for (a, b), c in colours.items()]

@@ -5,7 +5,8 @@ import numpy as np
 from common import plotting, remaining_table
 from common.job import start
 from common.plotting import BLUE, GREY, RED, make_dot
-from stickiness.remaining.prediction import FINEST_SIMULATED, HYSTERESIS, LATE, Roughness
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.prediction import FINEST_SIMULATED, Roughness
 from stickiness.remaining.share import SHARP
 from stickiness.spectrum import SelfAffine
 
@@ -80,7 +81,9 @@ def draw_works(ax, table):
             colour = COLOURS[min(COLOURS, key=lambda hurst: abs(hurst - row.hurst))]
             look = {"color": colour, "mfc": colour if row.window > 1 else "white", "markersize": 4}
             ax.plot(row.magnification, getattr(row, name) / row.bound, marker, **look)
-    for limit in (1 / LATE, HYSTERESIS):
+    late = find_spread("spectrum", "ln_approach").low
+    jumps = find_spread("spectrum", "ln_separation").high
+    for limit in np.exp([late, jumps]):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
     ax.legend(handles=[make_dot(name, marker=marker, color=GREY) for name, marker in WORKS.items()])

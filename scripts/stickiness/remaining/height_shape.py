@@ -23,8 +23,9 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
+from stickiness.remaining.calibration import find_spread
+
 SLOPE = 1.0  # of the logarithm of the factor, against the skewness
-ERROR = 0.6  # of this logarithm, relative; for energy ratios from 0.3 to 1.2
 CHANCE = 1.645  # standard errors of the skewness, within which 90 % of Gaussian heights are
 
 
@@ -50,7 +51,7 @@ def find_height_shape(skewness: float) -> HeightShape:
     like 2.4 times the work of adhesion
     """
     shape = -SLOPE * float(np.arcsinh(skewness))
-    return HeightShape(shape, ERROR * abs(shape))
+    return HeightShape(shape, find_spread("skewness", "ln_work").high * abs(shape))
 
 
 def find_shape_of(heights: ArrayLike) -> HeightShape:

@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import number, plain, positive
+from stickiness.limited import Limited
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.share import (
     DeepestState,
     count_scales,
@@ -20,38 +22,24 @@ from stickiness.remaining.share import (
     remaining_share,
 )
 from stickiness.remaining.thin_layers import find_flow, find_gain
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE, Film, Layer, Skin, Solid, check_solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
-ONSETS = (0.02, 0.98)  #: between which the limits of an onset are kept
-# Errors of a share. Limits with these errors contain all simulated energies above 5 %, and 95 % of
-# the smaller ones, in cells of two by two waves and more; in cells of one wave a third of them.
-ONSET_ERROR = 0.1  # of the onset
 # The narrowest wave that simulations followed: zeta = 64 with zone zeta = 0.25. Beyond it the onset
 # is as uncertain as half of its further rise. That holds the two extremes: that finer waves do not
 # move it, and that they take their whole energy from the work of adhesion (Persson and Tosatti).
 FINEST_SIMULATED = 128.0
 EXTRAPOLATION_ERROR = 0.5
-SHARE_ERROR = 0.15  # relative, in proportion to what is lost
-WEAK_ERROR = 4.0  # relative, far below the onset at short ranges: the highest summits decide
-LEAST_ERROR = 0.015  # absolute, for small shares
-# On layers limits are wider by these parts of what is lost, times the distance of S of the longest
-# waves from 1. Both were set so that limits hold all simulations on layers; none were kept back.
-LAYER_LESS = 0.06  # low limit: films on a soft backing, and S of about a half
-LAYER_MORE = 0.2  # high limit: thin incompressible layers
-# On skins limits are wider by these parts of what is lost, times the distance of the relative
-# compliance from 1: stiff short waves have lower heights, over which attraction reaches further,
-# and their energy is spread over many scales. Set on all simulations on skins; none were kept back.
-SKIN_LESS = 0.05
-SKIN_MORE = 0.22
-PULL_OFF_ERROR = 0.3  # of the largest tension, beside the error of the share
+# Of ln of the tension that states on heights withstand: at shorter ranges than those simulated the
+# same distance is assumed, and simulated pull-offs on eight maps are within this.
+STATES_TENSION_ERROR = 0.26
+#: Kinds of errors of the theory by the longest waves along a side of the contact.
+CELLS = {1: "one wave", 2: "two waves", 4: "spectrum"}
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
 PULL_OFF_KNOWN = 1.4
 PULL_OFF_UNKNOWN = 3.0
-# Jumps at a given mean gap, by simulation with edges of contact sharper than the finest waves.
-LATE = 1.5  # energy gained over the work of approach, at most
-HYSTERESIS = 1.8  # work of separation over the energy gained, at most, where edges are not pinned
 # Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
 # at the energy ratios of 4 to 6 where it was.
 PINNING = 6.0
@@ -62,7 +50,6 @@ LASTING = 2.2
 SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
 LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
 THRESHOLD_TOLERANCE = 1e-9  #: of their logarithm
-DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 # Factor on E* to which thresholds are searched: beside so soft a layer a film is rigid, and full
 # contact of a half-space that is as soft takes the bending of its skin alone.
 SOFTEST = 1e-6
@@ -108,6 +95,7 @@ class Roughness:
     half_space_energy: ArrayLike | None = None
     is_skin: ArrayLike = False  #: whether the compliance is that of a skin, not of a layer
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
+    waves: ArrayLike = np.inf  #: longest waves along a side of the contact
     rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
     law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
     #: `FilmResponse`, or an array of these, by which elastic energy and compliance depend on the
@@ -158,69 +146,82 @@ class Roughness:
         return replace(self, **scaled)
 
     def share(
-        self, adhesion_length: ArrayLike, range: ArrayLike, sign: ArrayLike = 0
+        self,
+        adhesion_length: ArrayLike,
+        range: ArrayLike,
+        sign: ArrayLike = 0,
+        error: ArrayLike | None = None,
     ) -> float | NDArray:
         """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit.
 
         It is that of slow separation. The high limit after a dwell is that of a fast edge of
-        contact, and may exceed 1.
+        contact, and may exceed 1. `error` of the logarithm of the work of adhesion replaces that of
+        the theory.
         """
-        by_theory = self._share_by_theory(adhesion_length, range, sign)
+        by_theory = self._share_by_theory(adhesion_length, range, sign, error)
         slow = self._replace_simulated("share", by_theory, adhesion_length, range, sign)
         return plain(slow * np.asarray(self.instant_ratio) ** np.clip(sign, 0.0, 1.0))
 
-    def _share_by_theory(self, adhesion_length, range, sign) -> NDArray:
+    def _share_by_theory(self, adhesion_length, range, sign, error=None) -> NDArray:
         """Share by the spectrum; arguments as of `share`."""
-        # What remains by the theory, with the onset of contact at its own limit.
-        sign = np.asarray(sign * self.anisotropy_error_factor)
-        energy_ratio = self._energy_ratio(adhesion_length)
-        full_contact_share = 1 - 1 / energy_ratio
-        energy_ratio = energy_ratio * np.exp(self.shape + sign * self.shape_error)
-        range_ratio = np.asarray(range) / self.h_rms
-        onset = np.asarray(self.onset(adhesion_length, range))
-        simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
-        onset_error = ONSET_ERROR + EXTRAPOLATION_ERROR * (onset - simulated_onset)
-        gain = find_gain(energy_ratio, self.relative_compliance, self.flow, sign)
-        # A skin binds its points together: none of them is a spring.
+        sign = np.asarray(sign)
+        length = np.asarray(adhesion_length)
+        full_contact_share = 1 - 1 / self._energy_ratio(length)
+
+        # A limit is the value at another work of adhesion, and another height of the summits.
+        error = self._find_error(length, range) if error is None else error
+        shifted = length * np.exp(sign * error)
+        touch = find_spread("spectrum", "first_touch")
+        energy_ratio = self._energy_ratio(shifted) * np.exp(self.shape)
         compliance = np.asarray(self.relative_compliance)
+        # Points of a skin are coupled, so that the limit of independent springs does not apply.
         layer_compliance = np.where(self.is_skin, 1.0, compliance)
         share = remaining_share(
             energy_ratio,
-            range_ratio,
-            onset=np.clip(onset - sign * onset_error, *ONSETS),
+            np.asarray(range) / self.h_rms,
+            onset=self.onset(shifted, range),
             relative_compliance=layer_compliance,
             load_scale=self.load_scale,
             law=self.law,
-            gain=gain,
+            gain=find_gain(energy_ratio, compliance, self.flow),
+            first_touch=np.interp(sign, (-1, 0, 1), (touch.high, touch.value, touch.low)),
         )
-        energy_ratio = energy_ratio * gain
-        lost = 1 - np.asarray(share)
-
-        # The relative error grows below the onset, the absolute one fades there. A law with a tail
-        # attracts across the mean gap, whatever happens at small gaps: there it fades faster.
-        below_onset = 1 - np.minimum(energy_ratio / onset, 1.0)
-        relative_error = (SHARE_ERROR + WEAK_ERROR * below_onset / (1 + range_ratio)) * lost
-        fading = np.minimum(energy_ratio / onset, 1.0)
-        absolute_error = LEAST_ERROR * fading ** np.where(np.equal(self.law, EXPONENTIAL), 1, 2)
-        share = share * (1 + relative_error) ** sign + sign * absolute_error * lost
-
-        # Layers are less certain the further the longest waves are from those of a half-space.
-        compliance_lost = 1 - layer_compliance
-        layer_error = np.where(
-            sign < 0,
-            LAYER_LESS * np.minimum(abs(compliance_lost), 1.0),
-            LAYER_MORE * np.maximum(compliance_lost, 0.0),
-        )
-        # Where material flows along a layer, the error of the gain stands for these.
-        layer_error = layer_error * (1 - np.asarray(self.flow))
-        skin_error = np.where(sign < 0, SKIN_LESS, SKIN_MORE) * np.maximum(1 - compliance, 0.0)
-        skin_error = np.where(self.is_skin, skin_error, 0.0)
-        share = share + sign * (layer_error + skin_error) * fading * lost
+        # Where next to nothing remains an error is absolute, and fades with the adhesion.
+        fading = np.minimum(self._energy_ratio(length) / self.onset(length, range), 1.0) ** 2
+        share = share + sign * fading * find_spread("spectrum", "share").high
         if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
-            share = self._bound_by_half_space(share, adhesion_length, range, sign)
+            share = self._bound_by_half_space(share, length, range, sign)
 
         # Full contact is a state that the surfaces may take.
         return np.clip(share, np.maximum(full_contact_share, 0.0), 1.0)
+
+    def _find_error(self, adhesion_length, range) -> NDArray:
+        """Error of the logarithm of the work of adhesion, which covers 90 %."""
+        # Other solids are less certain the further their compliance is from a half-space's, and
+        # layers on a film, which no half-space bounds, by as much at any compliance.
+        compliance = np.asarray(self.relative_compliance)
+        flow = np.asarray(self.flow)
+        is_layer = ~np.asarray(self.is_skin)
+        bound = np.nan if self.half_space_energy is None else self.half_space_energy
+        is_on_film = is_layer & np.isnan(bound) & (compliance != 1)
+        is_on_base = is_layer & ~is_on_film
+        weights = {
+            "film": 1.0 * is_on_film,
+            "layer": np.maximum(1 - compliance, 0.0) * (1 - flow) * is_on_base,
+            "thin": flow * is_on_base,
+            "skin": np.maximum(1 - compliance, 0.0) * ~is_layer,
+        }
+        by_solid = [weight * find_spread(kind, "ln_work").high for kind, weight in weights.items()]
+        # Beyond the waves that were simulated the onset may rise further.
+        onset = self.onset(adhesion_length, range)
+        simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
+        extrapolated = EXTRAPOLATION_ERROR * np.log(onset / np.asarray(simulated_onset))
+        # A contact of few waves is one realisation.
+        by_waves = [find_spread(kind, "ln_work").high for kind in CELLS.values()]
+        of_spectrum = np.interp(np.log(self.waves), np.log(list(CELLS)), by_waves)
+        errors = (of_spectrum, *by_solid, extrapolated)
+        independent = np.sqrt(sum(np.square(error) for error in errors))
+        return np.hypot(independent * self.anisotropy_error_factor, self.shape_error)
 
     def _replace_simulated(
         self, quantity: str, by_theory, adhesion_length, range, *others
@@ -254,7 +255,7 @@ class Roughness:
         return plain(values)
 
     def _bound_by_half_space(self, share, adhesion_length, range, sign) -> NDArray:
-        """Bound a share by that on a half-space; `sign` contains the factor on the errors.
+        """Bound a share by that on a half-space.
 
         A solid that is stiffer to every wave has no state of less energy than a half-space, and a
         softer one has none of more.
@@ -266,6 +267,8 @@ class Roughness:
             self.q0,
             energy,
             q1=self.q1,
+            anisotropy_error_factor=self.anisotropy_error_factor,
+            waves=self.waves,
             rms_slope=self.rms_slope,
             law=self.law,
             shape=self.shape,
@@ -378,7 +381,8 @@ class Roughness:
         """
         share = np.asarray(self.share(adhesion_length, range, sign))
         energy_ratio = self._energy_ratio(adhesion_length)
-        with_jumps = np.minimum(HYSTERESIS * share, 1.0)
+        jumps = np.exp(find_spread("spectrum", "ln_separation").high)
+        with_jumps = np.minimum(jumps * share, 1.0)
         pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / energy_ratio)
         high_limit = np.maximum(with_jumps, pinned)
         return plain(np.where(np.asarray(sign) > 0, high_limit, share))
@@ -397,14 +401,16 @@ class Roughness:
         takes it where full contact, `pressed` with that pressure over E*, lasts.
         """
         length = np.asarray(adhesion_length)
-        predicted = np.asarray(
-            length
-            / self.distance(length, range)
-            * self.share(length, range, sign)
-            * (1 + PULL_OFF_ERROR) ** (np.asarray(sign) * self.anisotropy_error_factor)
+        is_theory = np.equal(self.simulated, None)
+        of_theory = find_spread("spectrum", "ln_tension")
+        of_states = Limited(value=0.0, low=-STATES_TENSION_ERROR, high=STATES_TENSION_ERROR)
+        value, low, high = (
+            np.where(is_theory, *pair) for pair in zip(of_theory, of_states, strict=True)
         )
-        by_theory = np.equal(self.simulated, None)
-        predicted = predicted * np.where(by_theory, HYSTERESIS, 1.0) ** np.clip(sign, 0.0, 1.0)
+        sign = np.asarray(sign)
+        correction = value + np.where(sign < 0, value - low, high - value) * sign
+        share = self.share(length, range, sign)
+        predicted = length / self.distance(length, range) * share * np.exp(correction)
         # Towards full contact, which was not simulated, only the strength bounds the high limit.
         log_known = np.log(PULL_OFF_KNOWN)
         log_unknown = np.log(PULL_OFF_UNKNOWN)
@@ -676,6 +682,7 @@ def predict(
     most_separation = float(rough.separation(length, range, 1))
     least_tension = float(rough.tension(length, range, -1, pressed))
     most_tension = float(rough.tension(length, range, 1, pressed))
+    late = float(np.exp(find_spread("spectrum", "ln_approach").low))
     softened = length * rough.relative_compliance
     maugis_range = range / find_strength(law)
     return Prediction(
@@ -683,7 +690,7 @@ def predict(
         separation=share,
         pull_off=float(rough.tension(length, range, 0, pressed)),
         area_at_zero_load=float(rough.area(length, range)),
-        approach_limits=(least_share / LATE, most_share),
+        approach_limits=(least_share * late, most_share),
         separation_limits=(least_share, most_separation),
         pull_off_limits=(least_tension, most_tension),
         energy_ratio=length / rough.elastic_energy,

@@ -41,8 +41,7 @@ EXPONENTS = (-0.999, 30.0)  #: between which that of the elastic energy is searc
 # Mean gap of tough contact at zero load in simulations, over that of contact without adhesion of
 # the same elastic energy: edges that attract lift the surfaces.
 LIFT = 1.4
-# Mean gap over h_rms at which the highest summit touches and nothing is deformed yet: 3.2 to 4.6
-# in cells of 16 to 256 of the longest waves. The largest of 10^6 independent heights is at 4.9.
+#: Mean gap over h_rms at which the highest summit touches and nothing is deformed yet.
 FIRST_TOUCH = 4.0
 
 
@@ -59,11 +58,10 @@ def decay_energy(gap: ArrayLike) -> tuple[NDArray, NDArray]:
 
 
 # Contact without adhesion at the mean gaps over h_rms that are searched; full contact is a tough
-# state. Beyond the first touch it stores no energy and has no area.
+# state.
 _GAPS = np.linspace(0.05, 10.0, 200)
-_TOUCHING = slice(np.count_nonzero(_GAPS < FIRST_TOUCH))
 _DECAY, _SLOPE = decay_energy(_GAPS)
-_ENERGY = np.where(_GAPS < FIRST_TOUCH, np.exp(-_DECAY), 0.0)
+_ENERGY = np.exp(-_DECAY)
 # The inverse of -ln F, from full contact on.
 _FINE_GAPS = np.geomspace(1e-9, _GAPS[-1], 1000)
 _FINE_LOG_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
@@ -215,23 +213,22 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
     return plain(np.max(rise, axis=0, initial=0.0) / LIFT)
 
 
-def weak_share(energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL) -> float | NDArray:
+def weak_share(
+    energy_ratio, range_ratio, load_scale=0.0, law=EXPONENTIAL, first_touch=FIRST_TOUCH
+) -> float | NDArray:
     """Share that remains where attraction leaves the contact without adhesion as it is.
 
     `law` is a name of `LAWS`, or an array of names.
     """
     x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
-    x, e, load_scale, law = np.broadcast_arrays(x, e, load_scale, law)
-    flat_x = x.ravel()
-    flat_e = e.ravel()
-    flat_scale = load_scale.ravel()
-    flat_law = law.ravel()
-    share = np.empty(x.size)
+    columns = np.broadcast_arrays(x, e, load_scale, law, first_touch)
+    rows = [column.ravel() for column in columns]
+    share = np.empty(columns[0].size)
     # Blocks of 400 pairs at all mean gaps fit the cache. Sorted by range, a block has few of them.
-    for block in np.array_split(np.argsort(flat_e), share.size // 400 + 1):
-        states = _find_weak_states(flat_x[block], flat_e[block], flat_scale[block], flat_law[block])
-        share[block] = _gain_of(states)
-    return plain(share.reshape(x.shape))
+    range_ratios = rows[1]
+    for block in np.array_split(np.argsort(range_ratios), share.size // 400 + 1):
+        share[block] = _gain_of(_find_weak_states(*(row[block] for row in rows)))
+    return plain(share.reshape(columns[0].shape))
 
 
 class _WeakStates(NamedTuple):
@@ -247,13 +244,18 @@ def _gain_of(states: _WeakStates) -> NDArray:
     return np.max(-states.energy / states.energy_ratio, axis=-1, initial=0.0)
 
 
-def _find_weak_states(energy_ratio, range_ratio, load_scale, law) -> _WeakStates:
+def _find_weak_states(
+    energy_ratio, range_ratio, load_scale, law, first_touch=FIRST_TOUCH
+) -> _WeakStates:
     x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
     x, e = np.broadcast_arrays(x, e)
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
+    # Beyond the first touch it stores no energy and has no area.
+    energy = np.where(np.asarray(first_touch)[..., None] > _GAPS, _ENERGY, 0.0)
     scale = np.sqrt(np.pi) * np.asarray(load_scale)[..., None]
-    area = np.zeros((*np.shape(load_scale), _GAPS.size))
-    area[..., _TOUCHING] = scipy.special.erf(scale * _SLOPE[_TOUCHING] * _ENERGY[_TOUCHING])
+    touching = slice(np.count_nonzero(np.max(first_touch) > _GAPS))
+    area = np.zeros(np.broadcast_shapes(energy.shape, scale.shape))
+    area[..., touching] = scipy.special.erf((scale * _SLOPE * energy)[..., touching])
     # Mean attraction is costly and depends on the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
     attraction = _mean_attraction(ranges)[place.reshape(e.shape)]
@@ -267,7 +269,7 @@ def _find_weak_states(energy_ratio, range_ratio, load_scale, law) -> _WeakStates
         ranges, place = np.unique(e[law == name], return_inverse=True)
         attraction[law == name] += _mean_excess(ranges, name)[place]
     x = x[..., None]
-    return _WeakStates(x, _ENERGY - x * np.maximum(attraction, area), area)
+    return _WeakStates(x, energy - x * np.maximum(attraction, area), area)
 
 
 @cache
@@ -349,6 +351,7 @@ def remaining_share(
     load_scale: ArrayLike = 0.0,
     law: ArrayLike = EXPONENTIAL,
     gain: ArrayLike = 1.0,
+    first_touch: ArrayLike = FIRST_TOUCH,
 ) -> float | NDArray:
     """Share that remains in the deeper of both states, weak and tough.
 
@@ -360,7 +363,7 @@ def remaining_share(
     `thin_layers`.
     """
     tough = np.asarray(tough_share(energy_ratio, onset))
-    weak = weak_share(energy_ratio, range_ratio, load_scale, law)
+    weak = weak_share(energy_ratio, range_ratio, load_scale, law, first_touch)
     share = np.maximum(tough, weak)
     independence = np.maximum(1 - np.asarray(relative_compliance), 0.0) ** 2
     if np.any(independence > 0):

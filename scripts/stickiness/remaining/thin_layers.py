@@ -20,7 +20,6 @@ from stickiness.solids import Solid
 FLOW_GAIN = -0.35
 GAIN_BY_COMPLIANCE = 0.155
 GAIN_BY_RATIO = 0.3
-GAIN_ERROR = 0.3  # of that ln, chosen on the same half
 
 
 def find_flow(solid: Solid, q: ArrayLike) -> float | NDArray:
@@ -39,7 +38,6 @@ def find_gain(
     energy_ratio: ArrayLike,
     relative_compliance: ArrayLike,
     flow: ArrayLike,
-    sign: ArrayLike = 0.0,
 ) -> NDArray:
     """Factor on the energy ratio at which springs keep as much as a layer; at least 1.
 
@@ -51,12 +49,10 @@ def find_gain(
         S of the longest waves.
     flow : array
         As of `find_flow` for the longest waves; 0 leaves springs as they are.
-    sign : array
-        -1 or +1 for the low or high limit of the factor.
     """
     log_gain = (
         FLOW_GAIN
         - GAIN_BY_COMPLIANCE * np.log(np.minimum(relative_compliance, 1.0))
         - GAIN_BY_RATIO * np.log(energy_ratio)
     )
-    return np.maximum(np.exp(flow * (log_gain + sign * GAIN_ERROR)), 1.0)
+    return np.maximum(np.exp(flow * log_gain), 1.0)

@@ -11,37 +11,33 @@ Ciavarella, doi:10.1016/j.jmps.2018.02.013.) The closer one of the states is to 
 question, the sharper is the bound; with those of `height_simulation` it serves as the value.
 
 S rises with the range, because the attraction does at every gap, and w S is convex in w. So a
-share that was simulated at one range is a high limit for shorter ranges, and between two works of
-adhesion the chord of w S is one.
+share that was simulated at one range is a high limit for shorter ranges, and linear interpolation
+of w S between two works of adhesion is an upper bound. At a range shorter than the one simulated,
+the share lies between both bounds, at a place that was measured.
 
-What simulation on heights leaves open widens the limits further:
+What simulation on heights leaves open is an error of the work of adhesion, see `calibration`:
 
-- Waves below the grid, or below the resolution of the instrument, store additional energy. For the
-  value they raise the energy of every state in proportion. In the low limit the whole area that
-  attracts conforms to them, so that they take their energy of full contact off the work of
-  adhesion (Persson, doi:10.1140/epje/i2002-10019-7); in the high limit they do not count.
-- Heights are one realisation. The scatter of quarters tells how far one part of the surface
-  differs from another. What the whole lacks against its quarters, a larger surface may lack twice
-  as much against the whole.
+- Waves below the grid, or below the resolution of the instrument, store additional energy. They
+  raise the energy of every state in proportion, which divides the work of adhesion. Where little
+  remains they take more than that, see `SimulatedHeights.find_shift`.
+- Heights are one realisation. How far its quarters differ from the whole map tells how far that may
+  differ from the surface which it was cut from.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import special
 
+from stickiness.remaining.calibration import find_spread
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
-# At longer ranges than those simulated the states bound closely: what they miss is less than this,
-# over the product of what remains and what is lost, and absolute.
-MISSED = 0.15
-LEAST_MISSED = 0.005
-LEAST_LEFT = 1e-6  # of the work of adhesion
-TREND = 2.0  # of a larger surface against the whole map, over that of the whole against quarters
+DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
+#: Adhesion lengths over the energy of full contact at which thresholds of parts are looked for
+_LENGTHS = np.geomspace(1e-7, 1e4, 331)
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,24 +135,49 @@ class TrialStates:
             attraction[row] = (self.gap_share * potential).sum(axis=1)
         return attraction[place] - self.elastic_energy / adhesion_length[:, None]
 
-    def high_limit(
+    def find_high_bound(
         self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL
     ) -> NDArray:
-        """High limit of the share, ``(n,)``; as `share`."""
-        # The length simulated that is next below, whose range is the shorter one.
+        """High bound of the share at ranges up to those simulated, ``(n,)``; as `share`."""
         lengths = self.simulated_length
-        below = np.maximum(np.searchsorted(lengths, adhesion_length, side="right") - 1, 0)
         # The chord of length * share. That begins at zero, and beyond the last length its slope,
         # the mean attraction, is at most 1.
         gains = np.append(0.0, lengths * self.simulated_share)
         beyond = np.maximum(adhesion_length - lengths[-1], 0.0)
         chord = np.interp(adhesion_length, np.append(0.0, lengths), gains) + beyond
         # What the law attracts beyond the one simulated.
-        excess = _find_excess(range, law, self.simulated_range[below])
-        share = self.share(adhesion_length, range, law)
-        close = share + MISSED * share * (1 - share) + LEAST_MISSED
-        is_longer = range > self.simulated_range[below]
-        return np.minimum(np.where(is_longer, close, chord / adhesion_length + excess), 1.0)
+        excess = _find_excess(range, law, self._find_simulated_range(adhesion_length))
+        return np.minimum(chord / adhesion_length + excess, 1.0)
+
+    def _find_simulated_range(self, adhesion_length: NDArray) -> NDArray:
+        """Range simulated at the length next below, which is the shorter one."""
+        below = np.searchsorted(self.simulated_length, adhesion_length, side="right") - 1
+        return self.simulated_range[np.maximum(below, 0)]
+
+    def share_between(
+        self, adhesion_length: NDArray, range: NDArray, law: str, sign: NDArray
+    ) -> NDArray:
+        """Share that remains, between both bounds, ``(n,)``; as `share`.
+
+        `sign` is -1 or +1 for the low or high limit of its place between them, 0 for the value.
+        States simulated at this range or a shorter one bound the share closely.
+        """
+        low_bound = self.share(adhesion_length, range, law)
+        high_bound = self.find_high_bound(adhesion_length, range, law)
+        ratio = range / self._find_simulated_range(adhesion_length)
+        spread = find_spread("states", "place")
+        # It is the further up, the stronger the adhesion is, and the shorter its range.
+        place = np.interp(sign, (-1, 0, 1), (spread.low, spread.value, spread.high))
+        place = place * adhesion_length / self.full_contact_energy
+        place = np.clip(place * np.maximum(1 - ratio, 0.0) ** 2, 0.0, 1.0)
+        return low_bound + place * np.maximum(high_bound - low_bound, 0.0)
+
+    def find_threshold(self, range: float, law: str, wanted: float) -> float:
+        """Logarithm of the adhesion length at which a share remains, within those searched."""
+        lengths = _LENGTHS * self.full_contact_energy
+        shares = self.share(lengths, np.full(lengths.shape, range), law)
+        # Shares fall a little where full contact takes over from states that are not its own.
+        return float(np.interp(wanted, np.maximum.accumulate(shares), np.log(lengths)))
 
 
 def _find_excess(range: NDArray, law: str, simulated_range: NDArray) -> NDArray:
@@ -177,6 +198,8 @@ class SimulatedHeights:
     #: Energy of full contact of the map's waves up to the cutoff, per nominal area [length]
     resolved_energy: float
     pixel: float  #: of the grid simulated [length]
+    #: Errors by the scatter of the parts, of ranges and laws asked for before
+    _errors: dict[tuple[float, str], float] = field(init=False, repr=False, default_factory=dict)
 
     def without_adhesion(self) -> Self:
         """Return the states that were simulated without adhesion, and full contact."""
@@ -204,38 +227,46 @@ class SimulatedHeights:
         sign : (n,) array
             0 for the value, -1 or +1 for its low or high limit, between them in proportion.
         """
-        in_proportion = adhesion_length / (1 + lacking)
-        value = self.whole.share(in_proportion, range, law)
-        of_quarters = [quarter.share(in_proportion, range, law) for quarter in self.quarters]
-        more_error, less_error = _find_patch_errors(value, np.array(of_quarters))
-        # The work of adhesion that is left where all that attracts conforms to the waves.
-        least_left = LEAST_LEFT * adhesion_length
-        left = adhesion_length - lacking * self.whole.full_contact_energy
-        low = self.whole.share(np.maximum(left, least_left), range, law) * left / adhesion_length
-        low = np.where(left > least_left, np.minimum(low, value), 0.0) - less_error
-        high = self.whole.high_limit(adhesion_length, range, law) + more_error
-        distance = np.where(sign > 0, np.maximum(high - value, 0.0), value - low)
-        return np.clip(value + sign * distance, 0.0, 1.0)
+        shift = self.find_shift(adhesion_length, range, law, lacking, sign)
+        share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, sign)
+        return np.clip(share + sign * find_spread("states", "share").high, 0.0, 1.0)
+
+    def find_shift(
+        self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray, sign: NDArray
+    ) -> NDArray:
+        """Logarithm of the factor on the work of adhesion, ``(n,)``; arguments as of `share`."""
+        ranges, place = np.unique(range, return_inverse=True)
+        of_patch = np.array([self._find_patch_error(float(value), law) for value in ranges])
+        # Waves that lack take their energy, and more where little remains: they part summits.
+        stored = np.log1p(lacking)
+        lost = 1 - self.whole.share(adhesion_length / (1 + lacking), range, law)
+        beyond = np.sqrt(stored) * lost**3
+        spread = find_spread("states", "unresolved")
+        of_waves = np.where(sign < 0, spread.value - spread.low, spread.high - spread.value)
+        error = np.hypot(of_patch[place], of_waves * beyond)
+        return spread.value * beyond - stored + sign * error
+
+    def _find_patch_error(self, range: float, law: str) -> float:
+        """Error by what the quarters of a map differ from it, at the share wanted by default."""
+        if (range, law) not in self._errors:
+            parts = (self.whole, *self.quarters)
+            whole, *quarters = (part.find_threshold(range, law, DEFAULT_SHARE) for part in parts)
+            distance = float(np.sqrt(np.mean(np.square(np.subtract(quarters, whole)))))
+            least = find_spread("patch", "least").high
+            by_distance = find_spread("patch", "ln_work").high * distance
+            self._errors[range, law] = float(np.hypot(least, by_distance))
+        return self._errors[range, law]
 
     def area(self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray) -> NDArray:
         """Share of the nominal area in contact at zero load, ``(n,)``; arguments as of `share`."""
-        return self.whole.area(adhesion_length / (1 + lacking), range, law)
+        no_error = np.zeros(lacking.shape)
+        shift = self.find_shift(adhesion_length, range, law, lacking, no_error)
+        return self.whole.area(adhesion_length * np.exp(shift), range, law)
 
     def distance(
         self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray
     ) -> NDArray:
         """Distance over which what remains acts, ``(n,)``; arguments as of `share`."""
-        maugis_range = range / find_strength(law)
-        return self.whole.distance(adhesion_length / (1 + lacking), maugis_range)
-
-
-def _find_patch_errors(whole: NDArray, quarters: NDArray) -> tuple[NDArray, NDArray]:
-    """How much more and less may remain on a larger surface than on the whole map, ``(n,)`` each.
-
-    `quarters` has the shares on the quarters, ``(quarter, n)``. Errors cover 90 %.
-    """
-    count = len(quarters)
-    # Four independent quarters scatter twice as much as the whole.
-    scatter = special.stdtrit(count - 1, 0.95) * quarters.std(axis=0, ddof=1) / np.sqrt(count)
-    trend = TREND * (whole - quarters.mean(axis=0))
-    return np.hypot(scatter, np.maximum(trend, 0.0)), np.hypot(scatter, np.maximum(-trend, 0.0))
+        no_error = np.zeros(lacking.shape)
+        shift = self.find_shift(adhesion_length, range, law, lacking, no_error)
+        return self.whole.distance(adhesion_length * np.exp(shift), range / find_strength(law))

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.adhesive import solver as adhesive
-from stickiness.arguments import grid
+from stickiness.arguments import check_length, grid
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.repulsive.half_space import check_length
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import TractionLaw

@@ -253,6 +253,7 @@ def _stack_ends(
         half_space_energy=of_ends("half_space_energy"),
         is_skin=of_ends("is_skin"),
         anisotropy_error_factor=of_ends("anisotropy_error_factor"),
+        waves=of_ends("waves"),
         rms_slope=of_ends("rms_slope"),
         law=of_materials([material.law for material in materials]),
         film_response=of_ends("film_response"),

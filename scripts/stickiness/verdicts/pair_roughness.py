@@ -8,13 +8,13 @@ of a surface that was measured.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair, make_pair
+from stickiness.limited import Limited
 from stickiness.remaining.prediction import (
     FilmResponse,
     Roughness,
@@ -38,14 +38,6 @@ TOO_DIFFERENT = (
 )
 
 
-class LimitedAv(NamedTuple):
-    """a_V of a pair at both ends of its surface, ``(2,)`` each."""
-
-    value: NDArray
-    low: NDArray
-    high: NDArray
-
-
 @dataclass(frozen=True)
 class PairRoughness:
     """Roughness that a material meets on a surface."""
@@ -55,7 +47,7 @@ class PairRoughness:
     rms_curvature: NDArray  #: at both ends [1/m], ``(2,)``
     spectra: tuple[Spectrum, ...]  #: of both ends, of both solids if both are rough
     stiffening: NDArray  #: energy of full contact over that of a half-space, ``(2,)``
-    a_v: LimitedAv
+    a_v: Limited  #: at both ends of the surface, ``(2,)`` each
     not_judged: str  #: why the pair is not judged, a line each; empty if it is
 
     def meet_draws(self, material: Material, wanted_share: float) -> Pair | None:
@@ -146,7 +138,7 @@ def _find_a_v(
     ends: Roughness,
     rms_curvature: NDArray,
     spectra: tuple[Spectrum, ...],
-) -> tuple[LimitedAv, str]:
+) -> tuple[Limited, str]:
     """a_V of the pair at both ends, and why it is not known; then that of the surface alone."""
     a_v: tuple[SurfaceAv, ...] = surface.a_v
     doubt = ""
@@ -162,7 +154,7 @@ def _find_a_v(
     limited = [
         end_a_v.at(material.range / h_rms) for end_a_v, h_rms in zip(a_v, ends.h_rms, strict=True)
     ]
-    return LimitedAv(*np.transpose(limited)), doubt
+    return Limited(*np.transpose(limited)), doubt
 
 
 def _add_surfaces(
@@ -270,6 +262,7 @@ def _take_smooth_end(ends: Roughness) -> Roughness:
         half_space_energy=ends.half_space_energy[0],
         rms_slope=ends.rms_slope[0],
         anisotropy_error_factor=ends.anisotropy_error_factor[0],
+        waves=ends.waves[0],
         shape=ends.shape[0],
         shape_error=ends.shape_error[0],
     )

@@ -381,6 +381,7 @@ class Surface:
             half_space_energy=energy,
             is_skin=np.zeros(2, dtype=bool),
             anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
+            waves=np.full(2, self._waves),
             rms_slope=data.rms_slope.values,
             film_response=np.full(2, None),
             shape=np.full(2, self._find_shape("shape")),
@@ -404,6 +405,7 @@ class Surface:
             flow=np.float64(0.0),
             half_space_energy=energy,
             anisotropy_error_factor=np.float64(self._anisotropy_error_factor),
+            waves=self._waves,
             # Slopes of the draws are not kept; those of both ends hardly differ.
             rms_slope=self.ends.rms_slope.mean(),
             shape=self._find_shape("shape"),
@@ -453,6 +455,13 @@ class Surface:
     def _find_shape(self, name: str) -> np.float64:
         """What the shape of the heights changes, or its error; zero where no heights are."""
         return np.float64(self.data.get(name, 0.0))
+
+    @property
+    def _waves(self) -> np.float64:
+        """Longest waves along a side of the contact; infinite of a surface that is described."""
+        if np.isnan(self.contact):
+            return np.float64(np.inf)
+        return np.float64(self.contact * float(self.data.q0) / (2 * np.pi))
 
     @property
     def _anisotropy_error_factor(self) -> float:

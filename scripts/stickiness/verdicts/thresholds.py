@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -16,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import RANGES
 from stickiness.criteria.pair import Pair
+from stickiness.limited import Limited
 from stickiness.persson.theory import Persson
 from stickiness.remaining.thin_layers import find_flow
 from stickiness.solids import Layer, Skin, Solid
@@ -47,15 +47,7 @@ _NOT_BRACKETED = -1
 Remain = Callable[[Pair], NDArray]  # shares (n, end, limit), see `remain_at_ends`
 
 
-class Threshold(NamedTuple):
-    """A number with its limits; 0 or infinity where no value sticks, or all that were searched."""
-
-    value: float
-    low: float
-    high: float
-
-
-UNKNOWN = Threshold(np.nan, np.nan, np.nan)
+UNKNOWN = Limited(np.nan, np.nan, np.nan)
 THRESHOLDS = {  #: unit, description, and why a value may be missing
     "rms_height_threshold": ("m", "rms height below which the wanted share remains", "not known"),
     "thickness_threshold": ("m", "thickness above which the wanted share remains", "no layer"),
@@ -74,7 +66,7 @@ def find_thresholds(
     cell: xr.Dataset,
     contact_area: float,
     wanted_share: float,
-) -> dict[str, Threshold]:
+) -> dict[str, Limited]:
     """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply.
 
     `cell` has the judged modulus threshold of the pair.
@@ -99,7 +91,7 @@ def find_thresholds(
     }
 
 
-def _find_rate_of(material: Material, cell: xr.Dataset) -> Threshold:
+def _find_rate_of(material: Material, cell: xr.Dataset) -> Limited:
     """Frequency below which a material sticks; NaN of an elastic solid, and after a dwell."""
     if not material.depends_on_rate or material.dwell is not None:
         return UNKNOWN
@@ -118,7 +110,7 @@ def remain_on_draws(draws: Pair) -> NDArray:
     return find_share_quantiles(draws)[:, None]
 
 
-def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Threshold:
+def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Limited:
     """Find the rms height [m] below which the wanted share remains; `h_rms` is what `pair` has.
 
     `pair` has arrays of the ends of what is known of a surface, or of draws.
@@ -133,7 +125,7 @@ def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -
 
 def find_thickness(
     pair: Pair, solid: Solid, spectra: list[Spectrum], remain: Remain = remain_at_ends
-) -> Threshold | None:
+) -> Limited | None:
     """Find the thickness [m] of a layer above which the wanted share remains; None of other solids.
 
     `spectra` are of the ends; draws change as both do on average. Others as of `find_rms_height`.
@@ -168,7 +160,7 @@ def find_thickness(
     )
 
 
-def find_rate(storage: Modulus, moduli: ArrayLike) -> Threshold:
+def find_rate(storage: Modulus, moduli: ArrayLike) -> Limited:
     """Find the frequency [Hz] up to which a storage modulus stays below others: low, value, high.
 
     It is searched within a table, and over all frequencies of a Prony series.
@@ -184,7 +176,7 @@ def find_rate(storage: Modulus, moduli: ArrayLike) -> Threshold:
 
 def find_threshold(
     remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float
-) -> Threshold:
+) -> Limited:
     """Find where shares fall below the wanted one from `start`, where they are large, to `stop`.
 
     0 or infinity if that is beyond the start or the stop. `remain` makes shares (n, end, limit) of
@@ -207,7 +199,7 @@ def find_threshold(
     if is_within.any():
         bracket = (x[before[is_within] - 1], x[before[is_within]])
         crossing[is_within] = _find_crossings(remain, bracket, np.nonzero(is_within), wanted)
-    return Threshold(
+    return Limited(
         value=float(crossing[-1, 1]), low=float(crossing.min()), high=float(crossing.max())
     )
 
@@ -240,7 +232,7 @@ def _find_crossings(
 
 def find_pressure(
     spectra: list[Spectrum], solid: Solid, pair: Pair, area: float = CONTACT_AREA
-) -> Threshold:
+) -> Limited:
     """Find the mean pressure [Pa] at an area of contact, without adhesion.
 
     The value is at the last of the `spectra`, the rough one, or with draws between the ends.
@@ -256,6 +248,6 @@ def find_pressure(
     pressures = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
     is_drawn = np.size(pair.h_rms) > len(spectra)
     value = np.exp(np.log(pressures[:, 1]).mean()) if is_drawn else pressures[-1, 1]
-    return Threshold(
+    return Limited(
         value=float(value), low=float(pressures[:, 0].min()), high=float(pressures[:, 2].max())
     )

@@ -15,6 +15,7 @@ from stickiness import __version__
 from stickiness.criteria.pair import MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
+from stickiness.limited import Limited
 from stickiness.plausibility import LIMITS, PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE, LEAST_LENGTH, PULL_OFF_UNKNOWN
 from stickiness.spectrum.interface import Spectrum
@@ -22,19 +23,11 @@ from stickiness.verdicts.judgement import DECIDED_BY, LARGER, judge
 from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
-from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN, Threshold
+from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
 
 LEAST_STRESS = 1.0  #: [Pa]; beyond these two nobody can use a stress or a modulus
 MOST_STRESS = 1e13
 LEAST_SHOWN = 1e-3  #: share of the work of adhesion below which texts say 0 %
-
-
-class Limited(NamedTuple):
-    """A number with the limits of all that is unknown; they cover 90 %."""
-
-    value: float
-    low: float
-    high: float
 
 
 class LargerContact(NamedTuple):
@@ -265,11 +258,11 @@ def verdict(
 class Thresholds:
     """What would make a material stick to a surface, all else being as it is."""
 
-    modulus: Threshold  #: sticks below [Pa]; Young's modulus, or E* if `poisson` is None
-    rms_height: Threshold  #: sticks below [m]
-    thickness: Threshold | None  #: sticks above [m]; None of a half-space
-    pressure: Threshold  #: mean pressure [Pa] that makes the area of contact, without adhesion
-    rate: Threshold | None  #: sticks below [Hz]; None of an elastic solid, and after a dwell
+    modulus: Limited  #: sticks below [Pa]; Young's modulus, or E* if `poisson` is None
+    rms_height: Limited  #: sticks below [m]
+    thickness: Limited | None  #: sticks above [m]; None of a half-space
+    pressure: Limited  #: mean pressure [Pa] that makes the area of contact, without adhesion
+    rate: Limited | None  #: sticks below [Hz]; None of an elastic solid, and after a dwell
 
 
 def thresholds(
@@ -314,13 +307,13 @@ def thresholds(
     pair = read_pair(surface, material, length=length, **properties)
     cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
 
-    def collect(name: str) -> Threshold | None:
-        threshold = Threshold(*(float(cell[f"{name}{ending}"]) for ending in SIGNS))
+    def collect(name: str) -> Limited | None:
+        threshold = Limited(*(float(cell[f"{name}{ending}"]) for ending in SIGNS))
         return None if np.isnan(threshold).all() else threshold
 
     moduli = find_limited(cell, "modulus_threshold")
     if int(cell.verdict) == NOT_JUDGED:
-        return Thresholds(Threshold(*moduli), UNKNOWN, None, UNKNOWN, None)
+        return Thresholds(Limited(*moduli), UNKNOWN, None, UNKNOWN, None)
 
     # Where any modulus would do, no number is a threshold.
     judged = pair.material
@@ -330,7 +323,7 @@ def thresholds(
     as_given = 1.0 if judged.poisson is None else 1 - judged.poisson**2
     moduli = [as_given * x if x < any_modulus else np.inf for x in moduli]
     return Thresholds(
-        modulus=Threshold(*moduli),
+        modulus=Limited(*moduli),
         rms_height=collect("rms_height_threshold"),
         thickness=collect("thickness_threshold"),
         pressure=collect("contact_pressure"),

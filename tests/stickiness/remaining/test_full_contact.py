@@ -66,5 +66,5 @@ def test_same_energy_as_contact_mechanics(shape):
         young = 1 - 0.3**2 if options else 1.0
         substrate = peer.PeriodicFFTElasticHalfSpace(shape, young, (1.0, 1.0), **options)
         stored = substrate.evaluate(heights - heights.mean(), pot=True, forces=True)[0]
-        ours = full_contact_energy(heights, 1.0, 1.0, solid, edges="given")
+        ours = full_contact_energy(heights, 1.0, (1.0, 1.0), solid, edges="given")
         assert ours == pytest.approx(float(stored), rel=1e-9)

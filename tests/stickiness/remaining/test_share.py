@@ -8,7 +8,8 @@ from scipy.special import ndtr
 from common import remaining_table
 from stickiness import repulsive, surface
 from stickiness.remaining import share as module
-from stickiness.remaining.prediction import LASTING, LATE, Roughness
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.prediction import LASTING, Roughness
 from stickiness.remaining.share import (
     FIRST_TOUCH,
     LIFT,
@@ -209,8 +210,9 @@ def test_surfaces_that_nothing_was_fitted_to():
     for name in ("bound", "separation"):
         assert np.all(np.abs(rows.predicted / rows[name] - 1) < 0.25)
     # The theory has no hysteresis: approach lies within its limits, up to 25.1 % below the value.
+    late = np.exp(find_spread("spectrum", "ln_approach").low)
     assert np.all(
-        (rows.predicted_low / LATE < rows.approach) & (rows.approach < rows.predicted_high)
+        (rows.predicted_low * late < rows.approach) & (rows.approach < rows.predicted_high)
     )
     # Near the onset.
     rows = held[(held.energy_ratio <= 0.4) & (held.zone < 0.3)]
@@ -235,15 +237,21 @@ def test_preload_does_nothing_where_full_contact_does_not_last():
     assert np.all(pressed.pull_off < pressed.adhesion_length / pressed.range)
 
 
-@pytest.mark.parametrize("held", [False, True])
 @pytest.mark.parametrize("little", [False, True])
-def test_limits_cover_what_was_simulated(held, little):
-    """On surfaces of many waves, where more than 5 % remains and where less does."""
+def test_limits_cover_what_was_simulated(little):
+    """On surfaces of many waves, where more than 5 % remains and where less does.
+
+    Limits of 90 % hold more of these, for the theory was fitted to most of them. In cells of two by
+    two waves, which scatter, they hold seven of eight.
+    """
     table = remaining_table.read(TABLE)
-    rows = table[table.wide & (table.held == held) & ((table.bound < 0.05) == little)]
-    rows = rows[~find_sharp(rows)]
-    assert len(rows) > 10
-    assert find_inside(rows).mean() >= 0.9
+    table = table[((table.bound < 0.05) == little) & ~find_sharp(table)]
+    many = table[table.window >= 4]
+    few = table[table.window == 2]
+    assert len(many) > 20
+    assert len(few) > 30
+    assert find_inside(many).mean() >= 0.9
+    assert 0.7 <= find_inside(few).mean() <= 0.93
 
 
 def find_sharp(table):
@@ -256,7 +264,7 @@ def find_inside(rows):
 
 
 def test_limits_cover_edges_sharper_than_the_finest_waves():
-    """All in cells of four waves; seven of eight in cells of two, which scatter."""
+    """Nearly all in cells of four waves; three of four in cells of two, which scatter."""
     table = remaining_table.read(TABLE)
     rows = table[find_sharp(table)]
     many = rows[rows.window == 4]
@@ -264,7 +272,7 @@ def test_limits_cover_edges_sharper_than_the_finest_waves():
     assert len(many) > 40
     assert len(few) > 200
     assert find_inside(many).mean() >= 0.95
-    assert find_inside(few).mean() >= 0.85
+    assert 0.7 <= find_inside(few).mean() <= 0.85
 
 
 @pytest.mark.parametrize("hurst", [0.5, 0.8])

@@ -47,12 +47,16 @@ def predict_share(thickness, ratio, reach, energy, half_space_energy, sign):
     return rough.share(ratio * energy, reach, sign)
 
 
-@pytest.mark.parametrize("state", MINIMISED, ids=str)
-def test_limits_hold_what_an_independent_minimiser_finds(state):
-    *inputs, share = state
-    low, high = (predict_share(*inputs, sign) for sign in (-1, 1))
-    assert low <= share <= high
-    assert high - low < 0.36
+def test_limits_hold_what_an_independent_minimiser_finds():
+    """Limits of 90 %, which nothing here was fitted to: 18 of 20, and not by being wide."""
+    inside = []
+    widths = []
+    for *inputs, share in MINIMISED:
+        low, high = (predict_share(*inputs, sign) for sign in (-1, 1))
+        inside.append(low <= share <= high)
+        widths.append(high - low)
+    assert 0.85 <= np.mean(inside) <= 0.95
+    assert np.mean(widths) < 0.19
 
 
 def test_the_flow_by_the_limits_of_the_compliance():
@@ -66,7 +70,7 @@ def test_the_flow_by_the_limits_of_the_compliance():
 
 def test_without_flow_layers_are_springs():
     ratios = np.geomspace(0.01, 10, 7)
-    assert (find_gain(ratios, relative_compliance=0.1, flow=0.0, sign=1.0) == 1).all()
+    assert (find_gain(ratios, relative_compliance=0.1, flow=0.0) == 1).all()
 
 
 def test_gain_grows_as_layers_thin_and_adhesion_weakens():

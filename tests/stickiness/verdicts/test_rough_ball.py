@@ -57,7 +57,9 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     ball = pull_off_of_ball(measured, TAPE, RADIUS)
     low, high = ball.force_limits
     assert 0 <= low < ball.force < high
-    assert ball.force < ball.smooth_force
+    # Roughness takes work away, but acts over a longer distance. That brings Maugis' ball closer to
+    # the DMT limit: up to 4/3 of JKR.
+    assert ball.force < 4 / 3 * ball.smooth_force
     # The median of the draws without errors of the model, which widen the limits.
     draws = combine_roughness(TAPE, measured).meet_draws(TAPE, DEFAULT_SHARE)
     length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus

@@ -1,0 +1,18 @@
+"""A number with limits, in the one form that all of the project uses."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from numpy.typing import ArrayLike
+
+
+class Limited(NamedTuple):
+    """A number, or an array of numbers, with the limits of all that is unknown; they cover 90 %.
+
+    0 or infinity in a limit of a threshold means that no value sticks, or every one.
+    """
+
+    value: ArrayLike
+    low: ArrayLike
+    high: ArrayLike

@@ -1,0 +1,83 @@
+"""Limits made of the committed tables: that they are those of the code, and hold what they say."""
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pandas as pd
+import pytest
+from helpers.entries import complete
+
+from common.config import load
+from common.config.campaigns import LimitCampaign
+from limits import calibrate_limits
+from stickiness import datasets
+from stickiness.remaining import calibration
+
+ROOT = Path(__file__).parents[2]
+TABLES = ("heights", "remaining", "solids", "patches", "ranges", "unresolved")
+LEAST = 0.82  #: share of the unseen simulations of a kind within limits of 90 %
+#: Median ratio of both limits of the threshold, on unseen surfaces, that limits may not exceed.
+WIDEST = {
+    "spectrum": 1.4,
+    "two waves": 2.0,
+    "one wave": 4.0,
+    "skewness": 5.5,
+    "layer": 1.8,
+    "film": 7.0,
+    "thin": 1.6,
+    "skin": 1.8,
+    "patch": 1.9,
+}
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture(scope="module")
+def calibrated(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("limits")
+    output = SimpleNamespace(
+        **{
+            name: folder / f"limits{ending}"
+            for name, ending in (("table", ".csv"), ("summary", ".md"), ("dataset", ".nc"))
+        }
+    )
+    campaign = complete(LimitCampaign, **load.load(ROOT / load.CAMPAIGNS["limits"]))
+    job = SimpleNamespace(
+        input=[ROOT / f"config/{table}.csv" for table in TABLES],
+        output=output,
+        params=SimpleNamespace(touching=campaign["touching"]),
+    )
+    calibrate_limits.main(job)
+    return output
+
+
+def test_the_committed_limits_are_those_of_the_committed_tables(calibrated):
+    made = pd.read_csv(calibrated.table, comment="#").set_index(["kind", "quantity"])
+    committed = pd.read_csv(ROOT / "config/limits.csv", comment="#")
+    committed = committed.set_index(["kind", "quantity"])
+    assert made.index.equals(committed.index)
+    numbers = ["value", "low", "high", "fitted", "unseen"]
+    np.testing.assert_allclose(made[numbers], committed[numbers], rtol=1e-3, atol=1e-9)
+
+
+def test_the_library_reads_the_committed_table():
+    spread = calibration.find_spread("patch", "ln_work")
+    committed = pd.read_csv(ROOT / "config/limits.csv", comment="#")
+    committed = committed.set_index(["kind", "quantity"]).loc[("patch", "ln_work")]
+    assert tuple(spread) == tuple(committed[["value", "low", "high"]])
+    with pytest.raises(KeyError):
+        calibration.find_spread("patch", "nothing")
+
+
+def test_limits_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrated):
+    errors = datasets.read(calibrated.dataset, ["kind", "role", "needed", "limit"])
+    unseen = errors.to_dataframe().query("role == 'unseen'")
+    assert set(unseen.kind) == set(WIDEST)
+    is_inside = unseen.needed <= unseen.limit
+    # Too wide is as wrong as too narrow.
+    assert 0.86 <= is_inside.mean() <= 0.96
+    for kind, inside in is_inside.groupby(unseen.kind):
+        assert inside.mean() >= LEAST, kind
+    for kind, limits in unseen.groupby("kind").limit:
+        assert np.exp(2 * limits.median()) <= WIDEST[kind], kind
