@@ -1,5 +1,7 @@
 """Hash of the code that a script runs. Comments, docstrings and layout do not change it.
 
+A table of a module, which has its name and lies beside it, is part of its code.
+
 `source_hash` and `save_cache` share one `SourceReader`, which parses every file once a run and
 keeps what it read for the next run.
 """
@@ -58,6 +60,8 @@ class SourceReader:
             if path not in digests:
                 digests[path], imported = self.read(path)
                 queue += [self.modules[name] for name in imported if name in self.modules]
+                table = path.with_suffix(".csv")
+                queue += [table] if table.exists() else []
         lines = sorted(f"{path.relative_to(self.scripts)}: {d}" for path, d in digests.items())
         return hashlib.sha256("\n".join(lines).encode()).hexdigest()[:16]
 
@@ -84,6 +88,8 @@ class SourceReader:
 
 def parse(path: Path) -> tuple[str, list[str]]:
     """Return the digest of the code of a file without its docstrings, and the names it imports."""
+    if path.suffix != ".py":
+        return hashlib.sha256(path.read_bytes()).hexdigest(), []
     tree = ast.parse(path.read_bytes())
     for node in ast.walk(tree):
         documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef

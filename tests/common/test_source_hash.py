@@ -49,6 +49,14 @@ def test_a_change_of_code_that_runs_changes_the_hash(hash_now, name):
     assert hash_now(name, FILES[name]) == before
 
 
+def test_a_table_beside_a_module_is_part_of_its_code(hash_now):
+    before = hash_now()
+    with_table = hash_now("part/used.csv", "a,b\n1,2\n")
+    assert with_table != before
+    assert hash_now("part/used.csv", "a,b\n1,3\n") != with_table
+    assert hash_now("part/unused.csv", "a,b\n") == hash_now()
+
+
 @pytest.mark.parametrize(
     ("name", "text"),
     [

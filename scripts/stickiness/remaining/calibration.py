@@ -5,8 +5,8 @@ share is its value at the work of adhesion times exp(error). The threshold of a 
 limits value times exp(-error), and shares and thresholds agree.
 
 The errors are those of simulations beside predictions, in the tables of ``config/``, of which the
-rule `calibrate_limits` makes ``config/limits.csv``. The package holds that file, too. Limits cover
-90 %.
+rule `calibrate_limits` makes ``config/limits.csv``. The package holds that file, too, beside this
+module. Limits cover 90 %.
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ def find_spread(kind: str, quantity: str) -> Limited:
 @cache
 def _read_spreads() -> dict[tuple[str, str], Limited]:
     """Rows of the table by kind and quantity."""
-    with (resources.files("stickiness") / "limits.csv").open(encoding="utf-8") as file:
+    with (resources.files("stickiness.remaining") / "calibration.csv").open(
+        encoding="utf-8"
+    ) as file:
         rows = csv.DictReader(line for line in file if not line.startswith("#"))
         return {
             (row["kind"], row["quantity"]): Limited(
