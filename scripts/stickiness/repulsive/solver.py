@@ -84,13 +84,14 @@ class Contact(active_set.State):
 class ConvergenceError(RuntimeError):
     """The contact conditions were not met to the tolerance.
 
-    `contact` is the best iterate, `residual` its residual in units of h_rms.
+    `contact` is the best iterate, `residual` its residual in units of h_rms; None and NaN where
+    there is none.
     """
 
     def __init__(self, message: str, contact: Any):
         super().__init__(message)
         self.contact = contact
-        self.residual = contact.residual
+        self.residual = np.nan if contact is None else contact.residual
 
 
 def solve(

@@ -12,6 +12,7 @@ from references.contact import assert_contact_conditions, displacement, solve_di
 
 from stickiness import repulsive, spectrum, surface
 from stickiness.repulsive import half_space, subpixel
+from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import Layer
 
 
@@ -277,3 +278,9 @@ def test_convolutions_of_a_contact_on_a_thin_layer():
     contact = repulsive.solve(heights, 2 * np.pi, 2.0, tol=1e-8, solid=Layer(0.3, 0.5))
     assert contact.residual <= 1e-8
     assert contact.fft_pairs < 74
+
+
+def test_an_error_without_an_iterate_has_no_residual():
+    error = ConvergenceError("no state converged", None)
+    assert error.contact is None
+    assert np.isnan(error.residual)
