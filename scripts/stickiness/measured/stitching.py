@@ -390,13 +390,13 @@ def draw(
     energy = moments["elastic_energy"]
     beyond = np.maximum(4 * energy / resolved[1] - 1, 0.0)
 
-    # Waves that the heights of the first measurement hold, measured or by the law.
-    is_held = is_resolved & (rings.q <= spectrum.held.q * (1 + 1e-9))
-    held_energy = levels @ np.where(is_held, spectrum.area * rings.q, 0.0) / 4
-    last = extend_to if extend_to is not None else ends
-    held_end = np.clip(spectrum.held.q, cutoff, last)
-    held_energy = held_energy + continuation.integrate(held_end, 1) / 4
-    unheld = np.maximum(energy / held_energy - 1, 0.0)
+    unheld = _find_unheld(
+        spectrum,
+        levels,
+        continuation,
+        energy=energy,
+        last=ends if extend_to is None else extend_to,
+    )
 
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
@@ -417,6 +417,27 @@ def draw(
         first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
         continuation=continuation,
     )
+
+
+def _find_unheld(
+    spectrum: MeasuredSpectrum,
+    levels: NDArray,
+    continuation: Continuation,
+    energy: NDArray,
+    last: ArrayLike,
+) -> NDArray:
+    """Energy that the first measurement does not hold over what it holds, `(count,)`.
+
+    `energy` is that of all waves up to the `last`.
+    """
+    q = spectrum.rings.q
+    cutoff = continuation.cutoff
+    is_held = q <= min(cutoff, spectrum.held.q) * (1 + 1e-9)
+    measured = levels @ np.where(is_held, spectrum.area * q, 0.0) / 4
+    # Beyond the cutoff the heights hold waves, too, as the law has them.
+    held_end = np.clip(spectrum.held.q, cutoff, last)
+    held = measured + continuation.integrate(held_end, 1) / 4
+    return np.maximum(energy / held - 1, 0.0)
 
 
 def _check_extension(spectrum: MeasuredSpectrum, extend_to: float | None) -> None:
