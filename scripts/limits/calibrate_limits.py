@@ -316,6 +316,7 @@ def calibrate_states(heights, ranges, unresolved):
     rows = ranges.dropna(subset="simulated")
     rows = rows[(rows.chord - rows.bound > LEAST_ROOM) & (rows.range_ratio < MOST_RATIO)]
     place = (rows.simulated - rows.bound) / (rows.chord - rows.bound)
+    # What lies below the bound, some 0.002, is the error of the grid, which `share` holds.
     scaled = (place / (1 - rows.range_ratio) ** 2 / rows.energy_ratio).clip(lower=0)
     yield describe("states", "place", find_middle(scaled, rows), rows, "ranges.csv")
 
@@ -326,7 +327,7 @@ def calibrate_states(heights, ranges, unresolved):
         ladder.append(unresolved.assign(scaled=error / (1 - share) ** 3))
     rows = pd.concat(ladder).dropna(subset="scaled")
     rows = rows[rows.lacking > LEAST_LACKING]
-    scaled = (rows.scaled / np.sqrt(np.log1p(rows.lacking))).clip(upper=0)
+    scaled = rows.scaled / np.sqrt(np.log1p(rows.lacking))
     yield describe("states", "unresolved", find_middle(scaled, rows), rows, "unresolved.csv")
 
 

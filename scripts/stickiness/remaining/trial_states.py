@@ -166,10 +166,13 @@ class TrialStates:
         high_bound = self.find_high_bound(adhesion_length, range, law)
         ratio = range / self._find_simulated_range(adhesion_length)
         spread = find_spread("states", "place")
-        # It is the further up, the stronger the adhesion is, and the shorter its range.
+        # It is the further up, the stronger the adhesion is, and the shorter its range. Beyond
+        # the strongest that was simulated, full contact is near, whose energy is known.
+        strongest = self.simulated_length[-1]
+        strength = np.minimum(adhesion_length, strongest**2 / adhesion_length)
+        strength = strength / self.full_contact_energy
         place = np.interp(sign, (-1, 0, 1), (spread.low, spread.value, spread.high))
-        place = place * adhesion_length / self.full_contact_energy
-        place = np.clip(place * np.maximum(1 - ratio, 0.0) ** 2, 0.0, 1.0)
+        place = np.clip(place * strength * np.maximum(1 - ratio, 0.0) ** 2, 0.0, 1.0)
         return low_bound + place * np.maximum(high_bound - low_bound, 0.0)
 
     def find_threshold(self, range: float, law: str, wanted: float) -> float:

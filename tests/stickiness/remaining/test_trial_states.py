@@ -92,8 +92,8 @@ def test_limits_hold_at_a_range_that_the_grid_does_not_resolve(kind):
         np.full(3, length), np.full(3, range_), law="exponential", sign=signs
     )
     assert np.all(np.diff(between) > 0)
-    assert low <= between[0]
-    assert between[2] <= high
+    assert low <= between[0] <= share
+    assert share / 1.05 < between[2] <= high
     assert between[1] == pytest.approx(share, rel=0.15)
 
 
@@ -229,7 +229,7 @@ def test_in_full_contact_waves_that_are_not_simulated_cost_their_energy(gaussian
     one = np.ones(1)
     arguments = (length * one, 1e-4 * one, "exponential", 0.3 * one)
     low, value = (gaussian.share(*arguments, sign * one)[0] for sign in (-1.0, 0.0))
-    assert value == pytest.approx(1 - 1.3 * energies[0] / length, abs=3e-3)
+    assert value == pytest.approx(1 - 1.3 * energies[0] / length, abs=2e-4)
     # Quarters differ from the whole by their energies.
     assert value - 3 * max(energies) / length < low <= value
 

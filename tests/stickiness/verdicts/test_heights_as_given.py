@@ -35,7 +35,7 @@ def find_truth(heights, adhesion_length, range_):
 @pytest.mark.parametrize("shortest", [4.0, 2.0])
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_share_is_that_of_the_heights_as_given(family, shortest):
-    heights = H_RMS * make_topography(family, N, waves=4, seed=11, shortest=shortest)
+    heights = H_RMS * make_topography(family, N, waves=3, seed=11, shortest=shortest)
     pixel = SIDE / N
     adhesion_length = ENERGY_RATIO * find_full_contact_energy(heights / H_RMS) * H_RMS**2 / SIDE
     range_ = np.sqrt(pixel * adhesion_length)
