@@ -37,8 +37,9 @@ def slope_angle(map):
     crossing = np.array([np.interp(-90, -angle, roughness) for angle in angles])
     expected = criteria.h_rms_limit(sorted_map.slope_parameter.values, 1.0, 1.0, a_v)
     worst = float(np.max(np.abs(crossing / expected - 1)))
-    ratio = sorted_map.h_rms_limit / sorted_map.h_rms_limit_edges
-    weak = sorted_map.h_rms_limit_edges > sorted_map.weak_limit
+    by_edges = sorted_map.h_rms_limit_edges.sel(limit="value")
+    ratio = sorted_map.h_rms_limit.sel(limit="value") / by_edges
+    weak = by_edges > sorted_map.weak_limit
     return Finding(
         crossing[-1],
         grade(False, worst < 0.01),
@@ -50,7 +51,7 @@ def slope_angle(map):
         a_v=a_v,
         largest_dmt=largest_dmt(a_v),
         shortest=parameters["shortest_over_range"],
-        weak=weak.where(sorted_map.h_rms_limit_edges.notnull()).mean(),
+        weak=weak.where(by_edges.notnull()).mean(),
         dmt_ratio=(ratio.min(), ratio.max()),
     )
 
@@ -80,7 +81,9 @@ def roughness_limits(map):
 
 def list_a_v(map):
     """a_V of the printed criterion, and of the derived one with its low and high end."""
-    return criteria.PRINTED_A_V, *(float(map[name]) for name in ("a_v", "a_v_low", "a_v_high"))
+    a_v = float(map.a_v)
+    error = float(map.a_v_total_error)
+    return criteria.PRINTED_A_V, a_v, a_v - error, a_v + error
 
 
 @claim(14)

@@ -13,7 +13,6 @@ from stickiness.criteria.pair import (
     MOST_STRAIN,
     NOT_JUDGED,
     REGIMES,
-    SIGNS,
     WORDS,
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -30,9 +29,9 @@ from stickiness.formatting import (
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
-from stickiness.verdicts.limits import find_limits, find_value
-from stickiness.verdicts.verdict import LEAST_SHOWN
+from stickiness.verdicts.limits import read_limited
 
+THRESHOLD = "modulus_threshold"
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
 NEAR = 0.1  # relative, within which more digits tell a modulus from its threshold
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
@@ -70,8 +69,8 @@ def arrange_pairs(verdicts, materials, labels):
 def describe_pair(pair, entry):
     """Verdict on a `pair`: `text` by column for readers, `sort` by column for sorting.
 
-    `entry` is that of its material in the configuration. Texts in `ends` are values at both ends of
-    the surface. A pair that is not judged has no numbers and comes last in every order.
+    `entry` is that of its material in the configuration. A pair that is not judged has no numbers
+    and comes last in every order.
     """
     code = int(pair.verdict)
     row = {
@@ -86,7 +85,6 @@ def describe_pair(pair, entry):
         "stiffening": "",
         "strain": "",
         "rates": [],
-        "ends": {},
         "not_judged": str(pair.not_judged.item()),
     }
     if code == NOT_JUDGED:
@@ -100,10 +98,6 @@ def describe_pair(pair, entry):
     row["unknown"] = find_largest_unknown(pair) if code == DEPENDS else ""
     row |= describe_bounds(pair, entry)
     row["rates"] = list_rates(pair)
-    shares = [share if share >= LEAST_SHOWN else 0.0 for share in sorted(pair.remaining.values)]
-    row["ends"] = {"remaining": texts.join(*map(percent, shares))} | {
-        name: interval(*(pair[name].values / unit), 2) for name, unit in texts.UNITS.items()
-    }
     cells = describe_cells(pair)
     row["text"] = {name: text for name, (text, _) in cells.items()}
     row["sort"] = {name: float(value) for name, (_, value) in cells.items()}
@@ -113,10 +107,12 @@ def describe_pair(pair, entry):
 
 def describe_cells(pair):
     """Text of every one of `COLUMNS`, and the value by which it is sorted."""
-    onset = pair.margin.sel(criterion=EDGES)
-    low, high = find_limits(pair, "margin")
+    onset = pair.margin_by_criterion.sel(criterion=EDGES)
+    _, low, high = read_limited(pair.margin)
     modulus = float(pair.modulus_quoted)
-    threshold = texts.describe_quantity(pair, "modulus_threshold")
+    by_value = {
+        name: read_limited(pair[name]).value for name in ("remaining", "pull_off", THRESHOLD)
+    }
     # A measured surface has spectra drawn from the errors of the measurement.
     is_drawn = bool(np.isfinite(pair.probability))
     errors = (
@@ -126,9 +122,9 @@ def describe_cells(pair):
     )
     probability = texts.show_probability(pair) if is_drawn else NOTHING
     return {
-        "remaining": (texts.describe_share(pair), find_value(pair)),
-        "pull_off": (texts.describe_pull_off(pair), find_value(pair, "pull_off")),
-        "threshold": (threshold, find_value(pair, "modulus_threshold")),
+        "remaining": (texts.describe_share(pair), by_value["remaining"]),
+        "pull_off": (texts.describe_pull_off(pair), by_value["pull_off"]),
+        "threshold": (texts.describe_quantity(pair, THRESHOLD), by_value[THRESHOLD]),
         "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (interval(*onset.values, 2), onset.mean()),
@@ -143,9 +139,8 @@ def describe_bounds(pair, entry):
 
     The verdict changes at the limits, so that they are told from the modulus of the material.
     """
-    name = "modulus_threshold"
     actual = float(pair.modulus_quoted)
-    bounds = [float(find_value(pair, name)), *map(float, find_limits(pair, name))]
+    bounds = read_limited(pair[THRESHOLD])
     useful = [bound for bound in bounds if texts.LEAST_STRESS <= bound <= texts.MOST_STRESS]
 
     far = len(useful) == len(bounds) and max(useful) > FAR * min(useful)
@@ -184,19 +179,21 @@ def list_rates(pair):
     0 and infinity stand for none and any. Empty of a material whose modulus does not depend on the
     rate, or that is judged by its dwell.
     """
-    rates = [float(pair.rate_threshold_low), float(pair.rate_threshold_high)]
-    return [] if np.isnan(rates).any() else rates
+    _, low, high = read_limited(pair.rate_threshold)
+    return [] if np.isnan(low) or np.isnan(high) else [low, high]
 
 
 def find_largest_unknown(pair):
     """What widens the limits of a pair most: the strain of its layer, the surface or the model."""
-    if float(find_limits(pair, "margin")[0]) == 0:
+    _, low, high = read_limited(pair.margin)
+    if low == 0:
         return "layer"
     if np.isfinite(pair.error_of_spectrum):
         return "surface" if pair.error_of_spectrum > pair.error_of_model else "model"
     # A surface that was not measured is known between two ends.
-    ends, low, high = (np.log(pair[f"modulus_threshold{ending}"]) for ending in SIGNS)
-    return "surface" if np.ptp(ends.values) > (high - low).mean() else "model"
+    ends = pair.margin_by_criterion.sel(criterion=REMAINING).values
+    between_ends = np.ptp(np.log(ends))
+    return "surface" if between_ends > np.log(high / low) - between_ends else "model"
 
 
 def explain(pair, work_of_adhesion):
@@ -205,7 +202,7 @@ def explain(pair, work_of_adhesion):
     The reason of each is in reasons.html.j2, which quotes the `facts`.
     """
     facts = gather_facts(pair, work_of_adhesion)
-    sticky = pair.margin > 1
+    sticky = pair.margin_by_criterion > 1
     rows = []
     for name in map(str, pair.criterion.values):
         says = sticky.sel(criterion=name)
@@ -215,7 +212,7 @@ def explain(pair, work_of_adhesion):
                 "criterion": name,
                 "name": CRITERIA[name].label,
                 "answer": answers[int(says.any()) + int(says.all())],
-                "margins": interval(*pair.margin.sel(criterion=name).values, 2),
+                "margins": interval(*pair.margin_by_criterion.sel(criterion=name).values, 2),
                 "disagrees": bool((says != sticky.sel(criterion=REMAINING)).any()),
                 "facts": facts,
             }
@@ -237,7 +234,7 @@ def gather_facts(pair, work_of_adhesion):
         "regime": " to ".join(dict.fromkeys(REGIMES[int(code)] for code in pair.regime)),
         "h_rms": quantity(*pair.pair_h_rms.values, "m"),
         "q0": number(rough.pair_q0),
-        "a_v": number(pair.pair_a_v.mean(), 2),
+        "a_v": number(read_limited(pair.pair_a_v).value, 2),
         "constant_a_v": number(BROAD_A_V, 2),
         "printed_a_v": number(PRINTED_A_V),
         "rms_slope": number(rough.pair_rms_slope, 2),

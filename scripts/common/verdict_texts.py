@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from stickiness.criteria.pair import SIGNS, WORDS
+from stickiness.criteria.pair import WORDS
 from stickiness.formatting import amount, duration, in_units_of, limited, number, percent
 from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS, tell_share
 
 KPA = 1e3  #: [Pa], of the pull-off
@@ -15,30 +15,28 @@ SHARES = (0.01, 0.1, 0.3)  #: of the work of adhesion, that may be wanted
 
 def count_pairs(dataset):
     """Numbers of pairs that keep each of `SHARES` by their low and by their high limit."""
-    limits = find_limits(dataset)
+    _, *limits = read_limited(dataset.remaining)
     return {share: [int((limit >= share).sum()) for limit in limits] for share in SHARES}
 
 
 def describe_share(pair):
     """Share of the work of adhesion that remains, or a multiple, with the limits that decide."""
-    return tell_share(find_value(pair), *find_limits(pair))
+    return tell_share(*read_limited(pair.remaining))
 
 
 def describe_quantity(pair, name):
     """Value of a quantity in its unit, with the limits of all that is unknown."""
-    limits = find_limits(pair, name)
-    return limited(find_value(pair, name), *limits, in_units_of(UNITS[name]), **BOUNDS)
+    return limited(*read_limited(pair[name]), in_units_of(UNITS[name]), **BOUNDS)
 
 
 def describe_larger(pair):
     """Verdict and share for a contact larger than the scan, as texts; None where none is judged."""
     if np.isnan(pair.larger_contact):
         return None
-    shares = [float(pair[f"larger_remaining{ending}"]) for ending in SIGNS]
     return {
         "contact": amount(float(pair.larger_contact), "m", 2),
         "word": WORDS[int(pair.larger_verdict)],
-        "remaining": tell_share(*shares),
+        "remaining": tell_share(*read_limited(pair.larger_remaining)),
     }
 
 
@@ -62,7 +60,7 @@ def describe_pull_off(pair):
 
     Near full contact, which was not simulated, only a low limit is known.
     """
-    low = float(find_limits(pair, "pull_off")[0])
+    low = read_limited(pair.pull_off).low
     if float(pair.energy_ratio.max()) > PULL_OFF_UNKNOWN:
         return f"at least {number(low / KPA, 2)}" if low >= LEAST_STRESS else "not known"
     return describe_quantity(pair, "pull_off")

@@ -5,24 +5,32 @@ magnification, once over the magnification at fixed h_rms and longest wavelength
 the influence of the finest waves on each criterion.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import xarray as xr
 
 from common.conventions import logarithmic_grid
 from stickiness import datasets
-from stickiness.criteria.pair import make_pair
-from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.criteria.pair import Pair
+from stickiness.criteria.registry import CRITERIA
 from stickiness.remaining.prediction import Roughness
 from stickiness.spectrum.kinds import SelfAffine
+from stickiness.verdicts.limits import LIMIT_TEXT
 
-LIMITS = {REMAINING: 0, f"{REMAINING}_low": 1, f"{REMAINING}_high": -1}  # names and signs
+COMPARED = [criterion for criterion in CRITERIA.values() if criterion.has_length]
+# Errors of the model by limits of the threshold, which is low where the share is high.
+DEVIATIONS = {"low": 1.0, "value": 0.0, "high": -1.0}
 TEXT = "adhesion length over range above which the criterion calls the surface sticky"
 COMPARED_VARIABLES = {
     "h_rms_over_range": ("1", "rms height over range"),
     "magnification": ("1", "highest over lowest wave number"),
-    "criterion": ("1", "stickiness criterion; of what remains also its low and high limit"),
+    "criterion": ("1", "stickiness criterion"),
+    "limit": LIMIT_TEXT,
     "against_roughness": ("1", TEXT),
     "against_magnification": ("1", TEXT),
+    "remaining_against_roughness": ("1", f"{TEXT}, by what remains"),
+    "remaining_against_magnification": ("1", f"{TEXT}, by what remains"),
 }
 
 
@@ -43,19 +51,33 @@ def compare(settings, load, table, constant):
     zetas = logarithmic_grid(settings["magnification"])
     fixed_height = np.full(zetas.shape, float(settings["quoted_h_rms_over_range"]))
     fixed_zeta = np.full(heights.shape, float(settings["quoted_magnification"]))
-    over_h = find_thresholds(settings, heights, fixed_zeta, load, table, constant)
-    over_zeta = find_thresholds(settings, fixed_height, zetas, load, table, constant)
+    pairs = {
+        "roughness": make_pair(settings, heights, fixed_zeta, load, table, constant),
+        "magnification": make_pair(settings, fixed_height, zetas, load, table, constant),
+    }
+    axes = {"roughness": "h_rms_over_range", "magnification": "magnification"}
+    variables = {}
+    for name, pair in pairs.items():
+        thresholds = [each.adhesion_length_threshold(pair) for each in COMPARED]
+        remaining = [replace(pair, deviation=d).remaining_threshold for d in DEVIATIONS.values()]
+        variables[f"against_{name}"] = ("criterion", axes[name]), thresholds
+        variables[f"remaining_against_{name}"] = ("limit", axes[name]), remaining
     return xr.Dataset(
-        {
-            "against_roughness": (("criterion", "h_rms_over_range"), list(over_h.values())),
-            "against_magnification": (("criterion", "magnification"), list(over_zeta.values())),
+        variables,
+        coords={
+            "h_rms_over_range": heights,
+            "magnification": zetas,
+            "criterion": [each.name for each in COMPARED],
+            "limit": list(DEVIATIONS),
         },
-        coords={"h_rms_over_range": heights, "magnification": zetas, "criterion": list(over_h)},
     )
 
 
-def find_thresholds(settings, h_rms, magnification, load, table, constant):
-    """Adhesion length over range at which each criterion begins to call surfaces sticky."""
+def make_pair(settings, h_rms, magnification, load, table, constant):
+    """`Pair` of surfaces of these rms heights and magnifications.
+
+    The range and the adhesion length are the units of length.
+    """
     hurst = settings["hurst"]
     q0 = settings["range_times_q0"]
     spectra = [
@@ -69,9 +91,8 @@ def find_thresholds(settings, h_rms, magnification, load, table, constant):
         rms_slope=np.array([spectrum.rms_slope for spectrum in spectra]),
         elastic_energy=np.array([spectrum.elastic_energy() for spectrum in spectra]),
     )
-    # The range and the adhesion length are the units of length.
-    pair = make_pair(
-        rough,
+    return Pair(
+        rough=rough,
         modulus=1.0,
         work_of_adhesion=1.0,
         range=1.0,
@@ -79,9 +100,3 @@ def find_thresholds(settings, h_rms, magnification, load, table, constant):
         a_v=table.a_v_at(hurst, load, 1 / h_rms, magnification).value,
         constant_a_v=constant,
     )
-    others = {
-        name: criterion.adhesion_length_threshold(pair)
-        for name, criterion in CRITERIA.items()
-        if criterion.has_length and name != REMAINING
-    }
-    return others | {name: pair.remaining_threshold(sign) for name, sign in LIMITS.items()}

@@ -17,7 +17,7 @@ from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import percent
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.limits import read_limited
 
 # Head, unit and its size of the quantities that are tabulated with their limits.
 TABULATED = {
@@ -90,12 +90,12 @@ def describe_page(dataset, materials, labels):
 
 def list_kept(pair):
     """Whether a pair keeps shares, by its value and by its limits; empty if it is not judged."""
-    value = find_value(pair)
-    limits = {"value": (value, value), "limits": find_limits(pair)}
-    answers = ("no", "depends", "yes") if value.notnull() else ("", "", "")
+    value, *limits = read_limited(pair.remaining)
+    bounds = {"value": (value, value), "limits": limits}
+    answers = ("", "", "") if np.isnan(value) else ("no", "depends", "yes")
     return {
         f"keeps {percent(share)} by {kind}": answers[int(low >= share) + int(high >= share)]
-        for share, (kind, (low, high)) in product(SHARES, limits.items())
+        for share, (kind, (low, high)) in product(SHARES, bounds.items())
     }
 
 
@@ -113,11 +113,10 @@ def tabulate_pairs(rows):
             "verdict": row["word"],
             "judged": row["moment"],
             "E* [MPa]": float(pair.modulus_quoted) / MPA,
-            "w/U_full": float(find_value(pair, "energy_ratio")),
+            "w/U_full": float(pair.energy_ratio.sel(end="rough")),
         }
         for name, (head, unit, size) in TABULATED.items():
-            low, high = (float(limit) / size for limit in find_limits(pair, name))
-            value = float(find_value(pair, name)) / size
+            value, low, high = (number / size for number in read_limited(pair[name]))
             if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
                 value = np.nan
                 high = np.nan

@@ -20,6 +20,7 @@ from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import NEEDED, AvTable
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
+from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
 
 LIMIT = "largest h_rms/range that sticks"
 EDGES = f"{LIMIT}, by the edges of contact"
@@ -32,43 +33,36 @@ MISSING = "none for which a_V is tabulated, or none above 1"
 MAP_VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
     "adhesion_length_over_range": ("1", "adhesion length over range"),
-    "h_rms_limit": ("1", f"{DMT}, a_V as tabulated", MISSING),
-    "h_rms_limit_low": ("1", f"{DMT}, a_V at its low end", MISSING),
-    "h_rms_limit_high": ("1", f"{DMT}, a_V at its high end", MISSING),
-    "h_rms_limit_edges": ("1", EDGES, MISSING),
-    "h_rms_limit_edges_low": ("1", f"{EDGES}, a_V and model at their low end", MISSING),
-    "h_rms_limit_edges_high": ("1", f"{EDGES}, a_V and model at their high end", MISSING),
+    "limit": LIMIT_TEXT,
+    "h_rms_limit": ("1", f"{DMT}, a_V as tabulated with its limits", MISSING),
+    "h_rms_limit_edges": ("1", f"{EDGES}, with the limits of a_V and of the model", MISSING),
     "h_rms_limit_constant": ("1", f"{DMT}, constant a_V of a broad spectrum"),
     "h_rms_limit_printed": ("1", f"{DMT}, coefficient 9/4 as printed"),
     "weak_limit": ("1", "smallest h_rms/range at which the edges of contact are weak", MISSING),
     "jtb_limit": ("1", "smallest h_rms/range at which the DMT limit holds (JTB)"),
     "a_v": ("1", "constant a_V of a broad spectrum"),
-    "a_v_low": ("1", "a_V less its error"),
-    "a_v_high": ("1", "a_V plus its error"),
     "slope_parameter": ("1", "range q0/(adhesion length/range)"),
     "h_rms_over_range": ("1", "rms height over range"),
     "slope_angle": ("degree", "angle of the area-load line against the load axis"),
     "hurst": ("1", "Hurst exponent"),
     "share": ("1", "share of the work of adhesion that is to remain"),
     "rule": ("1", RULE),
-    **{f"rule_{end}": ("1", f"{RULE}, {end} limit of the model") for end in ("low", "high")},
     "rule_full_contact": ("1", f"{RULE}, by Persson and Tosatti"),
     "rule_bearing_area": ("1", f"{RULE}, by Ciavarella's bearing area"),
 }
 BAM_REPULSION = 0.75  # factor in later forms of the bearing-area model, see `bearing_area`
-ENDS = {"": ("value", 0), "_low": ("low", -1), "_high": ("high", 1)}  # of a_V, and of the model
+SIGNS = {"low": -1, "value": 0, "high": 1}  # of the error of the model, by its limits
 
 
 def main(job):
     settings = job.params.map
     pressure = job.params.pressure
     a_v, parts = measure_a_v(job.input, pressure)
-    error = float(np.linalg.norm([each.error for each in parts.values()]))
     table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
     dataset = find_limits(settings, a_v, MapSurfaces(table, settings, pressure))
     dataset = dataset.assign(find_slopes(settings["slope_parameter"], settings["slope_a_v"]))
     dataset = dataset.assign(find_rule())
-    dataset = dataset.assign(a_v=a_v, a_v_low=max(a_v - error, 0.01 * a_v), a_v_high=a_v + error)
+    dataset = dataset.assign(a_v=a_v).assign_coords(limit=list(LIMITS))
     dataset = datasets.annotate(dataset, **MAP_VARIABLES)
     dataset = with_budget(dataset, "a_v", **parts)
     # In proportion to a_V^(3/5).
@@ -143,21 +137,27 @@ class MapSurfaces:
 
 def find_limits(settings, constant_a_v, surfaces):
     """Largest h_rms/range that sticks by every form of the criterion, and where forms are valid."""
-    ratios = {"weak_limit": surfaces.over_weak}
-    for ending, (which, sign) in ENDS.items():
-        ratios[f"h_rms_limit{ending}"] = partial(surfaces.by_dmt, which=which)
-        edges = partial(surfaces.by_edges, which=which, sign=sign)
-        ratios[f"h_rms_limit_edges{ending}"] = edges
     dims = ("range_times_q0", "adhesion_length_over_range")
     axes = {dim: logarithmic_grid(settings[dim]) for dim in dims}
     q0, length = np.meshgrid(*axes.values(), indexing="ij")
-    limits = {
-        name: find_largest(ratio, q0, length, surfaces.largest) for name, ratio in ratios.items()
+
+    def find(ratio):
+        return find_largest(ratio, q0, length, surfaces.largest)
+
+    by_dmt = [partial(surfaces.by_dmt, which=which) for which in SIGNS]
+    by_edges = [partial(surfaces.by_edges, which=which, sign=sign) for which, sign in SIGNS.items()]
+    limited = {"h_rms_limit": by_dmt, "h_rms_limit_edges": by_edges}
+    variables = {
+        name: (("limit", *dims), [find(ratio) for ratio in ratios])
+        for name, ratios in limited.items()
     }
-    limits["h_rms_limit_constant"] = criteria.h_rms_limit(q0, length, 1.0, constant_a_v)
-    limits["h_rms_limit_printed"] = criteria.h_rms_limit(q0, length, 1.0, criteria.PRINTED_A_V)
-    limits["jtb_limit"] = criteria.jtb_limit(q0, length, 1.0)
-    return xr.Dataset({name: (dims, values) for name, values in limits.items()}, coords=axes)
+    variables["weak_limit"] = dims, find(surfaces.over_weak)
+    constant = criteria.h_rms_limit(q0, length, 1.0, constant_a_v)
+    printed = criteria.h_rms_limit(q0, length, 1.0, criteria.PRINTED_A_V)
+    variables["h_rms_limit_constant"] = dims, constant
+    variables["h_rms_limit_printed"] = dims, printed
+    variables["jtb_limit"] = dims, criteria.jtb_limit(q0, length, 1.0)
+    return xr.Dataset(variables, coords=axes | {"limit": list(LIMITS)})
 
 
 def find_largest(ratio, q0, length, end):
@@ -188,14 +188,16 @@ def find_rule():
     unit = {"q0": 1.0, "q1": BROAD, "h_rms": 1.0}
     energy = np.array([SelfAffine(hurst=hurst, **unit).elastic_energy() for hurst in HURSTS])
     rough = remaining.Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy, q1=BROAD)
-    dims = ("share", "hurst")
     lengths = {
-        f"rule{ending}": (dims, [rough.threshold(SHORT, share, sign) for share in SHARES])
-        for ending, (_, sign) in ENDS.items()
+        "rule": (
+            ("limit", "share", "hurst"),
+            [[rough.threshold(SHORT, share, sign) for share in SHARES] for sign in SIGNS.values()],
+        ),
+        "rule_full_contact": ("hurst", energy),
+        "rule_bearing_area": BAM_REPULSION / criteria.bearing_area(1, 1, 1, SHORT).margin,
     }
-    lengths["rule_full_contact"] = "hurst", energy
-    lengths["rule_bearing_area"] = BAM_REPULSION / criteria.bearing_area(1, 1, 1, SHORT).margin
-    dataset = xr.Dataset(lengths, coords={"share": list(SHARES), "hurst": list(HURSTS)})
+    coords = {"limit": list(LIMITS), "share": list(SHARES), "hurst": list(HURSTS)}
+    dataset = xr.Dataset(lengths, coords=coords)
     return 1 / (2 * np.pi * dataset)  # lambda_L = 2 pi/q0, with h_rms = q0 = 1
 
 

@@ -4,7 +4,7 @@ Everything that is not known is swept: each input between its plausible ends, th
 middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import product
 
@@ -20,7 +20,7 @@ from common.templates import write_page
 from experiments import plot_experiments
 from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
-from stickiness.criteria.pair import Pair, make_pair
+from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
@@ -141,8 +141,8 @@ class Observation:
             elastic_energy=column("elastic_energy") * h_rms**2,
             law=self.law,
         )
-        return make_pair(
-            rough,
+        return Pair(
+            rough=rough,
             modulus=inputs["modulus"],
             work_of_adhesion=inputs["work_of_adhesion"],
             range=inputs["range"],
@@ -156,7 +156,7 @@ class Observation:
             return None
         radius = self.inputs["radius"][:, None]
         length = pair.adhesion_length
-        return [sphere.pull_off(pair, radius, length, pair.range, sign) for sign in SIGNS]
+        return [sphere.pull_off(pair.rough, radius, length, pair.range, sign) for sign in SIGNS]
 
 
 @dataclass(frozen=True)
@@ -263,7 +263,7 @@ def predict(observation):
     if spheres:
         curve = np.array([pull_off.relative for pull_off in spheres])
     else:
-        curve = np.array([rough.remaining(sign) for sign in SIGNS])
+        curve = predict_remaining(rough)
 
     # At the rms heights given, or else at those to which roughness is limited.
     limiting = observation.quantity == "limiting_roughness"
@@ -303,17 +303,22 @@ def predict_quantity(observation, pair, spheres):
     if spheres and quantity in of_spheres:
         predicted = np.array([getattr(pull_off, of_spheres[quantity]) for pull_off in spheres])
     elif quantity == "relative_pull_off":
-        stress = np.array([pair.tension(length, range_, sign) for sign in SIGNS])
+        stress = np.array([pair.rough.tension(length, range_, sign) for sign in SIGNS])
         predicted = np.minimum(stress * range_ / length / find_strength(observation.law), 1.0)
     elif quantity == "work_of_separation":
-        predicted = np.array([pair.separation(length, range_, sign) for sign in SIGNS])
+        predicted = np.array([pair.rough.separation(length, range_, sign) for sign in SIGNS])
     else:
-        predicted = np.array([pair.remaining(sign) for sign in SIGNS])
+        predicted = predict_remaining(pair)
         if quantity == "work_of_approach":
             predicted[0] *= np.exp(find_spread("spectrum", "ln_approach").low)
     if quantity.startswith("work_of"):
         predicted = predicted * pair.work_of_adhesion
     return predicted
+
+
+def predict_remaining(pair):
+    """Share of the work of adhesion that remains, (sign, combination, 1)."""
+    return np.array([replace(pair, deviation=sign).remaining for sign in SIGNS])
 
 
 def find_fall(heights, values, level):

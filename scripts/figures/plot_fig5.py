@@ -8,6 +8,7 @@ from common.paper_panels import A_V, CRYSTAL, H_RMS_LIMITS
 from common.plotting import BLACK, BLUE, COLOURS, GREEN, GREY, RED, interpolate, state
 from stickiness import criteria, datasets
 from stickiness.formatting import number
+from stickiness.verdicts.limits import LIMITS
 
 LENGTH = "adhesion_length_over_range"
 EDGES = "h_rms_limit_edges"
@@ -16,8 +17,7 @@ ROUGHNESS = r"roughness $h_\mathrm{rms}/\epsilon$"
 
 
 def main(job):
-    names = [EDGES, f"{EDGES}_low", f"{EDGES}_high", "slope_angle", "a_v"]
-    data = datasets.read(job.input.map, names)
+    data = datasets.read(job.input.map, [EDGES, "slope_angle", "a_v", "a_v_total_error"])
     with plotting.open_figure(job.output, "AB", 4.0, width_ratios=[1.2, 1]) as panels:
         draw_plane(panels["A"], data)
         draw_angles(panels["B"], data)
@@ -26,13 +26,14 @@ def main(job):
 def draw_plane(ax, data):
     """The plane in which the criterion is one line, with the validity of DMT and the edges."""
     h = np.geomspace(1, 1e8, 200)  # h_rms/range
-    measured = [float(data[name]) for name in ("a_v", "a_v_low", "a_v_high")]
-    limit, low, high = (find_parameter(h, a_v) for a_v in measured)
+    a_v = float(data.a_v)
+    error = float(data.a_v_total_error)
+    limit, low, high = (find_parameter(h, each) for each in (a_v, a_v - error, a_v + error))
     bottom = 1e-14
     top = 1e2
     plotting.draw_band(ax, h, bottom, limit, GREY, alpha=0.15)
     plotting.draw_band(ax, h, low, high, BLACK, alpha=0.35)
-    ax.plot(h, limit, color=BLACK, label=f"measured {state(a_v=measured[0])}, with error")
+    ax.plot(h, limit, color=BLACK, label=f"measured {state(a_v=a_v)}, with error")
     correct = f"{state(a_v=A_V)}: coefficient {number(1.5 * A_V)}"
     ax.plot(h, find_parameter(h, A_V), "--", color=BLUE, label=correct)
     printed = f"as printed: coefficient {number(1.5 * criteria.PRINTED_A_V)}"
@@ -64,8 +65,8 @@ def find_parameter(h_over_range, a_v):
 def draw_edges(ax, data):
     """Onset of stickiness at the edges of contact for the adhesion length of a crystal."""
     parameter = data.range_times_q0 / CRYSTAL
-    limit, low, high = (
-        interpolate(data[f"{EDGES}{end}"], LENGTH, CRYSTAL) for end in ("", "_low", "_high")
+    low, limit, high = (
+        interpolate(data[EDGES].sel(limit=name), LENGTH, CRYSTAL) for name in LIMITS
     )
     ax.fill_betweenx(parameter, low, high, color=GREEN, alpha=0.3, linewidth=0)
     label = f"edges, {state(adhesion_length=CRYSTAL)}, with error"

@@ -47,20 +47,20 @@ def main(job):
     zeta = rf"$\zeta$ = {number(parameters['quoted_magnification'])}"
     height = rf"$h_\mathrm{{rms}}/\epsilon$ = {number(parameters['quoted_h_rms_over_range'])}"
     with plotting.open_figure(job.output, "AB;CC", 6.8, height_ratios=[1, 1.15]) as panels:
-        draw_thresholds(panels["A"], compared.against_roughness, parameters, zeta)
-        draw_thresholds(panels["B"], compared.against_magnification, parameters, height)
+        for panel, name, fixed in (("A", "roughness", zeta), ("B", "magnification", height)):
+            limits = compared[f"remaining_against_{name}"]
+            thresholds = compared[f"against_{name}"]
+            draw_thresholds(panels[panel], thresholds, limits, parameters, fixed)
         panels["A"].set_xlabel(r"roughness $h_\mathrm{rms}/\epsilon$")
         panels["B"].set_xlabel(r"magnification $\zeta = q_1/q_0$")
         draw_surfaces(panels["C"], verdicts)
 
 
-def draw_thresholds(ax, thresholds, parameters, fixed):
-    """Threshold of every criterion, the verdict's with its error; `held` is what is fixed."""
+def draw_thresholds(ax, thresholds, limits, parameters, fixed):
+    """Threshold of every criterion, the verdict's with its limits; `fixed` is what is held."""
     (along,) = set(thresholds.dims) - {"criterion"}
     x = thresholds[along].values
-    low = thresholds.sel(criterion=f"{REMAINING}_low")
-    high = thresholds.sel(criterion=f"{REMAINING}_high")
-    plotting.draw_band(ax, x, low, high, RED, alpha=0.2)
+    plotting.draw_band(ax, x, limits.sel(limit="low"), limits.sel(limit="high"), RED, alpha=0.2)
     for criterion in select_criteria(thresholds):
         ax.plot(x, thresholds.sel(criterion=criterion.name), **look_of(criterion))
     label = r"adhesion length at the threshold $l_a/\epsilon$"

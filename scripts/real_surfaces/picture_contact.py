@@ -33,6 +33,7 @@ from stickiness.repulsive.half_space import measure_slope
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE
 from stickiness.traction_laws import LAWS, find_strength
+from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.simulated_surface import read_simulated
 from stickiness.verdicts.verdict import LEAST_SHOWN
@@ -342,13 +343,11 @@ def add_quoted(dataset, measured, predicted, modulus):
         scale, unit = (modulus, "Pa") if name == "pull_off" else (1.0, "1")
         for prefix, by_whom, source in sources:
             low, high = getattr(source, f"{name}_limits")
-            values = {"": getattr(source, name), "_low": low, "_high": high}
-            for ending, value in values.items():
-                variable = f"{prefix}{name}{ending}"
-                dataset[variable] = scale * value
-                long_name = text + by_whom + ending.replace("_", ", ")
-                datasets.annotate(dataset, **{variable: (unit, long_name)})
-    return dataset
+            limited = np.array([low, getattr(source, name), high])
+            dataset[f"{prefix}{name}"] = "limit", scale * limited
+            datasets.annotate(dataset, **{f"{prefix}{name}": (unit, text + by_whom)})
+    dataset = dataset.assign_coords(limit=list(LIMITS))
+    return datasets.annotate(dataset, limit=LIMIT_TEXT)
 
 
 if __name__ == "__main__":

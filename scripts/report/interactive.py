@@ -14,7 +14,7 @@ from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, find_scale
 from stickiness.formatting import unit_for
 from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
-from stickiness.verdicts.limits import find_limits
+from stickiness.verdicts.limits import read_limited
 
 LOOKS = (  # of the verdicts, in the order of their codes
     ("x", RED),
@@ -91,34 +91,27 @@ def draw_pairs(pairs):
     line = plot.line(ratios, 100 * rough.share(ratios * rough.elastic_energy, SHORT_RANGE), **model)
     items = [("the model, short range", [line])]
     for code, (marker, colour) in enumerate(LOOKS):
-        ends = [end for pair in pairs if pair["code"] == code for end in locate(pair)]
-        if not ends:
+        points = [locate(pair) for pair in pairs if pair["code"] == code]
+        if not points:
             continue
-        points = pd.DataFrame(ends)
-        source = models.ColumnDataSource(points.to_dict("list"))
+        source = models.ColumnDataSource(pd.DataFrame(points).to_dict("list"))
         look = {"line_color": colour, "line_alpha": 0.6}
-        ratios, shares = (
-            points[name].values.reshape(-1, 2).tolist() for name in ("ratio", "share")
-        )
-        joined = plot.multi_line(ratios, shares, **look)
         bars = plot.segment("ratio", "low", "ratio", "high", source=source, **look)
         look = {"marker": marker, "size": 9, "color": colour, "fill_alpha": 0.8}
         marks = plot.scatter("ratio", "share", source=source, **look)
         plot.add_tools(models.HoverTool(renderers=[marks], tooltips=TOLD_OF_PAIR, visible=False))
-        items.append((ends[0]["word"], [marks, bars, joined]))
+        items.append((points[0]["word"], [marks, bars]))
     plot.add_layout(models.Legend(items=items, click_policy="hide", location="top_left"))
     return plot
 
 
 def locate(row):
-    """Ends of what is known of a pair, the less share first: w/U_full, share [%] and its bar."""
+    """Point of a pair: w/U_full at the rough end, share [%] and its limits."""
     pair = row["pair"]
     told = {name: row[name] for name in ("material", "surface", "word")} | row["text"]
-    ratios = np.clip(pair.energy_ratio.values, LEAST_RATIO, MOST_RATIO)
-    ends = sorted(zip(np.minimum(100 * pair.remaining.values, 100), ratios, strict=True))
-    ends = [told | {"ratio": x, "share": share, "low": share, "high": share} for share, x in ends]
-    ends[0]["low"], ends[-1]["high"] = (min(100 * float(x), 100) for x in find_limits(pair))
-    return ends
+    ratio = np.clip(float(pair.energy_ratio.sel(end="rough")), LEAST_RATIO, MOST_RATIO)
+    share, low, high = (min(100 * each, 100) for each in read_limited(pair.remaining))
+    return told | {"ratio": ratio, "share": share, "low": low, "high": high}
 
 
 def draw_curves(found):
@@ -129,13 +122,13 @@ def draw_curves(found):
 
 
 def draw_axis(axis, curves):
-    """Curves along one axis: both ends of the surface, limits, and the pair as it is."""
+    """Curves along one axis: value, limits, and the pair as it is."""
     shown = models.DataRange1d(only_visible=True, range_padding=0.02)
     height = 340 + LEGEND_ROW * len(curves)
     scale, limits = find_scale(curves)
     ranges = {"x_range": shown, "y_range": limits, "y_axis_type": scale}
     plot = plot_shares(LABELS[axis], height=height, **ranges)
-    told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@rough{0.0} … @smooth{0.0}")]
+    told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@value{0.0}")]
     told.append(("limits [%]", "@low{0.0} to @high{0.0}"))
     items = []
     for label, place, points, own, shown_at_first in curves:
@@ -145,12 +138,11 @@ def draw_axis(axis, curves):
         look = {"color": COLOURS[place % len(COLOURS)], "visible": shown_at_first}
         band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
         style = look | {"line_dash": DASHES[place % len(DASHES)], "line_width": 2, "name": label}
-        lines = [plot.line("x", end, source=source, **style) for end in ("rough", "smooth")]
-        plot.add_tools(models.HoverTool(renderers=lines, tooltips=told, visible=False))
+        line = plot.line("x", "value", source=source, **style)
+        plot.add_tools(models.HoverTool(renderers=[line], tooltips=told, visible=False))
         marker = POINTS[place % len(POINTS)]
-        shares = [own.rough, own.smooth]
-        marks = plot.scatter([own.x] * 2, shares, marker=marker, size=10, **look)
-        items.append((label, [*lines, marks, band]))
+        mark = plot.scatter([own.x], [own.value], marker=marker, size=10, **look)
+        items.append((label, [line, mark, band]))
     plot.add_layout(models.Legend(items=items, click_policy="hide", **LEGEND), "below")
     return plot
 

@@ -12,6 +12,7 @@ from common.verdict_texts import MPA
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.formatting import unit_for
 from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.verdicts.limits import LIMITS
 
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
@@ -119,7 +120,7 @@ class Curve(NamedTuple):
 
     label: str
     place: int  # among all materials of the page, for its look
-    points: pd.DataFrame  # x, and shares [%]: at both ends of the surface and their limits
+    points: pd.DataFrame  # x, and low limit, value and high limit of the share [%]
     own: pd.Series  # the point of the pair as it is
     shown: bool  # at first
 
@@ -134,7 +135,7 @@ def find_curves(pairs, labels, at_first):
     for axis in LABELS:
         for place, name in enumerate(judged):
             pair = pairs.sel(material=name)
-            is_known = bool(np.isfinite(pair[f"remaining_by_{axis}_low"]).any())
+            is_known = bool(np.isfinite(pair[f"remaining_by_{axis}"]).any())
             if is_known and (axis != "rate" or int(pair.depends_on_rate)):
                 points, own = follow(axis, pair)
                 curve = Curve(
@@ -150,14 +151,13 @@ def find_curves(pairs, labels, at_first):
 
 def follow(axis, pair):
     """Points of the curve along an axis, where it is known and says something, and the pair's."""
-    share = f"remaining_by_{axis}"
-    (dim,) = pair[f"{share}_low"].dims
-    shares = {end: pair[share].sel(end=end).values for end in ("rough", "smooth")}
-    shares |= {limit: pair[f"{share}_{limit}"].values for limit in ("low", "high")}
+    share = pair[f"remaining_by_{axis}"]
+    (dim,) = set(share.dims) - {"limit"}
     factor = pair[dim].values  # a rate of 1 Hz, at which the modulus is quoted, counts as 1
     scale = {"modulus": float(pair.modulus_quoted) / MPA, "dwell": float(pair.dwell)}
     x = factor * scale.get(axis, 1.0)
-    points = (100 * pd.DataFrame(shares, index=x)).rename_axis("x").reset_index()
+    percents = 100 * share.transpose(dim, "limit").values
+    points = pd.DataFrame(percents, index=x, columns=list(LIMITS)).rename_axis("x").reset_index()
     own = points.loc[np.argmin(abs(np.log(factor)))]
     kept = points.low.notna()
     if axis == "modulus":
@@ -194,13 +194,12 @@ def draw_still(curves_by_axis, output):
 
 
 def draw_curve(ax, curve):
-    """Draw a `Curve` at both ends of the surface, with its limits and the pair itself."""
+    """Draw a `Curve` with its limits and the pair itself."""
     colour = COLOURS[curve.place % len(COLOURS)]
     marker = MARKERS[curve.place % len(MARKERS)]
     points = curve.points
     plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
     look = {"color": colour, "linestyle": DASHES[curve.place % SHOWN]}
-    for end in ("rough", "smooth"):
-        ax.plot(points.x, points[end], **look)
-        ax.plot(curve.own.x, curve.own[end], marker, color=colour)
+    ax.plot(points.x, points.value, **look)
+    ax.plot(curve.own.x, curve.own.value, marker, color=colour)
     ax.plot([], [], **look, marker=marker, label=curve.label)

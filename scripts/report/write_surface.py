@@ -13,12 +13,13 @@ from common.verdict_texts import describe_larger, describe_moment
 from report import interactive, pages, surface_figures
 from stickiness import datasets
 from stickiness.adhesive import edge_zone
-from stickiness.criteria.pair import NOT_JUDGED, SIGNS
+from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.formatting import amount, number, quantity_with_error, with_error
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import LIMITS
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.statistics import COVERS
+from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
 
@@ -89,9 +90,7 @@ def describe_verdict(pair, entry):
         "material": entry["label"],
         "entry": entry,
         "thresholds": {
-            name: [float(pair[f"{name}{end}"]) for end in SIGNS]
-            for name in THRESHOLDS
-            if not np.isnan(pair[f"{name}_low"])
+            name: read_limited(pair[name]) for name in THRESHOLDS if not np.isnan(pair[name]).any()
         },
         "criteria": explain(pair, float(pair.work_of_adhesion)) if judged else [],
         "larger": describe_larger(pair),
@@ -124,7 +123,11 @@ def describe_contact(files, entries, mine):
         "moment": tell_moment(Material.from_entry(pulled | {"surface": None})),
         "pull_off": pull_off,
         "outside": outside,
-        "too_high": all(pull_off[name] < pull_off[f"predicted_{name}"] for name in outside),
+        "pulled_works": {name: read_limited(pull_off[name]) for name in compared},
+        "too_high": all(
+            read_limited(pull_off[name]).value < read_limited(pull_off[f"predicted_{name}"]).value
+            for name in outside
+        ),
     }
 
 
@@ -166,11 +169,8 @@ def list_loads(contact, entries):
 
 def overlap(pull_off, name):
     """Whether the limits of simulation and model have values in common."""
-    low = pull_off[f"{name}_low"]
-    high = pull_off[f"{name}_high"]
-    return bool(
-        low <= pull_off[f"predicted_{name}_high"] and pull_off[f"predicted_{name}_low"] <= high
-    )
+    simulated, predicted = (read_limited(pull_off[each]) for each in (name, f"predicted_{name}"))
+    return simulated.low <= predicted.high and predicted.low <= simulated.high
 
 
 def describe_measured_contact(bem):

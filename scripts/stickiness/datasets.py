@@ -36,10 +36,10 @@ _SIGNS = {
     r"(\w+_)?mean_gap(_mean)?": "not negative; rigid displacement, distance of the mean planes of "
     "the elastic surface and the heights, without the mean compression of a layer",
     r"(edge_)?gap(_mean)?": "0 in contact, positive outside",
-    r"(\w+_)?pressure(_mean|_low|_high)?": "positive in compression; the total load is the "
+    r"(\w+_)?pressure(_mean)?": "positive in compression; the total load is the "
     "mean times the nominal area",
     r"attraction\w*": "positive where the surfaces attract each other",
-    r"\w+_traction|(predicted_)?pull_off(_low|_high|_quantile|_curve\w*)?": "positive in tension",
+    r"\w+_traction|(predicted_)?pull_off(_curve\w*)?": "positive in tension",
     r"interaction_energy": "negative where the surfaces attract each other",
     r"heights?": "positive towards the elastic solid",
 }

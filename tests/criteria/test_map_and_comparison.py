@@ -38,11 +38,12 @@ def made_map():
 
 def test_map_with_constant_a_v_has_the_closed_form():
     made = made_map()
-    inside = made.h_rms_limit.notnull()
-    ratio = (made.h_rms_limit / made.h_rms_limit_constant).where(inside)
+    low, value, high = made.h_rms_limit.transpose("limit", ...)
+    inside = value.notnull()
+    ratio = (value / made.h_rms_limit_constant).where(inside)
     np.testing.assert_allclose(ratio.values[inside.values], 1, rtol=1e-5)
-    for end, share in (("low", 0.8), ("high", 1.3)):
-        ratio = made[f"h_rms_limit_{end}"] / made.h_rms_limit
+    for limit, share in ((low, 0.8), (high, 1.3)):
+        ratio = limit.drop_vars("limit") / value.drop_vars("limit")
         there = ratio.notnull().values
         np.testing.assert_allclose(ratio.values[there], share**0.6, rtol=1e-5)
 
@@ -50,14 +51,14 @@ def test_map_with_constant_a_v_has_the_closed_form():
 def test_the_rule_of_thumb_is_where_the_share_remains():
     """On a surface of another size, at w/E* = h_rms^2/(c lambda_L)."""
     rule = map_criterion.find_rule()
-    assert rule.sizes == {"share": 3, "hurst": 5}
+    assert rule.sizes == {"limit": 3, "share": 3, "hurst": 5}
     assert (rule.rule.diff("share") < 0).all()
     for hurst, share in ((0.5, 0.1), (0.8, 0.01), (0.9, 0.3)):
         spectrum = SelfAffine(hurst=hurst, q0=0.5, q1=0.5e4, h_rms=3.0)
         energy = spectrum.elastic_energy()
         rough = Roughness(h_rms=3.0, q0=0.5, elastic_energy=energy, q1=spectrum.q1)
-        for name, sign in (("rule", 0), ("rule_low", -1), ("rule_high", 1)):
-            c = float(rule[name].sel(hurst=hurst, share=share))
+        for name, sign in map_criterion.SIGNS.items():
+            c = float(rule.rule.sel(hurst=hurst, share=share, limit=name))
             remains = rough.share(3.0**2 / (c * 2 * np.pi / 0.5), 3e-6, sign)
             assert remains == pytest.approx(share, rel=1e-3), (hurst, name)
 
@@ -90,8 +91,9 @@ def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold()
         return equivalent_sphere.attraction(h, q0, slope, length, 1.0, 3.0)
 
     assert edges(float(one.weak_limit)).strength == pytest.approx(equivalent_sphere.WEAK, rel=1e-4)
-    assert edges(float(one.h_rms_limit_edges)).ratio == pytest.approx(1, rel=1e-4)
-    assert one.h_rms_limit_edges_low < one.h_rms_limit_edges < one.h_rms_limit_edges_high
+    low, value, high = one.h_rms_limit_edges.values
+    assert edges(value).ratio == pytest.approx(1, rel=1e-4)
+    assert low < value < high
 
 
 @pytest.mark.slow

@@ -11,9 +11,8 @@ from common.verdict_texts import SHARES
 from criteria import judge
 from stickiness import Material, datasets
 from stickiness import judge as judge_pairs
-from stickiness.criteria.registry import REMAINING
 from stickiness.entries import check_material
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.limits import read_limited
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -63,16 +62,16 @@ def test_rows_are_sorted_and_say_what_the_verdicts_say(written):
             assert row.verdict == "not judged"
             assert row.filter(regex="remains|pull-off|threshold|keeps").isna().all()
             continue
-        value, limits = float(find_value(pair)), [float(x) for x in find_limits(pair)]
+        value, *limits = read_limited(pair.remaining)
         wanted = [100 * x for x in (value, *limits)]
         assert row.filter(like="remains").tolist() == pytest.approx(wanted, rel=1e-5)
         for share in SHARES:
             assert row[f"keeps {100 * share:g} % by value"] == ("yes" if value >= share else "no")
             kept = sum(limit >= share for limit in limits)
             assert row[f"keeps {100 * share:g} % by limits"] == ("no", "depends", "yes")[kept]
-        margin = find_value(pair.sel(criterion=REMAINING), "margin")
+        margin = read_limited(pair.margin).value
         threshold = row["E* threshold [MPa]"] / row["E* [MPa]"]
-        assert threshold == pytest.approx(float(margin), rel=1e-4)
+        assert threshold == pytest.approx(margin, rel=1e-4)
     # Near full contact only a low limit of the pull-off is known.
     unknown = frame[ratios > 10].filter(like="pull-off").isna()
     assert unknown.all().tolist() == [True, False, True]

@@ -304,13 +304,18 @@ def test_figure_4a_ends_loading_where_unloading_begins(ax):
     drawn(ax, loads[:3], np.add(loads[:3], 0.2), color=plotting.BLUE, linestyle="-")
 
 
+LENGTHS = "adhesion_length_over_range"
+
+
 def test_figure_5_has_the_criterion_its_error_and_what_is_printed(ax):
     x, lengths = np.array([1e-12, 1e-3]), np.array([1e-3, 1e-1])
     law = np.outer(x**-0.6, lengths**0.5)
-    edges = {f"{plot_fig5.EDGES}{end}": k * law for k, end in ((2, ""), (1, "_low"), (3, "_high"))}
-    coords = {"range_times_q0": x, "adhesion_length_over_range": lengths}
-    of_a_v = {"a_v": 3.6, "a_v_low": 3.0, "a_v_high": 4.0}
-    plot_fig5.draw_plane(ax, dataset(coords, edges | of_a_v, slope_a_v=3.0))
+    edges = xr.DataArray(
+        np.multiply.outer([1.0, 2.0, 3.0], law),
+        {"limit": ["low", "value", "high"], "range_times_q0": x, LENGTHS: lengths},
+    )
+    made = xr.Dataset({plot_fig5.EDGES: edges, "a_v": 3.6, "a_v_total_error": 0.6})
+    plot_fig5.draw_plane(ax, made)
     h = ax.lines[0].get_xdata()
     # (range/l_a)(h/range)^(5/3) q0 range^... < 3 a_V/2: the lines of the criterion.
     drawn(ax, h, 1.5 * 3.6 * h ** (-5 / 3), color=plotting.BLACK, linestyle="-")
@@ -318,7 +323,7 @@ def test_figure_5_has_the_criterion_its_error_and_what_is_printed(ax):
     drawn(ax, h, 2.25 * h ** (-5 / 3), color=plotting.RED, linestyle="--")
     drawn(ax, h, 4 / 75 / h, linestyle="-.")
     _, low, high = band_ends(ax, 1)
-    np.testing.assert_allclose([low, high], np.outer([4.5, 6.0], h ** (-5 / 3)))
+    np.testing.assert_allclose([low, high], np.outer([4.5, 6.3], h ** (-5 / 3)))
     drawn(ax, 2 * x**-0.6 * 0.05**0.5, x / 0.05, color=plotting.GREEN)
     drawn(ax, [1e3, 6.7e4, 1e6], np.array([1e-6, 1e-9, 1e-12]) / 0.05, marker="o")
     recomputed = (2.25 * 0.05 / np.array([1e-6, 1e-9, 1e-12])) ** 0.6
@@ -437,12 +442,15 @@ CRITERIA_DRAWN = ["remaining_adhesion", "violano", "pastewka_robbins", "fuller_t
 
 
 def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_verdict(ax):
-    names = [*CRITERIA_DRAWN[:4], "remaining_adhesion_low", "remaining_adhesion_high"]
     height = np.array([10.0, 100.0])
-    values = np.outer([1.0, 2.0, 3.0, 4.0, 0.5, 2.0], height**-0.5)
-    data = dataset({"criterion": names, "h_rms_over_range": height}, {"threshold": values})
+    coords = {"criterion": CRITERIA_DRAWN[:4], "h_rms_over_range": height}
+    values = np.outer([1.0, 2.0, 3.0, 4.0], height**-0.5)
+    thresholds = dataset(coords, {"threshold": values}).threshold
+    of_limits = {"limit": ["low", "value", "high"], "h_rms_over_range": height}
+    values = np.outer([0.5, 1.0, 2.0], height**-0.5)
+    limits = dataset(of_limits, {"threshold": values}).threshold
     made = {"hurst": 0.8, "range_times_q0": 1e-6}
-    plot_fig9.draw_thresholds(ax, data.threshold, made, "held")
+    plot_fig9.draw_thresholds(ax, thresholds, limits, made, "held")
     for factor in (1, 2, 3, 4):
         drawn(ax, height, factor * height**-0.5)
     x, *ends = band_ends(ax)

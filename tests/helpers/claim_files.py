@@ -18,6 +18,7 @@ from stickiness import criteria, surface
 from stickiness import error_budget as budget
 from stickiness.criteria.registry import REMAINING
 from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.limits import LIMITS
 
 LOADS = np.array([0.001, 0.0065, 0.03, LOAD, 0.13, 0.52])
 RANGES = np.geomspace(1e-4, 10, 81)
@@ -175,14 +176,16 @@ def stickiness_map():
     dims = "range_times_q0", "adhesion_length_over_range"
     q0, length = np.geomspace(1e-12, 1e-2, 11), np.array([0.01, 0.1])
     limit = 1 / np.sqrt(q0[:, None]) * length
-    factors = {"": 1.0, "_edges": 2.0, "_edges_low": 1.0, "_edges_high": 3.0}
-    limits = {f"h_rms_limit{name}": (dims, factor * limit) for name, factor in factors.items()}
-    limits |= {"weak_limit": (dims, 4 * limit), "a_v": 3.5, "a_v_low": 2.5, "a_v_high": 4.5}
+    factors = {"h_rms_limit": (1.0, 1.0, 1.0), "h_rms_limit_edges": (1.0, 2.0, 3.0)}
+    limits = {
+        name: (("limit", *dims), np.multiply.outer(three, limit)) for name, three in factors.items()
+    }
+    limits |= {"weak_limit": (dims, 4 * limit), "a_v": 3.5, "a_v_total_error": 1.0}
     roughness, parameters = np.geomspace(0.1, 100, 301), np.array([1, 0.5])
     inverse = criteria.inverse_kappa_ad(roughness, parameters[:, None], 1.0, 1.0, 3.0)
     angles = np.degrees(criteria.slope_angle(criteria.inverse_kappa(inverse)))
     limits |= {"slope_angle": (("slope_parameter", "h_rms_over_range"), angles)}
-    coords = {"slope_parameter": parameters, "h_rms_over_range": roughness}
+    coords = {"slope_parameter": parameters, "h_rms_over_range": roughness, "limit": list(LIMITS)}
     data = xr.Dataset(limits, coords=coords | {dims[0]: q0, dims[1]: length})
     return made_by(data, hurst=0.8, slope_a_v=3.0, shortest_over_range=4)
 

@@ -16,13 +16,13 @@ from real_surfaces import contact_measured, picture_contact
 from real_surfaces.measured_maps import MeasuredMap
 from report import surface_figures, write_surface
 from stickiness import Material, Surface, datasets, judge, surface
-from stickiness.criteria.pair import NOT_JUDGED, SIGNS, STICKY, TOUCHES
+from stickiness.criteria.pair import NOT_JUDGED, STICKY, TOUCHES
 from stickiness.entries import check_material, check_surface
 from stickiness.formatting import in_unit, limited, number, with_error
 from stickiness.measured import topography
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
-from stickiness.verdicts.limits import find_limits
+from stickiness.verdicts.limits import read_limited
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -173,8 +173,7 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
 
 
 def tell(pair, quantity, unit):
-    numbers = [float(pair[f"{quantity}{end}"]) for end in SIGNS]
-    return limited(*numbers, in_unit(unit))
+    return limited(*read_limited(pair[quantity]), in_unit(unit))
 
 
 @pytest.mark.slow
@@ -189,13 +188,13 @@ def test_the_page_tells_what_would_make_pairs_stick(page, folder):
             page.check(tell(pair, quantity, unit))
         if name == "gel":
             page.check(tell(pair, "rate_threshold", "Hz"))
-        assert np.isnan(pair.rate_threshold) == (name != "gel")
+        assert np.isnan(pair.rate_threshold).all() == (name != "gel")
         assert law["material"] == entry["label"]
         assert law["modulus"]["value"] == float(pair.modulus_quoted)
-        limits = [float(x * pair.work_of_adhesion) for x in find_limits(pair)]
+        _, *limits = read_limited(pair.remaining * pair.work_of_adhesion)
         work = law["effective_work_of_adhesion"]
         assert [work["low"], work["high"]] == pytest.approx(limits)
-        assert law["pull_off_stress"]["low"] == float(find_limits(pair, "pull_off")[0])
+        assert law["pull_off_stress"]["low"] == read_limited(pair.pull_off).low
 
 
 def test_page_of_a_material_with_a_dwell_has_its_ratio_and_thresholds(folder):
@@ -333,10 +332,10 @@ def test_curves_pass_through_the_pair_as_it_is(pairs):
     shown = {axis: [curve.label for curve in curves] for axis, curves in curves_by_axis.items()}
     both = ["steel", "gel <soft>"]
     assert shown == {"modulus": both, "roughness": both, "rate": ["gel <soft>"]}
-    at_pair = 100 * pairs.remaining.sel(material="gel", end=["rough", "smooth"]).values
+    at_pair = 100 * pairs.remaining.sel(material="gel").values
     for axis, curves in curves_by_axis.items():
         drawn = curves[-1].own
-        np.testing.assert_allclose([drawn.rough, drawn.smooth], at_pair, rtol=1e-9)
+        np.testing.assert_allclose(drawn[["low", "value", "high"]], at_pair, rtol=1e-9)
         assert drawn.x == pytest.approx(5.3 if axis == "modulus" else 1, rel=0.01)
 
 
@@ -348,8 +347,8 @@ def test_rates_of_the_page_follow_the_modulus(pairs):
     # Within the limits of the threshold some rates may stick, and where the verdict is "sticks",
     # 1 Hz is among those that stick.
     rates = list_rates(pair)
-    assert (rates[0] > 1) == bool(find_limits(pair)[0] >= DEFAULT_SHARE)
-    limits = [float(x) for x in find_limits(pair, "modulus_threshold")]
+    assert (rates[0] > 1) == (read_limited(pair.remaining).low >= DEFAULT_SHARE)
+    _, *limits = read_limited(pair.modulus_threshold)
     np.testing.assert_allclose(solid.plane_strain.storage(np.array(rates)), limits, rtol=0.1)
 
 
@@ -390,7 +389,7 @@ def test_page_shows_contact_and_pull_off(single, folder, pictures):
     contact = datasets.read(pictures["contact"])
     pictured.check(
         f"{100 * float(contact.area_fraction[0]):.2g}",
-        f"to {100 * float(pull_off.separation_high):.2g} %)",
+        f"to {100 * float(pull_off.separation.sel(limit='high')):.2g} %)",
     )
     assert "data/b.txt" in pictured.html
     assert len(pictured.html) < 4e6

@@ -8,12 +8,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.arguments import plain
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
 from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
@@ -27,19 +26,15 @@ FULL_SHARE = 0.8  #: of the work of adhesion, from which a pair sticks fully
 REGIMES = ("DMT-like", "between DMT and JKR", "JKR-like", "strong but not JKR-like")  #: by code
 MOST_STRAIN = 0.3  #: up to which a layer is taken for linear
 BROAD_A_V = 3.0  #: of broad spectra, as Violano et al. (2019) find it
-SIGNS = {"": 0, "_low": -1, "_high": 1}  #: value, low and high limit, by the ending of a name
-#: Units and descriptions of the quantities that have limits by the model
+#: Units and descriptions of the quantities that have limits
 LIMITED = {
     "remaining": ("1", "share of the work of adhesion that remains"),
     "pull_off": ("Pa", "largest mean tension on separation"),
     "margin": ("1", "adhesion length over the one at which the wanted share remains"),
     "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
 }
+#: Units and descriptions of the others, which are known at both ends of what a surface may be
 QUANTITIES = {
-    f"{name}{ending}": (units, f"{text}, {ending[1:]} limit of the model" if ending else text)
-    for name, (units, text) in LIMITED.items()
-    for ending in SIGNS
-} | {
     "energy_ratio": ("1", "work of adhesion over the elastic energy of full contact"),
     "extrapolation": ("1", "decades of wave numbers by which the theory goes beyond simulations"),
     "range_over_h_rms": ("1", "range of attraction over rms height"),
@@ -47,7 +42,6 @@ QUANTITIES = {
     "pair_q0": ("1/m", "wave number of the longest waves of the pair that matter"),
     "pair_rms_slope": ("1", "rms gradient of the pair"),
     "pair_rms_curvature": ("1/m", "rms Laplacian of the pair"),
-    "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
     "edge_strength": ("1", "Tabor's parameter of the edges of contact, l_a d/range^2"),
     "attractive_over_contact": ("1", "area within the range over area of contact"),
     "over_dmt": ("1", "attraction over its DMT sum, at equal area of contact"),
@@ -59,24 +53,45 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pair(Roughness):
+class Pair:
     """A material on a surface; numbers, or arrays that broadcast against each other, in SI units.
 
-    `make_pair` makes one of a `Roughness`. What the surface adds to that serves the criteria other
-    than that of what remains.
+    Curvature and a_V serve the other criteria than that of what remains.
     """
 
-    rms_slope: ArrayLike  #: rms gradient [1]
-    rms_curvature: ArrayLike  #: rms Laplacian [1/m]
+    rough: Roughness  #: that the material meets on the surface
     modulus: ArrayLike  #: plane-strain modulus E* [Pa]
     work_of_adhesion: ArrayLike  #: [J/m^2]
     range: ArrayLike  #: of the attraction [m]
-    a_v: ArrayLike  #: at this range on this surface
+    #: Error of the model of what remains, in units of its limits: -1 and 1 at the low and high one
+    deviation: ArrayLike = 0.0
+    rms_curvature: ArrayLike = np.nan  #: rms Laplacian [1/m]
+    a_v: ArrayLike = np.nan  #: at this range on this surface
     pressed: ArrayLike = 0.0  #: mean pressure before separation [Pa]
     constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
     #: Strain that conforming demands of a layer: beyond `MOST_STRAIN` low limits are 0
     layer_strain: ArrayLike = 0.0
+
+    @property
+    def h_rms(self) -> ArrayLike:
+        """Rms height [m]."""
+        return self.rough.h_rms
+
+    @property
+    def q0(self) -> ArrayLike:
+        """Wave number of the longest waves that matter [1/m]."""
+        return self.rough.q0
+
+    @property
+    def rms_slope(self) -> ArrayLike:
+        """Rms gradient [1]."""
+        return self.rough.rms_slope
+
+    @property
+    def elastic_energy(self) -> ArrayLike:
+        """Elastic energy of full contact per nominal area over E* [m]."""
+        return self.rough.elastic_energy
 
     @property
     def adhesion_length(self) -> float | NDArray:
@@ -88,42 +103,56 @@ class Pair(Roughness):
         """Whether a layer can take the heights within linear elasticity."""
         return np.asarray(self.layer_strain) <= MOST_STRAIN
 
+    def take(self, rows: ArrayLike) -> Self:
+        """Return some rows of the arrays; a number is that of all rows."""
+        taken = {
+            field.name: values[rows]
+            for field in fields(self)
+            if field.name != "rough" and np.ndim(values := getattr(self, field.name))
+        }
+        return replace(self, rough=self.rough.take(rows), **taken)
+
     def scaled(self, factor: ArrayLike) -> Self:
         """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
-        return replace(super().scaled(factor), layer_strain=self.layer_strain * factor)
+        rough = self.rough.scaled(factor)
+        return replace(self, rough=rough, layer_strain=self.layer_strain * factor)
 
-    def remaining(self, sign: int = 0) -> float | NDArray:
-        """Share of the work of adhesion that remains; `sign` -1 or +1 for its low or high limit."""
-        share = self.share(adhesion_length=self.adhesion_length, range=self.range, sign=sign)
-        return self._unless_overstrained(share, sign, otherwise=0.0)
+    def at_modulus(self, modulus: ArrayLike) -> Self:
+        """Return the same with another E* [Pa]: films and skins keep their stiffness."""
+        rough = self.rough.at_modulus(modulus / self.modulus)
+        return replace(self, rough=rough, modulus=modulus)
 
-    def pull_off(self, sign: int = 0) -> float | NDArray:
-        """Largest mean tension on separation [Pa]; `sign` as of `remaining`."""
-        tension = self.tension(
+    @cached_property
+    def remaining(self) -> float | NDArray:
+        """Share of the work of adhesion that remains."""
+        return self.rough.share(
+            adhesion_length=self.adhesion_length, range=self.range, sign=self.deviation
+        )
+
+    @cached_property
+    def pull_off(self) -> float | NDArray:
+        """Largest mean tension on separation [Pa]."""
+        tension = self.rough.tension(
             adhesion_length=self.adhesion_length,
             range=self.range,
-            sign=sign,
+            sign=self.deviation,
             pressed=self.pressed / self.modulus,
         )
-        return self._unless_overstrained(tension * self.modulus, sign, otherwise=0.0)
+        return tension * self.modulus
 
-    def remaining_threshold(self, sign: int = 0) -> float | NDArray:
-        """Adhesion length [m] above which the wanted share remains; `sign` as of `remaining`.
+    @cached_property
+    def remaining_threshold(self) -> float | NDArray:
+        """Adhesion length [m] above which the wanted share remains.
 
         The adhesion length is varied through E*. The threshold is infinite if no modulus keeps the
         wanted share.
         """
-        length = self.threshold(
+        return self.rough.threshold(
             range=self.range,
             share=self.wanted_share,
-            sign=sign,
+            sign=self.deviation,
             adhesion_length=self.adhesion_length,
         )
-        return self._unless_overstrained(length, sign, otherwise=np.inf)
-
-    def _unless_overstrained(self, value, sign, otherwise):
-        """Value, or at the low limit what replaces it if a layer cannot take the heights."""
-        return plain(np.where(self.withstands | (sign >= 0), value, otherwise))
 
     @cached_property
     def edges(self) -> equivalent_sphere.EdgeAttraction:
@@ -137,35 +166,6 @@ class Pair(Roughness):
         return equivalent_sphere.adhesion_length_threshold(
             self.h_rms, self.q0, self.rms_slope, self.range, self.a_v
         )
-
-
-def make_pair(
-    rough: Roughness,
-    *,
-    modulus: ArrayLike,
-    work_of_adhesion: ArrayLike,
-    range: ArrayLike,
-    rms_curvature: ArrayLike = np.nan,
-    a_v: ArrayLike = np.nan,
-    **others: Any,
-) -> Pair:
-    """Bring a material and the roughness that it meets together; every `Pair` is made here.
-
-    Curvature and a_V serve the other criteria than that of what remains. `others` are further
-    fields of `Pair`.
-    """
-    roughness = {each.name: getattr(rough, each.name) for each in fields(Roughness)}
-    return Pair(
-        **roughness
-        | {
-            "modulus": modulus,
-            "work_of_adhesion": work_of_adhesion,
-            "range": range,
-            "rms_curvature": rms_curvature,
-            "a_v": a_v,
-        }
-        | others
-    )
 
 
 def decide(
@@ -185,7 +185,7 @@ def decide(
 
 
 def find_quantities(pair: Pair) -> dict[str, NDArray]:
-    """Compute every quantity of `QUANTITIES` for a pair, by name."""
+    """Compute every one of `QUANTITIES` for a pair, by name."""
     length = pair.adhesion_length
     edges = pair.edges
     tabor = np.asarray(edges.strength)
@@ -200,7 +200,7 @@ def find_quantities(pair: Pair) -> dict[str, NDArray]:
     )
     quantities = {
         "range_over_h_rms": pair.range / pair.h_rms,
-        "extrapolation": pair.extrapolation(length, pair.range),
+        "extrapolation": pair.rough.extrapolation(length, pair.range),
         "energy_ratio": length / pair.elastic_energy,
         "edge_strength": edges.strength,
         "attractive_over_contact": edges.attractive_over_contact,
@@ -208,15 +208,8 @@ def find_quantities(pair: Pair) -> dict[str, NDArray]:
         "regime": regime.astype("i1"),
         "simulated": np.asarray(edges.simulated).astype("i1"),
         "jtb_margin": dmt_validity(pair.h_rms, pair.q0, length, pair.range).margin,
-        "layer_strain": np.broadcast_to(pair.layer_strain, np.shape(length)),
+        "layer_strain": pair.layer_strain,
     }
-    for name in ("h_rms", "q0", "rms_slope", "rms_curvature", "a_v"):
+    for name in ("h_rms", "q0", "rms_slope", "rms_curvature"):
         quantities[f"pair_{name}"] = getattr(pair, name)
-    # What has limits by the model: value, low and high limit.
-    for ending, sign in SIGNS.items():
-        threshold = pair.remaining_threshold(sign)
-        quantities[f"remaining{ending}"] = pair.remaining(sign)
-        quantities[f"pull_off{ending}"] = pair.pull_off(sign)
-        quantities[f"margin{ending}"] = length / threshold
-        quantities[f"modulus_threshold{ending}"] = pair.work_of_adhesion / threshold
-    return {name: np.asarray(value) for name, value in quantities.items()}
+    return dict(zip(quantities, np.broadcast_arrays(*quantities.values()), strict=True))

@@ -65,8 +65,8 @@ _TABLE = (
     Criterion(
         REMAINING,
         "remaining adhesion",
-        margin=lambda pair: pair.adhesion_length / pair.remaining_threshold(),
-        length=Pair.remaining_threshold,
+        margin=lambda pair: pair.adhesion_length / pair.remaining_threshold,
+        length=lambda pair: pair.remaining_threshold,
     ),
     Criterion(
         EDGES,

@@ -92,7 +92,7 @@ class Roughness:
     relative_compliance: ArrayLike = 1.0  #: see `find_relative_compliance`
     flow: ArrayLike = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
     #: Energy of a half-space, which bounds that of a layer or skin; NaN: it does not.
-    half_space_energy: ArrayLike | None = None
+    half_space_energy: ArrayLike = np.nan
     is_skin: ArrayLike = False  #: whether the compliance is that of a skin, not of a layer
     anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
     waves: ArrayLike = np.inf  #: longest waves along a side of the contact
@@ -135,15 +135,40 @@ class Roughness:
 
     def scaled(self, factor: ArrayLike) -> Self:
         """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
-        scaled = {
-            "h_rms": self.h_rms * factor,
-            "rms_slope": self.rms_slope * factor,
-            "elastic_energy": self.elastic_energy * factor**2,
-            "height_factor": self.height_factor * factor,
-        }
-        if self.half_space_energy is not None:
-            scaled["half_space_energy"] = self.half_space_energy * factor**2
-        return replace(self, **scaled)
+        return replace(
+            self,
+            h_rms=self.h_rms * factor,
+            rms_slope=self.rms_slope * factor,
+            elastic_energy=self.elastic_energy * factor**2,
+            half_space_energy=self.half_space_energy * factor**2,
+            height_factor=self.height_factor * factor,
+        )
+
+    def take(self, rows: ArrayLike) -> Self:
+        """Return some rows of the arrays; a number is that of all rows."""
+        return replace(
+            self,
+            **{
+                field.name: values[rows]
+                for field in fields(self)
+                if np.ndim(values := getattr(self, field.name))
+            },
+        )
+
+    def broadcast(self, shape: tuple[int, ...]) -> Self:
+        """Return the same with every number and array in one shape, as rows ``(n,)``."""
+        return replace(
+            self,
+            **{
+                field.name: np.broadcast_to(getattr(self, field.name), shape).ravel()
+                for field in fields(self)
+            },
+        )
+
+    @property
+    def shape_of_arrays(self) -> tuple[int, ...]:
+        """Shape to which numbers and arrays broadcast."""
+        return np.broadcast_shapes(*(np.shape(getattr(self, field.name)) for field in fields(self)))
 
     def share(
         self,
@@ -189,7 +214,7 @@ class Roughness:
         # Where next to nothing remains an error is absolute, and fades with the adhesion.
         fading = np.minimum(self._energy_ratio(length) / self.onset(length, range), 1.0) ** 2
         share = share + sign * fading * find_spread("spectrum", "share").high
-        if self.half_space_energy is not None and np.isfinite(self.half_space_energy).any():
+        if np.isfinite(self.half_space_energy).any():
             share = self._bound_by_half_space(share, length, range, sign)
 
         # Full contact is a state that the surfaces may take.
@@ -202,8 +227,7 @@ class Roughness:
         compliance = np.asarray(self.relative_compliance)
         flow = np.asarray(self.flow)
         is_layer = ~np.asarray(self.is_skin)
-        bound = np.nan if self.half_space_energy is None else self.half_space_energy
-        is_on_film = is_layer & np.isnan(bound) & (compliance != 1)
+        is_on_film = is_layer & np.isnan(self.half_space_energy) & (compliance != 1)
         is_on_base = is_layer & ~is_on_film
         weights = {
             "film": 1.0 * is_on_film,
@@ -261,18 +285,16 @@ class Roughness:
         softer one has none of more.
         """
         is_known = np.isfinite(self.half_space_energy)
-        energy = np.where(is_known, self.half_space_energy, self.elastic_energy)
-        half_space = Roughness(
-            self.h_rms,
-            self.q0,
-            energy,
-            q1=self.q1,
-            anisotropy_error_factor=self.anisotropy_error_factor,
-            waves=self.waves,
-            rms_slope=self.rms_slope,
-            law=self.law,
-            shape=self.shape,
-            shape_error=self.shape_error,
+        half_space = replace(
+            self,
+            elastic_energy=self._energy_on_half_space,
+            half_space_energy=np.nan,
+            relative_compliance=1.0,
+            flow=0.0,
+            is_skin=False,
+            film_response=None,
+            simulated=None,
+            instant_ratio=1.0,
         )
         bound = half_space.share(adhesion_length, range, sign)
         is_stiffer = 1 - np.asarray(self.relative_compliance) >= 0
@@ -318,8 +340,8 @@ class Roughness:
     @property
     def _energy_on_half_space(self) -> NDArray:
         """Energy of full contact of a half-space, as far as it is known."""
-        bound = np.nan if self.half_space_energy is None else np.asarray(self.half_space_energy)
-        return np.where(np.isfinite(bound), bound, self.elastic_energy)
+        is_known = np.isfinite(self.half_space_energy)
+        return np.where(is_known, self.half_space_energy, self.elastic_energy)
 
     @property
     def load_scale(self) -> float | NDArray:
@@ -453,26 +475,24 @@ class Roughness:
         if adhesion_length is None:
             surface = replace(self, film_response=None)
             start = np.nan
-        shape, pairs = flatten_pairs(
-            surface,
-            range=range,
-            sign=sign,
-            wanted_share=share,
-            start_length=start,
+        columns = (range, sign, share, start)
+        shape = np.broadcast_shapes(surface.shape_of_arrays, *map(np.shape, columns))
+        pairs = PairRows(
+            surface.broadcast(shape), *(np.broadcast_to(x, shape).ravel() for x in columns)
         )
 
         def find_excess(log_length: NDArray, row: NDArray) -> NDArray:
             """Share that remains in these rows of the table, less the wanted one."""
             pair = pairs.take(row)
             length = np.exp(log_length)
-            rough = pair.at_modulus(pair.start_length / length)
+            rough = pair.rough.at_modulus(pair.start_length / length)
             return rough.share(length, pair.range, pair.sign) - pair.wanted_share
 
         # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
         # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
         # A film may raise the energy on the way there.
-        energy = pairs.elastic_energy
-        most_energy = pairs.at_modulus(SOFTEST).elastic_energy
+        energy = pairs.rough.elastic_energy
+        most_energy = pairs.rough.at_modulus(SOFTEST).elastic_energy
         lowest = np.log(LEAST_LENGTH * energy)
         highest = np.log(20 * most_energy / (1 - pairs.wanted_share))
 
@@ -495,10 +515,11 @@ class Roughness:
         return plain(lengths.reshape(shape))
 
 
-@dataclass(frozen=True, kw_only=True)
-class PairRows(Roughness):
+@dataclass(frozen=True)
+class PairRows:
     """Pairs as a flat table with one row each; all columns are arrays `(n,)`."""
 
+    rough: Roughness
     range: NDArray  #: of the attraction [length]
     #: Error of the share in units of its limits, see `Roughness.share`: -1, 0 or 1 for low limit,
     #: value and high limit, any number for an error that is drawn
@@ -506,21 +527,15 @@ class PairRows(Roughness):
     wanted_share: NDArray
     start_length: NDArray  #: adhesion length of the pair as given; NaN if none is
 
-    def take(self, row: NDArray) -> Self:
+    def take(self, row: NDArray) -> PairRows:
         """Return some rows of the table."""
-        columns = {field.name: getattr(self, field.name) for field in fields(self)}
-        return replace(self, **{name: x[row] for name, x in columns.items()})
-
-
-def flatten_pairs(rough: Roughness, **columns: ArrayLike) -> tuple[tuple[int, ...], PairRows]:
-    """Common shape of what a roughness and other columns hold, and all of it as rows of a table."""
-    for field in fields(Roughness):
-        columns[field.name] = getattr(rough, field.name)
-    if rough.half_space_energy is None:
-        columns["half_space_energy"] = np.nan
-    shape = np.broadcast_shapes(*(np.shape(values) for values in columns.values()))
-    rows = {name: np.broadcast_to(values, shape).ravel() for name, values in columns.items()}
-    return shape, PairRows(**rows)
+        return PairRows(
+            rough=self.rough.take(row),
+            range=self.range[row],
+            sign=self.sign[row],
+            wanted_share=self.wanted_share[row],
+            start_length=self.start_length[row],
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -574,13 +589,13 @@ def find_relative_compliance(spectrum: Spectrum, solid: Solid, q0: float) -> flo
     return float(check_solid(solid).factor(q0))
 
 
-def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float | None:
-    """Elastic energy that bounds that of a layer or a skin; none of a film.
+def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float:
+    """Elastic energy that bounds that of a layer or a skin; NaN of a film.
 
     A film is softer to long waves.
     """
     if solid == HALF_SPACE or is_on_film(solid):
-        return None
+        return np.nan
     return spectrum.elastic_energy()
 
 

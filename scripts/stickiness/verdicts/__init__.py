@@ -9,19 +9,19 @@ What goes in:
 
 What happens to them:
 
+- `scenarios`: all that a surface may be, a row each, with the error of the model
 - `pair_roughness`: the roughness that a material meets on a surface, with layers and two rough
   solids
 - `judgement`: `judge`, the only place where pairs become numbers
-- `draws`, `curves`, `thresholds`: what it says of draws, of other moduli, heights, rates and
-  dwells, and of what would make a pair stick
-- `limits`: the value and the limits that decide
+- `curves`, `thresholds`: what it says of other moduli, heights, rates and dwells, and of what would
+  make a pair stick
+- `limits`: how all that a number may be becomes its value and its limits
 - `verdict`: `verdict` and `thresholds` of one pair
 """
 
 __all__ = [
     "analysis",
     "curves",
-    "draws",
     "judgement",
     "limits",
     "material",
@@ -30,6 +30,7 @@ __all__ = [
     "parametric",
     "rough_ball",
     "rough_surface",
+    "scenarios",
     "simulated_surface",
     "surface_variables",
     "thresholds",

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
-from stickiness.criteria.pair import SIGNS, Pair
-from stickiness.verdicts.draws import QUANTILES, find_share_quantiles
-from stickiness.verdicts.limits import find_limits
+from stickiness.criteria.pair import Pair
 from stickiness.verdicts.material import Material
+from stickiness.verdicts.pair_roughness import PairRoughness
 
-PAIR_DIMENSIONS = ("material", "surface", "end")
 # Factors on E*, on heights at an unchanged shape of the spectrum, and on the dwell, 1 among them.
 MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
 ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
@@ -39,62 +36,51 @@ AXES = {
 
 
 class _Path(NamedTuple):
-    """Points along an axis, at which the share is evaluated."""
+    """Points along an axis, at which the share is evaluated, arrays ``(point,)``."""
 
-    moduli: NDArray  #: E* [Pa], (point, material); NaN where it is not known
-    heights: NDArray  #: factors on the heights, (point,)
-    instant_ratios: NDArray  #: `Material.instant_ratio` there, (point, material)
+    moduli: NDArray  #: E* [Pa]; NaN where it is not known
+    heights: NDArray  #: factors on the heights
+    instant_ratios: NDArray  #: `Material.instant_ratio` there
+
+
+def find_axes(materials: Iterable[Material], frequencies: NDArray) -> dict[str, NDArray]:
+    """Points of all axes by their dimension, in common for the materials."""
+    has_dwell = any(material.dwell is not None for material in materials)
+    return {
+        "modulus_factor": MODULUS_FACTORS,
+        "roughness_factor": ROUGHNESS_FACTORS,
+        "frequency": frequencies,
+        "dwell_factor": DWELL_FACTORS if has_dwell else np.ones(1),
+    }
+
+
+def find_rate_moduli(material: Material, axes: Mapping[str, NDArray]) -> NDArray:
+    """E* of a material at the frequencies of the axes [Pa]; NaN beyond a table."""
+    return np.atleast_1d(material.plane_strain.storage(axes["frequency"]))
 
 
 def follow_remaining(
-    pair: Pair,
-    materials: Sequence[Material],
-    draws: Sequence[Sequence[Pair | None]],
-    rate_moduli: NDArray,
-) -> dict[str, xr.DataArray | NDArray]:
-    """Share that remains along every axis of `AXES`, with its limits.
-
-    `draws` has a row for every material with a `Pair` for every surface. `rate_moduli` are the
-    storage moduli at the frequencies, ``(material, frequency)``.
-    """
-    has_dwell = np.array([material.dwell is not None for material in materials])
-    moduli = np.array([material.plane_strain_modulus for material in materials])
-    dwell_factors = DWELL_FACTORS if has_dwell.any() else np.ones(1)
-    dwell_moduli = np.array(
-        [[_find_modulus(material, factor) for material in materials] for factor in dwell_factors]
-    )
-    instant_ratios = np.array([material.instant_ratio for material in materials])
-    paths = {
-        "modulus": _Path(
-            moduli=MODULUS_FACTORS[:, None] * moduli,
-            heights=np.ones(MODULUS_FACTORS.size),
-            instant_ratios=instant_ratios[None],
-        ),
-        "roughness": _Path(
-            moduli=np.broadcast_to(moduli, (ROUGHNESS_FACTORS.size, moduli.size)),
-            heights=ROUGHNESS_FACTORS,
-            instant_ratios=instant_ratios[None],
-        ),
-        "rate": _Path(
-            moduli=np.where(has_dwell, np.nan, rate_moduli.T),
-            heights=np.ones(rate_moduli.shape[1]),
-            instant_ratios=instant_ratios[None],
-        ),
-        "dwell": _Path(
-            moduli=np.where(has_dwell, dwell_moduli, np.nan),
-            heights=np.ones(dwell_factors.size),
-            instant_ratios=instant_ratios * moduli / dwell_moduli,
-        ),
+    pair: Pair, rough: PairRoughness, material: Material, axes: Mapping[str, NDArray]
+) -> dict[str, NDArray]:
+    """Share that remains along every one of `AXES`, ``(point, limit)``; `axes` of `find_axes`."""
+    modulus = material.plane_strain_modulus
+    has_dwell = material.dwell is not None
+    dwell_moduli = np.array([_find_modulus(material, factor) for factor in axes["dwell_factor"]])
+    moduli = {
+        "modulus": axes["modulus_factor"] * modulus,
+        "roughness": np.full(axes["roughness_factor"].shape, modulus),
+        "rate": np.where(has_dwell, np.nan, find_rate_moduli(material, axes)),
+        "dwell": np.where(has_dwell, dwell_moduli, np.nan),
     }
-    curves: dict[str, xr.DataArray | NDArray] = {
-        "modulus_factor": MODULUS_FACTORS,
-        "roughness_factor": ROUGHNESS_FACTORS,
-        "dwell_factor": dwell_factors,
-    }
-    for axis, path in paths.items():
-        followed = _follow(pair, draws, AXES[axis].dimension, path)
-        for ending, curve in zip(SIGNS, followed, strict=True):
-            curves[f"remaining_by_{axis}{ending}"] = curve
+    curves = {}
+    for axis, its_moduli in moduli.items():
+        ratios = np.full(its_moduli.shape, material.instant_ratio)
+        path = _Path(
+            moduli=its_moduli,
+            heights=axes["roughness_factor"] if axis == "roughness" else np.ones(ratios.shape),
+            instant_ratios=ratios * modulus / its_moduli if axis == "dwell" else ratios,
+        )
+        curves[f"remaining_by_{axis}"] = _follow(pair, rough, path)
     return curves
 
 
@@ -105,53 +91,16 @@ def _find_modulus(material: Material, dwell_factor: float) -> float:
     return float(material.plane_strain.relaxation(dwell_factor * material.dwell))
 
 
-def _follow(
-    pair: Pair, draws: Sequence[Sequence[Pair | None]], dimension: str, path: _Path
-) -> list[xr.DataArray]:
-    """Share along a path, with the limits that decide."""
-    is_known = xr.DataArray(~np.isnan(path.moduli), dims=(dimension, "material"))
-    moduli = np.where(is_known, path.moduli, pair.modulus[:, 0, 0])
-    ratios = np.where(is_known, path.instant_ratios, 1.0)
-
-    # Both ends of every surface.
-    scaled = pair.scaled(path.heights[:, None, None, None])
-    changed = replace(
-        scaled.at_modulus(moduli[..., None, None] / pair.modulus),
-        modulus=moduli[..., None, None],
-        instant_ratio=ratios[..., None, None],
-    )
-    shares = xr.Dataset(
-        {
-            f"remaining{ending}": ((dimension, *PAIR_DIMENSIONS), changed.remaining(sign))
-            for ending, sign in SIGNS.items()
-        }
-    )
-    # The draws of measured surfaces.
-    quantiles = [
-        [_follow_draws(drawn, moduli[:, i], ratios[:, i], path.heights) for drawn in row]
-        for i, row in enumerate(draws)
-    ]
-    dims = (*PAIR_DIMENSIONS[:2], dimension, "quantile")
-    shares["remaining_quantile"] = (dims, np.array(quantiles))
-    low, high = find_limits(shares)
-    return [
-        curve.where(is_known).transpose(*PAIR_DIMENSIONS, dimension, missing_dims="ignore")
-        for curve in (shares.remaining, low, high)
-    ]
-
-
-def _follow_draws(
-    draws: Pair | None, moduli: NDArray, ratios: NDArray, heights: NDArray
-) -> NDArray:
-    """Quantiles of the share over the draws of a surface, ``(point, quantile)``; NaN without."""
-    if draws is None:
-        return np.full((len(moduli), len(QUANTILES)), np.nan)
+def _follow(pair: Pair, rough: PairRoughness, path: _Path) -> NDArray:
+    """Limits of the share along a path, ``(point, limit)``; NaN where the modulus is not known."""
+    curve = np.full((path.moduli.size, 3), np.nan)
+    is_known = np.isfinite(path.moduli)
+    if not is_known.any():
+        return curve
     # Points at which nothing differs are evaluated once.
-    points, place = np.unique([moduli, heights, ratios], axis=1, return_inverse=True)
+    points, place = np.unique(np.array(path)[:, is_known], axis=1, return_inverse=True)
     moduli, heights, ratios = points[..., None]
-    changed = replace(
-        draws.scaled(heights).at_modulus(moduli / draws.modulus),
-        modulus=moduli,
-        instant_ratio=ratios,
-    )
-    return find_share_quantiles(changed)[place]
+    changed = pair.scaled(heights).at_modulus(moduli)
+    changed = replace(changed, rough=replace(changed.rough, instant_ratio=ratios))
+    curve[is_known] = rough.limit(changed.remaining, changed)[place]
+    return curve

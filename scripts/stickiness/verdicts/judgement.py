@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from stickiness import datasets
 from stickiness.arguments import number
@@ -21,29 +22,22 @@ from stickiness.criteria.pair import (
     NOT_JUDGED,
     QUANTITIES,
     REGIMES,
-    SIGNS,
     WORDS,
     Pair,
     decide,
     find_quantities,
-    make_pair,
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.limited import Limited
+from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids.moduli import REFERENCE_FREQUENCY
-from stickiness.verdicts.curves import AXES, PAIR_DIMENSIONS, follow_remaining
-from stickiness.verdicts.draws import (
-    DRAW_STATISTICS,
-    DRAWN,
-    QUANTILES,
-    find_share_quantiles,
-    judge_draws,
-)
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.curves import AXES, find_axes, find_rate_moduli, follow_remaining
+from stickiness.verdicts.limits import HIGH, LIMIT_TEXT, LIMITS, LOW, VALUE
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
 from stickiness.verdicts.parametric import ENDS
 from stickiness.verdicts.rough_surface import Surface
+from stickiness.verdicts.scenarios import Scenarios
 from stickiness.verdicts.thresholds import (
     CONTACT_AREA,
     LEAST_AREA,
@@ -62,7 +56,18 @@ DECIDED_BY = (
 )
 BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
 LARGER = ("remaining", "modulus_threshold")  #: judged for a larger contact, too, with limits
-PER_PAIR = PAIR_DIMENSIONS[:2]  #: dimensions of what has one value for every pair
+PER_PAIR = ("material", "surface")  #: dimensions of what has one value for every pair
+#: Dimensions of what has more, after those of the pair.
+DIMENSIONS = {
+    **dict.fromkeys((*LIMITED, *THRESHOLDS, "pair_a_v"), ("limit",)),
+    **{f"larger_{name}": ("limit",) for name in LARGER},
+    **dict.fromkeys((*QUANTITIES, "stiffening"), ("end",)),
+    **dict.fromkeys(("margin_by_criterion", "threshold_by_criterion"), ("end", "criterion")),
+    "disagrees": ("criterion",),
+    **{f"remaining_by_{name}": (axis.dimension, "limit") for name, axis in AXES.items()},
+}
+#: What is known of the draws of a measured surface alone.
+DRAW_STATISTICS = ("probability", "probability_low", "error_of_spectrum", "error_of_model")
 
 
 def judge(
@@ -96,11 +101,11 @@ def judge(
     Returns
     -------
     Dataset
-        Over `material`, `surface` and, for what differs between them, the smooth and rough `end` of
-        what is known of the surface. `verdict` has codes, the places in `criteria.pair.WORDS`.
-        Every variable has its unit and description. `verdicts.limits` has the value and the limits
-        that decide. Numbers of pairs that are not
-        judged are NaN; `not_judged` says why.
+        Over `material` and `surface`. Numbers with limits have the dimension `limit`: low, value,
+        high. What the criteria say is known at the smooth and the rough `end` of what is known of
+        the surface. `verdict` has codes, the places in `criteria.pair.WORDS`. Every variable has
+        its unit and description. Numbers of pairs that are not judged are NaN; `not_judged` says
+        why.
 
     Raises
     ------
@@ -125,25 +130,25 @@ def judge(
     _check_shares(wanted_share, contact_area)
     materials = _name("materials", materials, Material)
     surfaces = _name("surfaces", surfaces, Surface)
-    roughness = [
-        [combine_roughness(material, surface) for surface in surfaces.values()]
-        for material in materials.values()
-    ]
-    dataset = _judge_pairs(
-        list(materials.values()), roughness, np.atleast_1d(frequencies), wanted_share, curves
-    )
-    dataset = dataset.assign_coords(material=list(materials), surface=list(surfaces))
-    reasons = [[rough.not_judged for rough in row] for row in roughness]
-    dataset["not_judged"] = PER_PAIR, np.array(reasons, "O")
-    dataset["verdict"] = decide_pairs(dataset, wanted_share)
-    dataset["disagrees"] = _find_disagreement(dataset)
-    dataset["decided_by"] = PER_PAIR, _find_deciders(materials, roughness, wanted_share)
-    if thresholds:
-        dataset = dataset.assign(
-            _find_thresholds(materials, roughness, dataset, contact_area, wanted_share)
-        )
-    dataset = dataset.assign(_judge_larger(materials, surfaces, wanted_share))
-    return _withhold(_describe(dataset))
+    axes = find_axes(materials.values(), np.atleast_1d(frequencies))
+    cells = []
+    for material in materials.values():
+        for surface in surfaces.values():
+            rough = combine_roughness(material, surface)
+            pair = rough.meet(material, wanted_share)
+            cell = _judge_pair(material, rough, pair)
+            if curves:
+                cell |= follow_remaining(pair, rough, material, axes)
+            if thresholds:
+                threshold = Limited(*cell["modulus_threshold"][[VALUE, LOW, HIGH]])
+                found = find_thresholds(material, rough, pair, threshold, contact_area)
+                cell |= {each: [x.low, x.value, x.high] for each, x in found.items()}
+            cells.append(cell | _judge_larger(material, surface, wanted_share))
+    dataset = _arrange(cells, materials, surfaces)
+    rate_moduli = [find_rate_moduli(material, axes) for material in materials.values()]
+    dataset["modulus"] = ("material", "frequency"), rate_moduli
+    along = {name: points for name, points in axes.items() if name in dataset.dims}
+    return _withhold(_describe(dataset.assign_coords(along)))
 
 
 def _check_shares(wanted_share: float, contact_area: float) -> None:
@@ -167,245 +172,137 @@ def _name(argument: str, items: Mapping | Sequence, kind: type) -> dict:
     return named
 
 
-def _judge_pairs(
-    materials: list[Material],
-    roughness: list[list[PairRoughness]],
-    frequencies: NDArray,
-    wanted_share: float,
-    curves: bool,
-) -> xr.Dataset:
-    """Numbers of every pair, before any is decided; `roughness` has a row for every material."""
-    pair = _stack_ends(materials, roughness, wanted_share)
-    draws = [
-        [rough.meet_draws(material, wanted_share) for rough in row]
-        for material, row in zip(materials, roughness, strict=True)
-    ]
-    rate_moduli = np.array(
-        [np.atleast_1d(material.plane_strain.storage(frequencies)) for material in materials]
-    )
-    quantities = find_quantities(pair)
-    dataset = xr.Dataset({name: (PAIR_DIMENSIONS, quantities[name]) for name in quantities})
-    dataset = dataset.assign(_judge_all_draws(draws))
-    if curves:
-        dataset = dataset.assign(follow_remaining(pair, materials, draws, rate_moduli))
-
-    # What the criteria say.
-    by_criterion = (*PAIR_DIMENSIONS, "criterion")
-    margins = [criterion.margin(pair) for criterion in CRITERIA.values()]
-    moduli = [criterion.modulus_threshold(pair) for criterion in CRITERIA.values()]
-    dataset["margin"] = by_criterion, np.stack(margins, axis=-1)
-    dataset["threshold_by_criterion"] = by_criterion, np.stack(moduli, axis=-1)
-
-    # What depends on the surface beside the criteria.
-    dataset["pair_a_v_low"] = (
-        PAIR_DIMENSIONS,
-        np.array([[rough.a_v.low for rough in row] for row in roughness]),
-    )
-    dataset["pair_a_v_high"] = (
-        PAIR_DIMENSIONS,
-        np.array([[rough.a_v.high for rough in row] for row in roughness]),
-    )
-    dataset["stiffening"] = (
-        PAIR_DIMENSIONS,
-        np.array([[rough.stiffening for rough in row] for row in roughness]),
-    )
-
-    # Properties of the materials, as they are judged.
-    by_material = {
-        "work_of_adhesion": [material.work_of_adhesion for material in materials],
-        "modulus_quoted": [material.plane_strain_modulus for material in materials],
-        "dwell": [np.nan if material.dwell is None else material.dwell for material in materials],
-        "broken_at": [material.broken_at for material in materials],
-        "instant_ratio": [material.instant_ratio for material in materials],
-        "depends_on_rate": [int(material.depends_on_rate) for material in materials],
+def _judge_pair(material: Material, rough: PairRoughness, pair: Pair) -> dict[str, Any]:
+    """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
+    # What has limits, in the rows of what the surface may be.
+    threshold = pair.remaining_threshold
+    margins = pair.adhesion_length / threshold
+    in_rows = {
+        "remaining": pair.remaining,
+        "pull_off": pair.pull_off,
+        "margin": margins,
+        "modulus_threshold": pair.work_of_adhesion / threshold,
     }
-    dataset = dataset.assign({name: ("material", by_material[name]) for name in by_material})
-    dataset["modulus"] = ("material", "frequency"), rate_moduli
-    return dataset.assign_coords(
-        end=list(ENDS),
-        criterion=list(CRITERIA),
-        quantile=list(QUANTILES),
-        frequency=frequencies,
-    )
+    cell: dict[str, Any] = {name: rough.limit(values, pair) for name, values in in_rows.items()}
+    cell |= describe_draws(rough.scenarios, pair)
 
-
-def _stack_ends(
-    materials: list[Material], roughness: list[list[PairRoughness]], wanted_share: float
-) -> Pair:
-    """`Pair` of every material with both ends of every surface, ``(material, surface, end)``."""
-
-    def of_ends(name: str) -> NDArray:
-        return np.array([[getattr(rough.ends, name) for rough in row] for row in roughness])
-
-    def of_materials(values: list) -> NDArray:
-        columns = np.array(values)[:, None, None]
-        return np.broadcast_to(columns, (len(materials), len(roughness[0]), len(ENDS)))
-
-    h_rms = of_ends("h_rms")
-    q0 = of_ends("q0")
-    rough = Roughness(
-        h_rms=h_rms,
-        q0=q0,
-        q1=of_ends("q1"),
-        elastic_energy=of_ends("elastic_energy"),
-        relative_compliance=of_ends("relative_compliance"),
-        flow=of_ends("flow"),
-        half_space_energy=of_ends("half_space_energy"),
-        is_skin=of_ends("is_skin"),
-        anisotropy_error_factor=of_ends("anisotropy_error_factor"),
-        waves=of_ends("waves"),
-        rms_slope=of_ends("rms_slope"),
-        law=of_materials([material.law for material in materials]),
-        film_response=of_ends("film_response"),
-        shape=of_ends("shape"),
-        shape_error=of_ends("shape_error"),
-        simulated=of_ends("simulated"),
-        lacking=of_ends("lacking"),
-        instant_ratio=of_materials([material.instant_ratio for material in materials]),
-    )
-    strain = [material.solid.strain(h_rms[i], q0[i]) for i, material in enumerate(materials)]
-    return make_pair(
-        rough,
-        modulus=of_materials([material.plane_strain_modulus for material in materials]),
-        work_of_adhesion=of_materials([material.work_of_adhesion for material in materials]),
-        range=of_materials([material.range for material in materials]),
-        pressed=of_materials([material.pressed for material in materials]),
-        rms_curvature=np.array([[rough.rms_curvature for rough in row] for row in roughness]),
-        a_v=np.array([[rough.a_v.value for rough in row] for row in roughness]),
-        wanted_share=wanted_share,
-        layer_strain=np.array(strain),
-    )
-
-
-def _judge_all_draws(draws: list[list[Pair | None]]) -> dict[str, tuple]:
-    """Distributions over the draws of measured surfaces; NaN on others."""
-    judged = [[judge_draws(pair) for pair in row] for row in draws]
-
-    def collect(name: str) -> list[list]:
-        return [[distributions[name] for distributions in row] for row in judged]
-
-    statistics = {name: (PER_PAIR, collect(name)) for name in DRAW_STATISTICS}
-    quantiles = {
-        f"{name}_quantile": ((*PER_PAIR, "quantile"), collect(f"{name}_quantile")) for name in DRAWN
+    # What the criteria say at both ends, the smooth one and the rough one.
+    ends = rough.take_ends(pair)
+    cell |= find_quantities(ends)
+    by_criterion = {
+        name: np.broadcast_to(criterion.margin(ends), len(ENDS))
+        for name, criterion in CRITERIA.items()
     }
-    return statistics | quantiles
+    sticky = {name: margin > 1 for name, margin in by_criterion.items()}
+    moduli = [criterion.modulus_threshold(ends) for criterion in CRITERIA.values()]
+    cell["margin_by_criterion"] = np.transpose(list(by_criterion.values()))
+    cell["threshold_by_criterion"] = np.transpose(
+        [np.broadcast_to(modulus, len(ENDS)) for modulus in moduli]
+    )
+    cell["stiffening"] = rough.stiffening
+    cell["pair_a_v"] = [rough.a_v.low.min(), rough.a_v.value[-1], rough.a_v.high.max()]
+
+    # The verdict. Beyond the onset at the finest wave contact grows by itself.
+    low, _, high = cell["remaining"]
+    cell["verdict"] = decide(low, high, sticky[EDGES].any(), pair.wanted_share)
+    cell["disagrees"] = [(says != sticky[REMAINING]).any() for says in sticky.values()]
+    cell["decided_by"] = _find_decider(rough, pair)
+    cell["not_judged"] = rough.not_judged
+    return cell
 
 
-def decide_pairs(dataset: xr.Dataset, wanted_share: float) -> xr.DataArray:
-    """Codes of the verdicts over the whole range of the surface and the limits of the model."""
-    low, high = find_limits(dataset)
-    # Beyond the onset at the finest wave contact grows by itself.
-    grows = (dataset.margin.sel(criterion=EDGES, drop=True) > 1).any("end")
-    return low.copy(data=decide(low, high, grows, wanted_share))
+def describe_draws(scenarios: Scenarios, pair: Pair) -> dict[str, float]:
+    """`DRAW_STATISTICS` of the margins of a pair; NaN of a surface that was not measured."""
+    if not scenarios.is_drawn:
+        return dict.fromkeys(DRAW_STATISTICS, np.nan)
+    margins = pair.adhesion_length / pair.remaining_threshold
+    # By the model as it is, margins scatter with the spectrum alone.
+    exact = replace(pair, deviation=0.0)
+    by_spectrum = np.log(exact.adhesion_length / exact.remaining_threshold)
+    by_model = np.log(margins) - by_spectrum
+    weights = scenarios.weights
+    sticks = margins > 1
+    return {
+        "probability": np.average(sticks, weights=weights),
+        "probability_low": np.average(sticks & pair.withstands, weights=weights),
+        "error_of_spectrum": np.sqrt(np.cov(by_spectrum, aweights=weights, ddof=0)),
+        "error_of_model": np.sqrt(np.cov(by_model, aweights=weights, ddof=0)),
+    }
 
 
-def _find_deciders(
-    materials: Mapping[str, Material], roughness: list[list[PairRoughness]], wanted_share: float
-) -> NDArray:
-    """Codes of what decides the verdicts, their places in `DECIDED_BY`; `roughness` as before."""
-    codes = [
-        [_find_decider(rough, rough.meet_draws(material, wanted_share)) for rough in row]
-        for material, row in zip(materials.values(), roughness, strict=True)
-    ]
-    return np.array(codes, "i1")
-
-
-def _find_decider(rough: PairRoughness, draws: Pair | None) -> int:
-    """Code of what decides the verdict on one pair."""
-    if draws is None:
+def _find_decider(rough: PairRoughness, pair: Pair) -> int:
+    """Code of what decides the verdict on a pair, its place in `DECIDED_BY`."""
+    if not rough.scenarios.is_drawn:
         return BY_GAUSSIAN_THEORY
-    simulated = rough.ends.simulated[0]
+    simulated = pair.rough.simulated
     if simulated is None:
         return BY_SHAPED_THEORY
     # Enough may remain without what attraction does to the contact.
-    pressed = replace(draws, simulated=np.full(draws.lacking.shape, simulated.without_adhesion()))
-    is_enough = find_share_quantiles(pressed)[0] >= draws.wanted_share
+    pressed = replace(pair, rough=replace(pair.rough, simulated=simulated.without_adhesion()))
+    is_enough = rough.limit(pressed.remaining, pair)[LOW] >= pair.wanted_share
     return BY_BOUND if is_enough else BY_SIMULATION
 
 
-def _find_disagreement(dataset: xr.Dataset) -> xr.DataArray:
-    """Whether a criterion says the opposite of the verdict."""
-    sticky = dataset.margin > 1
-    differs = (sticky != sticky.sel(criterion=REMAINING)).any("end")
-    return differs.astype("i1")
-
-
-def _find_thresholds(
-    materials: Mapping[str, Material],
-    roughness: list[list[PairRoughness]],
-    dataset: xr.Dataset,
-    contact_area: float,
-    wanted_share: float,
-) -> dict[str, tuple]:
-    """Every one of `THRESHOLDS` with its limits."""
-    thresholds = [
-        [
-            find_thresholds(
-                material,
-                rough,
-                cell=dataset.isel(material=row, surface=column),
-                contact_area=contact_area,
-                wanted_share=wanted_share,
-            )
-            for column, rough in enumerate(roughness[row])
-        ]
-        for row, material in enumerate(materials.values())
-    ]
-    parts = {"": "value", "_low": "low", "_high": "high"}
-    return {
-        f"{name}{ending}": (
-            PER_PAIR,
-            [[getattr(threshold[name], part) for threshold in row] for row in thresholds],
-        )
-        for name in THRESHOLDS
-        for ending, part in parts.items()
-    }
-
-
-def _judge_larger(
-    materials: Mapping[str, Material], surfaces: Mapping[str, Surface], wanted_share: float
-) -> xr.Dataset:
-    """Verdict, and `LARGER` with limits, where the contact is larger than a scan.
+def _judge_larger(material: Material, surface: Surface, wanted_share: float) -> dict[str, Any]:
+    """Verdict, and `LARGER` with limits, of a contact that is larger than a scan.
 
     "not judged" and NaN where no longer waves may follow, or nothing is known of them.
     """
-    larger = {name: surface.larger for name, surface in surfaces.items() if surface.larger}
-    of_surfaces = {"surface": list(surfaces)}
-    contact = [surface.contact for surface in surfaces.values()]
-    larger_contact = [larger[x].contact if x in larger else np.nan for x in surfaces]
-    dataset = xr.Dataset(
-        {"contact": ("surface", contact), "larger_contact": ("surface", larger_contact)},
-        coords=of_surfaces,
-    )
-    names = [f"larger_{name}{ending}" for name in LARGER for ending in SIGNS]
-    if not larger:
-        coords = {"material": list(materials), **of_surfaces}
-        unknown = xr.DataArray(np.nan, dims=PER_PAIR, coords=coords)
-        verdict = xr.full_like(unknown, NOT_JUDGED, dtype="i1")
-        return dataset.assign(dict.fromkeys(names, unknown) | {"larger_verdict": verdict})
+    larger = surface.larger
+    if larger is None:
+        unknown = dict.fromkeys((f"larger_{name}" for name in LARGER), np.full(3, np.nan))
+        return unknown | {"larger_verdict": NOT_JUDGED}
     # A material that is rough itself meets the same contact.
-    judged = xr.concat(
-        [
-            judge(
-                {key: material.on_contact(surface.contact) for key, material in materials.items()},
-                {name: surface},
-                wanted_share=wanted_share,
-                curves=False,
-                thresholds=False,
-            )
-            for name, surface in larger.items()
-        ],
-        dim="surface",
-        data_vars="minimal",
+    material = material.on_contact(larger.contact)
+    rough = combine_roughness(material, larger)
+    cell = _judge_pair(material, rough, rough.meet(material, wanted_share))
+    if rough.not_judged:
+        cell |= dict.fromkeys(LARGER, np.full(3, np.nan)) | {"verdict": NOT_JUDGED}
+    return {f"larger_{name}": cell[name] for name in ("verdict", *LARGER)}
+
+
+def _arrange(
+    cells: list[dict[str, Any]], materials: Mapping[str, Material], surfaces: Mapping[str, Surface]
+) -> xr.Dataset:
+    """Dataset of all cells, those of a material one after the other."""
+    shape = (len(materials), len(surfaces))
+    dataset = xr.Dataset(
+        coords={
+            "material": list(materials),
+            "surface": list(surfaces),
+            "limit": list(LIMITS),
+            "end": list(ENDS),
+            "criterion": list(CRITERIA),
+        }
     )
-    limited = {"larger_verdict": judged.verdict}
-    for name in LARGER:
-        low, high = find_limits(judged, name)
-        numbers = (find_value(judged, name), low, high)
-        for ending, values in zip(SIGNS, numbers, strict=True):
-            limited[f"larger_{name}{ending}"] = values
-    verdicts = xr.Dataset(limited).reset_coords(drop=True)
-    return dataset.merge(verdicts.reindex(of_surfaces, fill_value={"larger_verdict": NOT_JUDGED}))
+    for name in cells[0]:
+        values = np.array([cell[name] for cell in cells])
+        if values.dtype.kind in "ib":
+            values = values.astype("i1")
+        if values.dtype.kind == "U":
+            values = values.astype("O")
+        dimensions = (*PER_PAIR, *DIMENSIONS.get(name, ()))
+        dataset[name] = dimensions, values.reshape(*shape, *values.shape[1:])
+
+    # Properties of the materials, as they are judged, and of the surfaces.
+    by_material = {
+        "work_of_adhesion": [material.work_of_adhesion for material in materials.values()],
+        "modulus_quoted": [material.plane_strain_modulus for material in materials.values()],
+        "dwell": [material.dwell or np.nan for material in materials.values()],
+        "broken_at": [material.broken_at for material in materials.values()],
+        "instant_ratio": [material.instant_ratio for material in materials.values()],
+        "depends_on_rate": [int(material.depends_on_rate) for material in materials.values()],
+    }
+    by_surface = {
+        "contact": [surface.contact for surface in surfaces.values()],
+        "larger_contact": [
+            surface.larger.contact if surface.larger else np.nan for surface in surfaces.values()
+        ],
+    }
+    return dataset.assign(
+        {name: ("material", values) for name, values in by_material.items()}
+        | {name: ("surface", values) for name, values in by_surface.items()}
+    )
 
 
 def _describe(dataset: xr.Dataset) -> xr.Dataset:
@@ -421,16 +318,17 @@ def _describe(dataset: xr.Dataset) -> xr.Dataset:
 
 def _list_texts() -> dict[str, tuple[str, ...]]:
     """Unit, description and, where a value may be missing, what that means, of every variable."""
-    remains = LIMITED["remaining"][1]
     unmeasured = "not measured"
     no_longer = "no waves longer than the scan are expected or known"
     texts: dict[str, tuple[str, ...]] = {
+        **LIMITED,
         **QUANTITIES,
+        **THRESHOLDS,
         "material": ("1", "material"),
         "surface": ("1", "real surface"),
         "end": ("1", "smooth or rough end of what is known of the surface"),
         "criterion": ("1", "stickiness criterion"),
-        "quantile": ("1", "quantile of the draws"),
+        "limit": LIMIT_TEXT,
         "frequency": ("Hz", "frequency of loading"),
         "modulus_factor": ("1", "factor on the plane-strain modulus"),
         "roughness_factor": ("1", "factor on the heights, at unchanged shape of the spectrum"),
@@ -439,7 +337,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "probability_low": ("1", "share of draws that stick within linear elasticity", unmeasured),
         "error_of_spectrum": ("1", "standard deviation of ln margin by the spectrum", unmeasured),
         "error_of_model": ("1", "standard deviation of ln margin by the model", unmeasured),
-        "margin": (
+        "margin_by_criterion": (
             "1",
             "threshold over actual value in the criterion's usual form; sticky above 1",
         ),
@@ -447,8 +345,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
             "Pa",
             "plane-strain modulus below which a criterion says sticky",
         ),
-        "pair_a_v_low": ("1", "low limit of the pair's a_V"),
-        "pair_a_v_high": ("1", "high limit of the pair's a_V"),
+        "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
         "work_of_adhesion": ("J/m^2", "work of adhesion"),
         "stiffening": ("1", "energy of full contact over that of a half-space"),
         "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
@@ -470,20 +367,9 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
     }
     for name in LARGER:
         unit, text = LIMITED[name]
-        for ending in SIGNS:
-            limit = f", {ending[1:]} limit" if ending else ""
-            longer = f"{text}, of the larger contact{limit}"
-            texts[f"larger_{name}{ending}"] = (unit, longer, no_longer)
-    for name in DRAWN:
-        unit, text = LIMITED[name]
-        texts[f"{name}_quantile"] = (unit, f"quantiles of the {text}", unmeasured)
-    texts["margin_quantile"] = ("1", "quantiles of the margin", unmeasured)
-    for ending in SIGNS:
-        limit = f", {ending[1:]} limit" if ending else ""
-        for axis, (_, text, missing) in AXES.items():
-            texts[f"remaining_by_{axis}{ending}"] = ("1", f"{remains}, {text}{limit}", missing)
-        for name, threshold in THRESHOLDS.items():
-            texts[f"{name}{ending}"] = threshold
+        texts[f"larger_{name}"] = (unit, f"{text}, of the larger contact", no_longer)
+    for axis, (_, text, missing) in AXES.items():
+        texts[f"remaining_by_{axis}"] = ("1", f"{LIMITED['remaining'][1]}, {text}", missing)
     return texts
 
 

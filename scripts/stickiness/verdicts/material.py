@@ -105,7 +105,7 @@ class Material:
                 f"poisson = {self.poisson!r} must equal the solid's, {self.solid.poisson!r}: "
                 f"`modulus` is that of the {part}"
             )
-        if self.surface is not None and not hasattr(self.surface, "draws"):
+        if self.surface is not None and not hasattr(self.surface, "scenarios"):
             raise ValueError(f"surface must be a Surface, got {self.surface!r}")
         if self.law not in PREDICTED:
             raise ValueError(f"law must be one of {', '.join(PREDICTED)}, got {self.law!r}")

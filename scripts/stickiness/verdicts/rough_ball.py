@@ -6,19 +6,17 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stickiness.arguments import number
 from stickiness.formatting import amount, in_unit, limited
 from stickiness.remaining import sphere
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
-from stickiness.verdicts.draws import draw_model_errors, find_quantiles
+from stickiness.verdicts.limits import VALUE
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import combine_roughness
 from stickiness.verdicts.rough_surface import Surface
-
-SIGNS = (-1, 0, 1)  # low limit, value, high limit
+from stickiness.verdicts.scenarios import ENDS
 
 
 @dataclass(frozen=True)
@@ -94,32 +92,26 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
             "skin and dwell"
         )
 
-    # Over all that is known of the surface, from its smooth to its rough end.
+    # Over all that the surface may be. Errors of the model raise the high limits alone, by jumps
+    # and pinned edges, so that the value is that without them.
     rough = combine_roughness(material, surface)
-    ends = rough.meet_ends(material, DEFAULT_SHARE)
-    modulus = material.plane_strain_modulus
-    length = material.work_of_adhesion / modulus
-    pulled = [sphere.pull_off(ends, radius, length, material.range, sign) for sign in SIGNS]
-    low, value, high = (modulus * np.asarray(pull_off.force) for pull_off in pulled)
-    forces: NDArray = np.array([low.min(), value[-1], high.max()])
+    pair = rough.meet(material, DEFAULT_SHARE)
+    length = pair.adhesion_length
+    with_errors, exact = (
+        sphere.pull_off(pair.rough, radius, length, pair.range, sign)
+        for sign in (pair.deviation, 0.0)
+    )
+    low, _, high = rough.limit(pair.modulus * with_errors.force, pair)
+    value = rough.limit(pair.modulus * exact.force, pair)[VALUE]
 
-    # On a measured surface over its draws: limits with the errors of the model, which are no
-    # smooth function of their sign, and the median without them.
-    draws = rough.meet_draws(material, DEFAULT_SHARE)
-    if draws is not None:
-        for kept, errors in (([0, 2], draw_model_errors(draws)), ([1], 0)):
-            drawn = sphere.pull_off(draws, radius, length, material.range, errors)
-            quantiles = find_quantiles(modulus * np.asarray(drawn.force), draws.withstands)
-            forces[kept] = quantiles[kept]
-
-    middle = pulled[SIGNS.index(0)]
-    waves = 2 * middle.zone_radius[-1] * ends.q0[-1] / (2 * np.pi)
+    rough_end = ENDS[-1]
+    waves = 2 * exact.zone_radius[rough_end] * pair.q0[rough_end] / (2 * np.pi)
     if rough.not_judged:
-        forces = np.full(len(SIGNS), np.nan)
+        low = value = high = np.nan
     return BallPullOff(
         radius=radius,
-        force=float(forces[1]),
-        force_limits=(float(forces[0]), float(forces[-1])),
-        smooth_force=float(modulus * np.max(middle.smooth_force)),
+        force=float(value),
+        force_limits=(float(low), float(high)),
+        smooth_force=float(pair.modulus * np.max(exact.smooth_force)),
         waves=float(waves),
     )

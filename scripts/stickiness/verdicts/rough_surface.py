@@ -33,6 +33,7 @@ from stickiness.spectrum.kinds import SelfAffine, Tabulated
 from stickiness.verdicts import parametric
 from stickiness.verdicts.longer_waves import LARGER, lengthen
 from stickiness.verdicts.parametric import ENDS, MOMENTS
+from stickiness.verdicts.scenarios import Scenarios
 from stickiness.verdicts.simulated_surface import (
     find_lacking,
     find_stiffening,
@@ -78,7 +79,7 @@ class Surface:
     >>> from stickiness.spectrum import SelfAffine
     >>> rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
     >>> wall = Surface.from_spectrum(rough)
-    >>> print(f"{wall.ends.h_rms[0]:.2g} m")
+    >>> print(f"{wall.rms_height:.2g} m")
     1e-06 m
     """
 
@@ -367,52 +368,37 @@ class Surface:
         return Tabulated(q, smooth), Tabulated(q, rough)
 
     @cached_property
-    def ends(self) -> Roughness:
-        """Roughness that a half-space meets at the smooth and at the rough end, ``(2,)``."""
-        data = self.data.sel(end=list(ENDS))
-        energy = data.elastic_energy.values
-        return Roughness(
-            h_rms=data.h_rms.values,
-            q0=np.full(2, float(data.q0)),
-            q1=np.full(2, float(data.q1)),
+    def scenarios(self) -> Scenarios:
+        """All that the surface may be, as a half-space meets it."""
+        energy = self.rows("elastic_energy")
+        slope = self.data.rms_slope.sel(end=list(ENDS)).values
+        roughness = Roughness(
+            h_rms=self.rows("h_rms"),
+            q0=self._fill(self.data.get("q0_draws"), np.full(2, float(self.data.q0))),
+            q1=np.full(energy.shape, float(self.data.q1)),
             elastic_energy=energy,
-            relative_compliance=np.ones(2),
-            flow=np.zeros(2),
             half_space_energy=energy,
-            is_skin=np.zeros(2, dtype=bool),
-            anisotropy_error_factor=np.full(2, self._anisotropy_error_factor),
-            waves=np.full(2, self._waves),
-            rms_slope=data.rms_slope.values,
-            film_response=np.full(2, None),
-            shape=np.full(2, self._find_shape("shape")),
-            shape_error=np.full(2, self._find_shape("shape_error")),
-            simulated=np.full(2, self.simulated),
-            lacking=self._find_lacking("", count=2),
-        )
-
-    @cached_property
-    def draws(self) -> Roughness | None:
-        """Roughness of every draw, ``(n,)``; None of a surface that was not measured."""
-        if "h_rms_draws" not in self.data:
-            return None
-        energy = self.data.elastic_energy_draws.values
-        return Roughness(
-            h_rms=self.data.h_rms_draws.values,
-            q0=self.data.q0_draws.values,
-            q1=float(self.data.q1),
-            elastic_energy=energy,
-            relative_compliance=np.float64(1.0),
-            flow=np.float64(0.0),
-            half_space_energy=energy,
-            anisotropy_error_factor=np.float64(self._anisotropy_error_factor),
+            anisotropy_error_factor=self._anisotropy_error_factor,
             waves=self._waves,
             # Slopes of the draws are not kept; those of both ends hardly differ.
-            rms_slope=self.ends.rms_slope.mean(),
+            rms_slope=np.append(slope, np.full(self.draw_count, slope.mean())),
             shape=self._find_shape("shape"),
             shape_error=self._find_shape("shape_error"),
             simulated=self.simulated,
-            lacking=self._find_lacking("_draws", count=energy.size),
+            lacking=self._find_lacking(),
         )
+        if self.draw_count:
+            return Scenarios.of_draws(roughness)
+        return Scenarios.between_ends(roughness)
+
+    def rows(self, name: str) -> NDArray:
+        """A variable at both ends, and of every draw of a measured surface."""
+        at_ends = self.data[name].sel(end=list(ENDS)).values
+        return self._fill(self.data.get(f"{name}_draws"), at_ends)
+
+    def _fill(self, of_draws: xr.DataArray | None, at_ends: NDArray) -> NDArray:
+        """Numbers at both ends and of all draws, if there are draws."""
+        return at_ends if of_draws is None else np.append(at_ends, of_draws.values)
 
     @cached_property
     def simulated(self) -> SimulatedHeights | None:
@@ -442,15 +428,12 @@ class Surface:
         stiffening = find_stiffening(solid, self.spectra[1], simulated.pixel)
         return stiffening * energy / simulated.whole.full_contact_energy
 
-    def _find_lacking(self, ending: str, count: int) -> NDArray:
-        """Energy of waves that are not simulated over that of the others, ``(count,)``."""
+    def _find_lacking(self) -> NDArray:
+        """Energy of waves that are not simulated over that of the others, in every row."""
         if self.simulated is None:
-            return np.zeros(count)
-        return find_lacking(
-            self.simulated,
-            unheld=self.data[f"unheld_energy{ending}"].values,
-            longer=np.asarray(self.data.get(f"longer_energy{ending}", 0.0)),
-        )
+            return np.zeros(2 + self.draw_count)
+        longer = self.rows("longer_energy") if "longer_energy" in self.data else 0.0
+        return find_lacking(self.simulated, unheld=self.rows("unheld_energy"), longer=longer)
 
     def _find_shape(self, name: str) -> np.float64:
         """What the shape of the heights changes, or its error; zero where no heights are."""

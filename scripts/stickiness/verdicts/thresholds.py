@@ -10,8 +10,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from stickiness.criteria.a_v_table import RANGES
 from stickiness.criteria.pair import Pair
@@ -20,11 +19,10 @@ from stickiness.persson.theory import Persson
 from stickiness.remaining.thin_layers import find_flow
 from stickiness.solids import Layer, Skin, Solid
 from stickiness.solids.moduli import Modulus
-from stickiness.spectrum.interface import Spectrum
-from stickiness.verdicts.draws import find_share_quantiles
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.limits import VALUE
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness
+from stickiness.verdicts.scenarios import ENDS
 
 CONTACT_AREA = 0.05  #: share of the nominal area
 LEAST_AREA = 0.005  #: least and largest share of the nominal area that may be asked for
@@ -44,9 +42,6 @@ _PRECISION = 1e-8  # relative, between two points of the search
 _CONVERGED = 0  # status of SciPy's search
 _NOT_BRACKETED = -1
 
-Remain = Callable[[Pair], NDArray]  # shares (n, end, limit), see `remain_at_ends`
-
-
 UNKNOWN = Limited(np.nan, np.nan, np.nan)
 THRESHOLDS = {  #: unit, description, and why a value may be missing
     "rms_height_threshold": ("m", "rms height below which the wanted share remains", "not known"),
@@ -63,111 +58,95 @@ THRESHOLDS = {  #: unit, description, and why a value may be missing
 def find_thresholds(
     material: Material,
     rough: PairRoughness,
-    cell: xr.Dataset,
+    pair: Pair,
+    modulus_threshold: Limited,
     contact_area: float,
-    wanted_share: float,
 ) -> dict[str, Limited]:
-    """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply.
-
-    `cell` has the judged modulus threshold of the pair.
-    """
+    """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply."""
     if rough.not_judged:
         return dict.fromkeys(THRESHOLDS, UNKNOWN)
-    draws = rough.meet_draws(material, wanted_share)
-    if draws is None:
-        pair = rough.meet_ends(material, wanted_share)
-        remain: Remain = remain_at_ends
-        h_rms = float(rough.ends.h_rms[-1])
-    else:
-        pair = draws
-        remain = remain_on_draws
-        h_rms = float(np.sqrt(np.prod(rough.ends.h_rms)))
-    spectra = list(rough.spectra)
     return {
-        "rms_height_threshold": find_rms_height(pair, h_rms, remain),
-        "thickness_threshold": find_thickness(pair, material.solid, spectra, remain) or UNKNOWN,
-        "rate_threshold": _find_rate_of(material, cell),
-        "contact_pressure": find_pressure(spectra, material.solid, pair, contact_area),
+        "rms_height_threshold": find_rms_height(pair, rough),
+        "thickness_threshold": find_thickness(pair, rough, material.solid),
+        "rate_threshold": _find_rate_of(material, modulus_threshold),
+        "contact_pressure": find_pressure(pair, rough, material.solid, contact_area),
     }
 
 
-def _find_rate_of(material: Material, cell: xr.Dataset) -> Limited:
+def _find_rate_of(material: Material, modulus_threshold: Limited) -> Limited:
     """Frequency below which a material sticks; NaN of an elastic solid, and after a dwell."""
     if not material.depends_on_rate or material.dwell is not None:
         return UNKNOWN
-    name = "modulus_threshold"
-    moduli = np.sort([float(find_value(cell, name)), *map(float, find_limits(cell, name))])
-    return find_rate(material.plane_strain, moduli)
+    return find_rate(material.plane_strain, modulus_threshold)
 
 
-def remain_at_ends(pair: Pair) -> NDArray:
-    """Low limit, value and high limit of the share that remains, along a last axis."""
-    return np.stack([pair.remaining(sign) for sign in (-1, 0, 1)], axis=-1)
+def find_rms_height(pair: Pair, rough: PairRoughness) -> Limited:
+    """Find the rms height [m] below which the wanted share remains."""
+    # Of draws it is that between both ends.
+    h_rms = float(rough.limit(rough.scenarios.between(pair.h_rms[ENDS]), pair)[VALUE])
 
+    def remain(height: NDArray) -> NDArray:
+        scaled = pair.scaled(height[:, None] / h_rms)
+        return rough.limit(scaled.remaining, scaled)
 
-def remain_on_draws(draws: Pair) -> NDArray:
-    """Quantiles of the share that remains over the draws, ``(n, 1, limit)``."""
-    return find_share_quantiles(draws)[:, None]
-
-
-def find_rms_height(pair: Pair, h_rms: float, remain: Remain = remain_at_ends) -> Limited:
-    """Find the rms height [m] below which the wanted share remains; `h_rms` is what `pair` has.
-
-    `pair` has arrays of the ends of what is known of a surface, or of draws.
-    """
     return find_threshold(
-        lambda height: remain(pair.scaled(height / h_rms)),
+        remain,
         start=pair.range / RANGES[-1],
         stop=ROUGHEST * h_rms,
         wanted=pair.wanted_share,
     )
 
 
-def find_thickness(
-    pair: Pair, solid: Solid, spectra: list[Spectrum], remain: Remain = remain_at_ends
-) -> Limited | None:
-    """Find the thickness [m] of a layer above which the wanted share remains; None of other solids.
-
-    `spectra` are of the ends; draws change as both do on average. Others as of `find_rms_height`.
-    """
+def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited:
+    """Find the thickness [m] of a layer above which the wanted share remains; NaN of others."""
     if not isinstance(solid, Layer):
-        return None
-    h_rms, q0 = np.atleast_1d(pair.h_rms, pair.q0)
+        return UNKNOWN
+    before = pair.rough
 
-    def put_on(thickness: NDArray) -> NDArray:
+    def remain(thickness: NDArray) -> NDArray:
         # The layer as it is comes first: all else is in proportion to what the pair has with it.
-        layers = [solid, *(replace(solid, thickness=d) for d in thickness[:, 0])]
-        energy = np.array([[s.elastic_energy(layer) for s in spectra] for layer in layers])
-        if h_rms.size > len(spectra):
-            energy = np.exp(np.log(energy).mean(axis=1, keepdims=True))
-        softness = np.array([layer.factor(q0) for layer in layers])
+        layers = [solid, *(replace(solid, thickness=d) for d in thickness)]
+        energy = np.array(
+            [
+                rough.scenarios.between([s.elastic_energy(layer) for s in rough.spectra])
+                for layer in layers
+            ]
+        )
+        softness = np.array([layer.factor(before.q0) for layer in layers])
         changed = replace(
             pair,
-            elastic_energy=pair.elastic_energy * energy[1:] / energy[0],
-            relative_compliance=pair.relative_compliance * softness[1:] / softness[0],
-            flow=np.array([find_flow(layer, q0) for layer in layers[1:]]),
-            layer_strain=np.array([layer.strain(h_rms, q0) for layer in layers[1:]]),
+            rough=replace(
+                before,
+                elastic_energy=before.elastic_energy * energy[1:] / energy[0],
+                relative_compliance=before.relative_compliance * softness[1:] / softness[0],
+                flow=np.array([find_flow(layer, before.q0) for layer in layers[1:]]),
+            ),
+            layer_strain=np.array([layer.strain(before.h_rms, before.q0) for layer in layers[1:]]),
         )
-        if np.any(np.not_equal(pair.simulated, None)):
+        if before.simulated is not None:
             # Simulated states are those of one thickness; others keep what it does at the same
             # ratio of the work of adhesion to the energy of full contact.
             work = pair.work_of_adhesion * energy[0] / energy[1:]
             changed = replace(changed, work_of_adhesion=work)
-        return remain(changed)
+        return rough.limit(changed.remaining, changed)
 
     return find_threshold(
-        put_on, start=DEEPEST / spectra[0].band[0], stop=h_rms.min(), wanted=pair.wanted_share
+        remain,
+        start=DEEPEST / rough.spectra[0].band[0],
+        stop=float(np.min(before.h_rms)),
+        wanted=pair.wanted_share,
     )
 
 
-def find_rate(storage: Modulus, moduli: ArrayLike) -> Limited:
-    """Find the frequency [Hz] up to which a storage modulus stays below others: low, value, high.
+def find_rate(storage: Modulus, moduli: Limited) -> Limited:
+    """Find the frequency [Hz] up to which a storage modulus stays below each of other moduli.
 
     It is searched within a table, and over all frequencies of a Prony series.
     """
     frequencies = getattr(storage, "frequencies", (LOWEST_FREQUENCY, HIGHEST_FREQUENCY))
+    by_limit = np.sort([moduli.low, moduli.value, moduli.high])
     return find_threshold(
-        lambda f: moduli / storage.storage(f)[..., None],
+        lambda f: by_limit / storage.storage(f)[:, None],
         start=frequencies[0],
         stop=frequencies[-1],
         wanted=1.0,
@@ -179,48 +158,46 @@ def find_threshold(
 ) -> Limited:
     """Find where shares fall below the wanted one from `start`, where they are large, to `stop`.
 
-    0 or infinity if that is beyond the start or the stop. `remain` makes shares (n, end, limit) of
-    values (n, 1). The value is at the last end, the rough one, as in verdicts; limits are farthest.
+    0 or infinity if that is beyond the start or the stop. `remain` makes shares ``(n, limit)``, low
+    limit, value and high limit, of values ``(n,)``.
     """
     points = 2 + int(_POINTS_PER_DECADE * abs(np.log10(stop / start)))
     x = np.geomspace(start, stop, points)
-    enough = remain(x[:, None]) >= wanted
+    enough = remain(x) >= wanted
 
-    # How many points lie before the crossing of every end and limit: for the high limit up to the
-    # last that suffices, for the others up to the first that fails.
-    backwards = np.concatenate([enough[::-1], np.ones((1, *enough.shape[1:]), dtype=bool)])
-    forwards = np.concatenate([enough, np.zeros((1, *enough.shape[1:]), dtype=bool)])
-    is_high = np.arange(enough.shape[-1]) == 2
-    before = np.where(is_high, points - backwards.argmax(axis=0), forwards.argmin(axis=0))
+    # How many points lie before the crossing of every limit: for the high one up to the last that
+    # suffices, for the others up to the first that fails.
+    before = np.where(enough.all(axis=0), points, enough.argmin(axis=0))
+    before[-1] = points - enough[::-1, -1].argmax() if enough[:, -1].any() else 0
 
     # A crossing beyond the start or the stop is not searched.
     crossing = np.where((before == 0) == (start < stop), 0.0, np.inf)
-    is_within = (before > 0) & (before < points)
-    if is_within.any():
-        bracket = (x[before[is_within] - 1], x[before[is_within]])
-        crossing[is_within] = _find_crossings(remain, bracket, np.nonzero(is_within), wanted)
+    (searched,) = np.nonzero((before > 0) & (before < points))
+    if searched.size:
+        bracket = (x[before[searched] - 1], x[before[searched]])
+        crossing[searched] = _find_crossings(remain, bracket, searched, wanted)
     return Limited(
-        value=float(crossing[-1, 1]), low=float(crossing.min()), high=float(crossing.max())
+        value=float(crossing[VALUE]), low=float(crossing.min()), high=float(crossing.max())
     )
 
 
 def _find_crossings(
     remain: Callable[[NDArray], NDArray],
     bracket: tuple[NDArray, NDArray],
-    places: tuple[NDArray, ...],
+    limits: NDArray,
     wanted: float,
 ) -> NDArray:
-    """Find where shares cross the wanted one, each between two points; `places` are end and limit.
+    """Find where shares cross the wanted one, for every one of the `limits` between two points.
 
-    All are searched together: an evaluation gives the shares of all ends and limits anyway.
+    All are searched together: an evaluation gives the shares of all limits anyway.
     """
     from scipy.optimize import elementwise  # not loaded with `scipy.optimize`
 
-    def find_excess(value: NDArray, end: NDArray, limit: NDArray) -> NDArray:
-        return remain(value[:, None])[np.arange(value.size), end, limit] - wanted
+    def find_excess(value: NDArray, limit: NDArray) -> NDArray:
+        return remain(value)[np.arange(value.size), limit] - wanted
 
     root = elementwise.find_root(
-        find_excess, bracket, args=places, tolerances={"xrtol": _PRECISION}
+        find_excess, bracket, args=(limits,), tolerances={"xrtol": _PRECISION}
     )
     if not np.isin(root.status, (_CONVERGED, _NOT_BRACKETED)).all():
         raise ValueError("a share that remains is not a number within the range searched")
@@ -231,23 +208,21 @@ def _find_crossings(
 
 
 def find_pressure(
-    spectra: list[Spectrum], solid: Solid, pair: Pair, area: float = CONTACT_AREA
+    pair: Pair, rough: PairRoughness, solid: Solid, area: float = CONTACT_AREA
 ) -> Limited:
     """Find the mean pressure [Pa] at an area of contact, without adhesion.
 
-    The value is at the last of the `spectra`, the rough one, or with draws between the ends.
+    It is that of both ends: draws do not keep their spectra.
     """
     q0 = float(np.mean(pair.q0))
-    error = min(AREA_ERROR * float(np.mean(pair.anisotropy_error_factor)), MOST_AREA_ERROR)
+    error = min(AREA_ERROR * float(np.mean(pair.rough.anisotropy_error_factor)), MOST_AREA_ERROR)
     if isinstance(solid, Skin):
         error = max(error, AREA_ERROR_SKIN)
     stiffer_layer = max(1 - float(solid.factor(q0)), 0.0)
     least = (1 - error) * (1 - AREA_ERROR_LAYER * stiffer_layer)
     areas = area * np.array([least, 1.0, 1 + error])
-    theories = [Persson(spectrum, correction="wang2017", solid=solid) for spectrum in spectra]
-    pressures = np.array([theory.pressure_at_area(areas) for theory in theories]) * pair.modulus
-    is_drawn = np.size(pair.h_rms) > len(spectra)
-    value = np.exp(np.log(pressures[:, 1]).mean()) if is_drawn else pressures[-1, 1]
-    return Limited(
-        value=float(value), low=float(pressures[:, 0].min()), high=float(pressures[:, 2].max())
-    )
+    theories = [Persson(spectrum, correction="wang2017", solid=solid) for spectrum in rough.spectra]
+    pressures = pair.modulus * np.array([theory.pressure_at_area(areas) for theory in theories])
+    low, middle, high = pressures.T
+    value = rough.limit(rough.scenarios.between(middle), pair)[VALUE]
+    return Limited(value=float(value), low=float(low.min()), high=float(high.max()))

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from stickiness import __version__
-from stickiness.criteria.pair import MOST_STRAIN, NOT_JUDGED, REGIMES, SIGNS, WORDS
+from stickiness.criteria.pair import MOST_STRAIN, NOT_JUDGED, REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
 from stickiness.limited import Limited
@@ -20,7 +20,7 @@ from stickiness.plausibility import LIMITS, PlausibilityWarning
 from stickiness.remaining.prediction import DEFAULT_SHARE, LEAST_LENGTH, PULL_OFF_UNKNOWN
 from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.judgement import DECIDED_BY, LARGER, judge
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
@@ -308,7 +308,7 @@ def thresholds(
     cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
 
     def collect(name: str) -> Limited | None:
-        threshold = Limited(*(float(cell[f"{name}{ending}"]) for ending in SIGNS))
+        threshold = read_limited(cell[name])
         return None if np.isnan(threshold).all() else threshold
 
     moduli = find_limited(cell, "modulus_threshold")
@@ -389,12 +389,14 @@ def _judge_one(pair: ReadPair, **settings: Any) -> xr.Dataset:
 def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> StickinessVerdict:
     """`StickinessVerdict` of one cell of what `judge` returns."""
     # The margin of a pair is that of what remains; the other criteria are told at the rough end.
-    margin = find_limited(cell.sel(criterion=REMAINING), "margin")
-    margins = {name: float(cell.margin.sel(criterion=name, end="rough")) for name in CRITERIA}
+    margin = read_limited(cell.margin)
+    by_criterion = cell.margin_by_criterion.sel(end="rough")
+    margins = {name: float(by_criterion.sel(criterion=name)) for name in CRITERIA}
     margins[REMAINING] = margin.value
     limited = {
         name: find_limited(cell, name) for name in ("remaining", "pull_off", "modulus_threshold")
     }
+    a_v = read_limited(cell.pair_a_v)
     reasons = str(cell.not_judged.item()).splitlines()
     remarks = [text for text in pair.surface.remarks if text not in reasons]
     strain = float(cell.layer_strain.max())
@@ -415,8 +417,8 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
         modulus_threshold_limits=limited["modulus_threshold"][1:],
         regime=REGIMES[int(cell.regime.sel(end="rough"))],
         simulated=bool(cell.simulated.all()),
-        a_v=float(cell.pair_a_v.sel(end="rough")),
-        a_v_limits=(float(cell.pair_a_v_low.min()), float(cell.pair_a_v_high.max())),
+        a_v=a_v.value,
+        a_v_limits=a_v[1:],
         margins=margins,
         energy_ratio=float(cell.energy_ratio.max()),
         wanted_share=wanted_share,
@@ -434,10 +436,7 @@ def find_larger(cell: xr.Dataset) -> LargerContact | None:
     """Answer for a larger contact from one cell of what `judge` returns; None if there is none."""
     if np.isnan(cell.larger_contact):
         return None
-    limited = {
-        name: Limited(*(float(cell[f"larger_{name}{ending}"]) for ending in SIGNS))
-        for name in LARGER
-    }
+    limited = {name: read_limited(cell[f"larger_{name}"]) for name in LARGER}
     return LargerContact(
         contact=float(cell.larger_contact), word=WORDS[int(cell.larger_verdict)], **limited
     )
@@ -445,12 +444,11 @@ def find_larger(cell: xr.Dataset) -> LargerContact | None:
 
 def find_limited(cell: xr.Dataset, name: str) -> Limited:
     """Value and limits of a quantity of one pair."""
-    low, high = find_limits(cell, name)
-    values = (float(find_value(cell, name)), float(low), float(high))
+    limited = read_limited(cell[name])
     if name == "modulus_threshold":
         # Nothing is softer: below a skin that is too stiff no modulus would do.
-        values = tuple(0.0 if x < 1e-3 * LEAST_STRESS else x for x in values)
-    return Limited(*values)
+        return Limited(*(0.0 if x < 1e-3 * LEAST_STRESS else x for x in limited))
+    return limited
 
 
 def describe_contact_law(

@@ -1,21 +1,33 @@
 """What is said of a pair of material and surface."""
 
 import numpy as np
+import pytest
 
-from stickiness.criteria.pair import MOST_STRAIN, make_pair
+from stickiness.criteria.pair import MOST_STRAIN, Pair
 from stickiness.remaining.prediction import Roughness
 
 ENERGY = 0.6e-6  # of full contact over E* [m]: with tough contact at adhesion lengths of as much
 
 
-def test_a_layer_that_cannot_take_the_heights_has_low_limits_of_nothing():
+def test_a_pair_knows_whether_a_layer_takes_the_heights():
     rough = Roughness(h_rms=1e-6, q0=1e6, elastic_energy=ENERGY, rms_slope=1.0)
     values = {"modulus": 1e6, "work_of_adhesion": 2e6 * ENERGY, "range": 1e-9}
     usual, strained = (
-        make_pair(rough, **values, layer_strain=factor * MOST_STRAIN) for factor in (0.99, 1.01)
+        Pair(rough=rough, **values, layer_strain=factor * MOST_STRAIN) for factor in (0.99, 1.01)
     )
-    for name, least in (("remaining", 0), ("pull_off", 0), ("remaining_threshold", np.inf)):
-        assert getattr(strained, name)(-1) == least
-        assert getattr(usual, name)(-1) != least
-        for sign in (0, 1):
-            assert getattr(strained, name)(sign) == getattr(usual, name)(sign) > 0
+    assert usual.withstands
+    assert not strained.withstands
+    assert not usual.scaled(1.1).withstands
+
+
+def test_rows_of_a_pair_are_pairs():
+    h_rms = np.array([1e-6, 2e-6, 3e-6])
+    rough = Roughness(h_rms=h_rms, q0=1e6, elastic_energy=ENERGY * (h_rms / 1e-6) ** 2)
+    values = {"modulus": 1e6, "work_of_adhesion": 2e6 * ENERGY, "range": 1e-9}
+    pair = Pair(rough=rough, **values, deviation=np.array([-1.0, 0.0, 1.0]))
+    one = pair.take(1)
+    assert one.rough.q0 == 1e6
+    assert one.remaining == pair.remaining[1]
+    assert one.remaining_threshold == pytest.approx(pair.remaining_threshold[1], rel=1e-8)
+    stiffer = pair.at_modulus(2e6)
+    assert (stiffer.adhesion_length, stiffer.modulus) == (ENERGY, 2e6)

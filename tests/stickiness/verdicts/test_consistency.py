@@ -10,14 +10,13 @@ from helpers.analysed import A_V, wall
 
 from common.table_rows import describe_pair
 from stickiness import Material, judge
-from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, SIGNS, WORDS
-from stickiness.criteria.registry import REMAINING
+from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, WORDS
 from stickiness.entries import check_material
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.units import si
 from stickiness.verdicts import curves, pair_roughness
-from stickiness.verdicts.limits import find_limits, find_value
+from stickiness.verdicts.limits import LIMITS, read_limited
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -101,13 +100,7 @@ def judged():
 def test_values_lie_within_limits(judged):
     verdicts = judged[0].verdicts
     for name in LIMITED:
-        dataset = verdicts.sel(criterion=REMAINING) if name == "margin" else verdicts
-        low, high = find_limits(dataset, name)
-        by_pair = (low, find_value(dataset, name), high)
-        by_end = (dataset[f"{name}_low"], dataset[name], dataset[f"{name}_high"])
-        for least, value, most in (by_pair, by_end):
-            assert (least <= value * (1 + 1e-9)).all(), name
-            assert (value <= most * (1 + 1e-9)).all(), name
+        assert (verdicts[name].diff("limit") >= 0).all(), name
 
 
 @pytest.mark.slow
@@ -115,16 +108,13 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
     """Without any tolerance: there are no ties among random numbers."""
     verdicts = judged[0].verdicts
     agree = np.testing.assert_array_equal
-    low, high = find_limits(verdicts)
+    low, value, high = (verdicts.remaining.sel(limit=name, drop=True) for name in LIMITS)
     words = np.array(WORDS)[verdicts.verdict.values]
     assert set(words.ravel()) == set(WORDS[:5])
-    margins = find_limits(verdicts, "margin")
-    thresholds = find_limits(verdicts, "modulus_threshold")
-    for limit, margin, threshold in zip((low, high), margins, thresholds, strict=True):
-        agree(limit >= DEFAULT_SHARE, margin >= 1)
-        np.testing.assert_allclose(margin * verdicts.modulus_quoted, threshold, rtol=1e-12)
-    threshold = find_value(verdicts, "modulus_threshold")
-    agree(find_value(verdicts) >= DEFAULT_SHARE, threshold >= verdicts.modulus_quoted)
+    agree(verdicts.remaining >= DEFAULT_SHARE, verdicts.margin >= 1)
+    thresholds = verdicts.margin * verdicts.modulus_quoted
+    np.testing.assert_allclose(verdicts.modulus_threshold, thresholds, rtol=1e-12)
+    agree(value >= DEFAULT_SHARE, thresholds.sel(limit="value") >= verdicts.modulus_quoted)
     sticks = np.isin(words, ["sticks", "sticks fully"])
     fails = np.isin(words, ["does not stick", "adheres locally, does not hold"])
     agree(sticks, low >= DEFAULT_SHARE)
@@ -141,7 +131,8 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
     assert (most[far] > 0.95).any()
     assert (least[far] == 0).all()
     strained = (verdicts.layer_strain > MOST_STRAIN).any("end").values
-    assert ((low == 0) & (thresholds[0] == 0)).values[~drawn & strained].all()
+    nothing = (low == 0) & (thresholds.sel(limit="low") == 0)
+    assert nothing.values[~drawn & strained].all()
 
 
 @pytest.mark.slow
@@ -156,21 +147,20 @@ def test_pairs_are_on_the_same_side_of_all_thresholds_as_their_shares(judged):
     ]
     for pair in cells:
         material = materials[str(pair.material.values)]
-        low_keeps, high_keeps = (float(limit) >= DEFAULT_SHARE for limit in find_limits(pair))
+        _, *limits = read_limited(pair.remaining)
+        low_keeps, high_keeps = (limit >= DEFAULT_SHARE for limit in limits)
         words.add((low_keeps, high_keeps))
-        value, least, most = (float(pair[f"rms_height_threshold{end}"]) for end in SIGNS)
+        value, least, most = read_limited(pair.rms_height_threshold)
         assert least <= value <= most
         drawn = bool(np.isfinite(pair.probability))
         height = float(np.sqrt(pair.pair_h_rms.prod()) if drawn else pair.pair_h_rms[-1])
         assert (least > height, most > height) == (low_keeps, high_keeps)
-        slowest = float(pair.rate_threshold_low)
-        fastest = float(pair.rate_threshold_high)
+        _, slowest, fastest = read_limited(pair.rate_threshold)
         has_rate = material.depends_on_rate and material.dwell is None
         assert np.isnan(fastest) == (not has_rate)
         if has_rate:
             assert (slowest > 1, fastest > 1) == (low_keeps, high_keeps)
-        thinnest = float(pair.thickness_threshold_low)
-        thickest = float(pair.thickness_threshold_high)
+        _, thinnest, thickest = read_limited(pair.thickness_threshold)
         assert np.isnan(thickest) == (material.solid == HALF_SPACE)
         if material.solid != HALF_SPACE:
             thickness = material.solid.thickness
@@ -190,7 +180,7 @@ def test_texts_do_not_contradict_the_verdict(judged):
         for surface in verdicts.surface.values:
             pair = verdicts.sel(material=name, surface=surface)
             row = describe_pair(pair, entry)
-            shares = find_limits(pair)
+            _, *shares = read_limited(pair.remaining)
             for text in (*row["text"].values(), row["threshold"], row["modulus"]):
                 assert not re.search(r"nan|\(–|– \(|to –|inf", text), text
                 assert text != "–" or np.isnan(pair.probability)

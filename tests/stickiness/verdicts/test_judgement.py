@@ -2,50 +2,34 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from helpers.analysed import fix_a_v
 
 from stickiness import Material, Surface, judge, verdict
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.a_v_table import SurfaceAv
-from stickiness.criteria.pair import REGIMES, WORDS
+from stickiness.criteria.pair import REGIMES, WORDS, decide
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining import predict
 from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
-from stickiness.verdicts.judgement import decide_pairs
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
-UNMEASURED = (np.nan,) * 3
-
 
 @pytest.mark.parametrize(
-    ("low", "high", "grows", "quantiles", "expected"),
+    ("low", "high", "grows", "expected"),
     [
-        ((0.9, 0.8), (1.0, 0.9), 1.1, UNMEASURED, "sticks fully"),
-        ((0.9, 0.79), (1.0, 0.9), 0.1, UNMEASURED, "sticks"),  # the onset does not matter here
-        ((0.1, 0.1), (0.2, 0.1), 0.1, UNMEASURED, "sticks"),
-        ((0.5, 0.09), (1.0, 0.1), 1.1, UNMEASURED, "depends"),
-        ((0.0, 0.0), (0.1, 0.0), 0.1, UNMEASURED, "depends"),
-        ((0.0, 0.0), (0.09, 0.0), 1.1, UNMEASURED, "adheres locally, does not hold"),
-        ((0.0, 0.0), (0.09, 0.0), 0.9, UNMEASURED, "does not stick"),
-        # On a measured surface the draws decide.
-        ((0.0, 0.0), (1.0, 1.0), 2.0, (0.85, 0.9, 1.0), "sticks fully"),
-        ((0.0, 0.0), (1.0, 1.0), 2.0, (0.15, 0.3, 0.5), "sticks"),
-        ((0.0, 0.0), (1.0, 1.0), 2.0, (0.05, 0.3, 0.5), "depends"),
-        ((0.0, 0.0), (1.0, 1.0), 0.5, (0.0, 0.0, 0.08), "does not stick"),
+        (0.8, 1.0, True, "sticks fully"),
+        (0.79, 1.0, False, "sticks"),  # the onset does not matter here
+        (0.1, 0.2, False, "sticks"),
+        (0.09, 1.0, True, "depends"),
+        (0.0, 0.1, False, "depends"),
+        (0.0, 0.09, True, "adheres locally, does not hold"),
+        (0.0, 0.09, False, "does not stick"),
     ],
 )
-def test_word_follows_from_shares_at_both_ends_or_of_draws(low, high, grows, quantiles, expected):
-    data = {
-        "remaining_low": ("end", list(low)),
-        "remaining_high": ("end", list(high)),
-        "margin": (("end", "criterion"), [[grows], [0.1]]),
-        "remaining_quantile": ("quantile", list(quantiles)),
-    }
-    dataset = xr.Dataset(data, coords={"criterion": [EDGES], "end": ["smooth", "rough"]})
-    assert WORDS[int(decide_pairs(dataset, DEFAULT_SHARE))] == expected
+def test_word_follows_from_the_limits_of_the_share(low, high, grows, expected):
+    assert WORDS[int(decide(low, high, grows, DEFAULT_SHARE))] == expected
 
 
 SPECTRUM = SelfAffine(hurst=0.8, q0=1e5, q1=1e8, h_rms=1e-6)
@@ -73,8 +57,8 @@ def test_edges_are_classified_by_strength_and_zone(modulus, reach, regime):
     assert int(cell.regime) == regime
     zone = float(cell.attractive_over_contact)
     tabor = float(cell.edge_strength)
-    dmt = float(cell.margin.sel(criterion="violano")) ** (5 / 3)
-    effect = float(cell.margin.sel(criterion=EDGES)) / dmt
+    dmt = float(cell.margin_by_criterion.sel(criterion="violano")) ** (5 / 3)
+    effect = float(cell.margin_by_criterion.sel(criterion=EDGES)) / dmt
     assert effect == pytest.approx(float(cell.over_dmt), rel=1e-9)
     limit = equivalent_sphere.tough_effect(zone, tabor)
     within = 0.1

@@ -38,8 +38,7 @@ def wall(heights):
 
 def test_a_layer_meets_states_of_its_own(wall, heights):
     rough = combine_roughness(TAPE, wall)
-    states = rough.ends.simulated[0].whole
-    assert rough.draws.simulated is rough.ends.simulated[0]
+    states = rough.scenarios.roughness.simulated.whole
     # Full contact takes the energy of the layer, which is far above that of the half-space.
     half_space = wall.simulated.whole.full_contact_energy
     assert states.full_contact_energy > 3 * half_space
@@ -49,8 +48,8 @@ def test_a_layer_meets_states_of_its_own(wall, heights):
 
 def test_materials_of_one_layer_share_a_simulation(wall):
     stiffer = replace(TAPE, modulus=1e6)
-    first = combine_roughness(TAPE, wall).ends.simulated[0]
-    assert combine_roughness(stiffer, wall).ends.simulated[0] is first
+    first = combine_roughness(TAPE, wall).scenarios.roughness.simulated
+    assert combine_roughness(stiffer, wall).scenarios.roughness.simulated is first
 
 
 def test_what_is_written_simulates_the_same(wall, tmp_path):

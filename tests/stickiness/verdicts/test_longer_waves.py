@@ -9,7 +9,6 @@ from stickiness import Material, Surface, judge, verdict
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import realised_spectrum, synthesise
-from stickiness.verdicts.limits import find_limits, find_value
 from stickiness.verdicts.longer_waves import FIRST_WAVE, LARGER, LongerWaves, lengthen
 from stickiness.verdicts.pair_roughness import combine_roughness
 
@@ -111,7 +110,7 @@ def test_a_rolloff_below_the_fit_is_seen_in_the_longest_waves():
         assert "q_rolloff" not in surface.data
         energy = realised_spectrum(heights, SIDE).elastic_energy()
         # If the law went on, five times as much.
-        assert 0.7 < np.median(surface.draws.elastic_energy) / energy < 1.5
+        assert 0.7 < np.median(surface.scenarios.draws.elastic_energy) / energy < 1.5
 
 
 def test_the_answer_is_continuous_in_the_size_of_the_contact(patch):
@@ -129,7 +128,7 @@ def test_longer_waves_meet_a_layer_draw_by_draw():
     for seed in (1, 2, 3, 4):
         heights, known = take_patch(seed, parts=3, contact=SIDE)
         energy = realised_spectrum(heights, SIDE).elastic_energy(layer)
-        drawn = combine_roughness(soft, known).draws.elastic_energy
+        drawn = combine_roughness(soft, known).scenarios.draws.elastic_energy
         low, high = np.quantile(drawn, (0.05, 0.95))
         inside.append(low <= energy <= high)
     assert np.mean(inside) >= 0.75
@@ -165,9 +164,9 @@ def test_several_surfaces_are_judged_as_each_alone(patch):
         for key, material in {"tape": TAPE, "rough": rough}.items():
             alone = judge({key: material}, {name: surface}, **options)
             cell = together.sel(material=[key], surface=[name])
-            for variable in ("larger_contact", "larger_verdict", "larger_remaining_low"):
+            for variable in ("larger_contact", "larger_verdict", "larger_remaining"):
                 np.testing.assert_allclose(cell[variable], alone[variable], rtol=1e-12)
-    smooth, doubly = together.larger_modulus_threshold.sel(surface="large").values
+    smooth, doubly = together.larger_modulus_threshold.sel(surface="large", limit="value").values
     assert doubly < smooth
 
 
@@ -193,8 +192,10 @@ def test_patches_tell_the_threshold_of_the_whole_surface():
             }
             judged = judge([TAPE], {"whole": whole} | patches, curves=False, thresholds=False)
             judged = judged.isel(material=0)
-            low, high = find_limits(judged, "modulus_threshold")
-            truth = float(find_value(judged, "modulus_threshold").sel(surface="whole"))
+            threshold = judged.modulus_threshold
+            low = threshold.sel(limit="low")
+            high = threshold.sel(limit="high")
+            truth = float(threshold.sel(surface="whole", limit="value"))
             contains = (low <= truth) & (truth <= high)
             inside += [bool(contains.sel(surface=f"{parts}{SIDE}")) for parts in (2, 4, 8)]
             without += [bool(contains.sel(surface=f"{parts}None")) for parts in (2, 4, 8)]

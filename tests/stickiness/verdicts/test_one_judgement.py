@@ -73,7 +73,7 @@ def check(answer, written):
         np.testing.assert_allclose(ours, find_limited(cell, name), rtol=1e-12)
     for name, margin in answer.margins.items():
         if name != REMAINING:  # of which the draws have the margin
-            theirs = float(cell.margin.sel(criterion=name, end="rough"))
+            theirs = float(cell.margin_by_criterion.sel(criterion=name, end="rough"))
             assert margin == pytest.approx(theirs, rel=1e-12), name
     contact_law = answer.to_dict()
     del contact_law["version"]

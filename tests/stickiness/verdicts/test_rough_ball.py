@@ -7,7 +7,6 @@ import pytest
 
 from stickiness import Material, Surface, full_contact_energy, surface
 from stickiness.remaining import sphere
-from stickiness.remaining.prediction import DEFAULT_SHARE
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.pair_roughness import combine_roughness
@@ -61,7 +60,7 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     # the DMT limit: up to 4/3 of JKR.
     assert ball.force < 4 / 3 * ball.smooth_force
     # The median of the draws without errors of the model, which widen the limits.
-    draws = combine_roughness(TAPE, measured).meet_draws(TAPE, DEFAULT_SHARE)
+    draws = combine_roughness(TAPE, measured).scenarios.draws
     length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus
     drawn = sphere.pull_off(draws, RADIUS, length, TAPE.range).force * TAPE.plane_strain_modulus
     assert ball.force == pytest.approx(np.median(drawn), rel=1e-3)

@@ -13,7 +13,6 @@ from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum, realised_spectrum, synthesise
 from stickiness.traction_laws import Exponential
-from stickiness.verdicts.limits import find_limits
 from stickiness.verdicts.parametric import tabulate_ends
 from stickiness.verdicts.simulated_surface import stands_alone
 
@@ -101,7 +100,7 @@ def test_profiles_of_a_worn_surface_tell_what_remains_on_it():
         surface = Surface.from_profile(profile, length, extend_to=SIDE / 10, plausibility="ignore")
         surface = Surface(surface.data.assign(shape))
         judged = judge([material], [surface], curves=False, thresholds=False)
-        return [float(limit.squeeze()) for limit in find_limits(judged)]
+        return judged.remaining.sel(limit=["low", "high"]).values.ravel()
 
     for profile in (heights[0], heights[:, 256]):
         low, high = find_shares(profile)
@@ -132,8 +131,8 @@ def test_strain_of_a_thin_incompressible_layer_is_finite(q0):
 def test_a_periodic_cell_keeps_the_direction_of_its_heights():
     ground = SelfAffine(**BAND, h_rms=1e-7, anisotropy=4.0)
     shells = lattice_spectrum(ground, length=2 * SIDE)
-    ends = Surface.from_spectrum(shells).ends
-    assert ends.anisotropy_error_factor == pytest.approx([2.0, 2.0])
+    ends = Surface.from_spectrum(shells).scenarios.ends
+    assert ends.anisotropy_error_factor == pytest.approx(2.0)
 
 
 @pytest.mark.slow

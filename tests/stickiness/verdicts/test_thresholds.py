@@ -7,6 +7,7 @@ import pytest
 from helpers.analysed import fix_a_v
 
 from stickiness import Material, Surface, thresholds, verdict
+from stickiness.limited import Limited
 from stickiness.persson import Persson
 from stickiness.solids import Film, Layer, Skin
 from stickiness.solids.moduli import Prony, Table
@@ -114,12 +115,12 @@ def test_no_thickness_or_rate_sticks_or_every_one_does():
     assert layer.strain(1e-6, 1.2e5) == pytest.approx(0.3, rel=1e-3)
     between = thresholds(make_wall(), replace(TAPE, modulus=table, solid=LAYER))
     assert table.storage(between.rate.value) == pytest.approx(between.modulus.value, rel=1e-4)
-    assert find_rate(table, (0.0, 9e4, 2e7)) == (0.0, 0.0, np.inf)
+    assert find_rate(table, Limited(value=9e4, low=0.0, high=2e7)) == (0.0, 0.0, np.inf)
     # Within noise a modulus may fall, and be equal to another one several times.
     dip = Table((0.01, 1.0, 10.0, 100.0), (1e4, 1e5, 0.97e5, 1e6))
     first = 0.01 * 9.9**2
     last = 10 * (99 / 97) ** (1 / np.log10(1 / 0.097))
-    rate = find_rate(dip, (0.99e5,) * 3)
+    rate = find_rate(dip, Limited(*(0.99e5,) * 3))
     assert rate == pytest.approx((first, first, last), rel=1e-4)
 
 

@@ -1,0 +1,115 @@
+"""All that a surface may be, a row each, with the error that the model may have there.
+
+The first two rows are the smooth and the rough end of what is known. Criteria without limits are
+evaluated at them.
+
+- A spectrum or a drawing is known between both ends. Its value is that of the rough end. Its limits
+  are the least and the greatest of both ends with the model at its low and its high limit.
+- A measurement has draws: spectra that agree with it. Each draw has an error of the model of its
+  own, so that quantiles over the draws contain both.
+
+What a layer, a second rough solid or longer waves change, they change in every row.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.remaining.prediction import Roughness
+from stickiness.statistics import COVERS
+
+ENDS = [0, 1]  #: rows of the smooth and the rough end
+SMOOTH = 0  #: row of the smooth end
+_SEED = 2  # of the errors of the model
+_SHUFFLE_SEED = 3  # of the order in which draws of a second surface meet those of the first
+# Rows of a surface that is known between its ends: which end, and the error of the model. The
+# weights of the limits are so large that 5 and 95 % quantiles are the least and the greatest, and
+# so small that the median is the value of the rough end.
+_END_ROWS = np.array([0, 1, 0, 1, 0, 1])
+_END_DEVIATIONS = np.array([0.0, 0.0, -1.0, -1.0, 1.0, 1.0])
+_END_WEIGHTS = np.array([0.0, 0.76, 0.06, 0.06, 0.06, 0.06])
+
+
+@dataclass(frozen=True)
+class Scenarios:
+    """What a surface may be, `n` rows."""
+
+    roughness: Roughness  #: of every row, arrays ``(n,)``
+    weights: NDArray  #: of the rows; their sum is 1, ``(n,)``
+    #: error of the model in units of its limits, -1 and 1 at the low and the high one, ``(n,)``
+    deviation: NDArray
+    place: NDArray  #: between the smooth end, 0, and the rough end, 1; draws are at 1/2, ``(n,)``
+
+    @classmethod
+    def between_ends(cls, ends: Roughness) -> Scenarios:
+        """All that a surface may be whose `ends` ``(2,)`` are known alone."""
+        return cls(
+            roughness=ends.take(_END_ROWS),
+            weights=_END_WEIGHTS,
+            deviation=_END_DEVIATIONS,
+            place=_END_ROWS.astype(float),
+        )
+
+    @classmethod
+    def of_draws(cls, roughness: Roughness) -> Scenarios:
+        """All that a measured surface may be: `roughness` of both ends and of its draws."""
+        (rows,) = roughness.shape_of_arrays
+        count = rows - len(ENDS)
+        errors = np.random.default_rng(_SEED).normal(size=count) / COVERS
+        of_ends = np.zeros(len(ENDS))
+        return cls(
+            roughness=roughness,
+            weights=np.append(of_ends, np.full(count, 1 / count)),
+            deviation=np.append(of_ends, errors),
+            place=np.append([0.0, 1.0], np.full(count, 0.5)),
+        )
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether the rows are draws of a measured surface."""
+        return bool((self.place == 0.5).any())
+
+    @property
+    def ends(self) -> Roughness:
+        """Roughness of the smooth and the rough end, ``(2,)``."""
+        return self.roughness.take(ENDS)
+
+    @property
+    def draws(self) -> Roughness | None:
+        """Roughness of the draws; None of a surface that was not measured."""
+        return self.roughness.take(slice(len(ENDS), None)) if self.is_drawn else None
+
+    def between(self, at_ends: NDArray) -> NDArray:
+        """A positive number of every row, by the numbers at both ends: of draws the geometric mean.
+
+        It stands for what is known of spectra alone, which draws do not keep.
+        """
+        smooth, rough = at_ends
+        return smooth ** (1 - self.place) * rough**self.place
+
+    def with_roughness(self, **changed: ArrayLike) -> Scenarios:
+        """The same with other columns of the roughness."""
+        return replace(self, roughness=replace(self.roughness, **changed))
+
+    def align(self, second: Scenarios, *, is_same: bool) -> tuple[Scenarios, Roughness]:
+        """Rows in which this and a second surface meet, and the roughness of the second there.
+
+        Draws meet draws, or both ends if these agree. They are shuffled, for measurements of two
+        surfaces err independently, although their draws have one seed; not so if the second
+        `is_same`. Otherwise only ends meet ends.
+        """
+        if not self.is_drawn:
+            return self, second.ends.take(_END_ROWS)
+        ends = second.ends
+        if second.is_drawn:
+            count = self.place.size - len(ENDS)
+            order = np.resize(np.arange(len(ENDS), second.place.size), count)
+            if not is_same:
+                order = np.random.default_rng(_SHUFFLE_SEED).permutation(order)
+            return self, second.roughness.take(np.append(ENDS, order))
+        if np.ptp(ends.h_rms) == np.ptp(ends.elastic_energy) == 0:
+            return self, ends.take(np.full(self.place.size, SMOOTH))
+        return Scenarios.between_ends(self.ends), ends.take(_END_ROWS)
