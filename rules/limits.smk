@@ -1,9 +1,10 @@
 # Simulations behind the limits of verdicts: on other solids, on patches of surfaces, at ranges
-# shorter than a grid resolves, and with waves that it lacks. Limits are calibrated on the committed
-# tables.
+# shorter than a grid resolves, their pull-offs, and with waves that it lacks. Limits are calibrated
+# on the committed tables.
 
 SIMULATED_SETS = {
-    kind: LIMIT_CAMPAIGN[kind]["sets"] for kind in ("solids", "patches", "ranges", "unresolved")
+    kind: LIMIT_CAMPAIGN[kind]["sets"]
+    for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved")
 }
 
 
@@ -12,6 +13,7 @@ wildcard_constraints:
     solid_set=choices(SIMULATED_SETS["solids"]),
     patch_set=choices(SIMULATED_SETS["patches"]),
     range_set=choices(SIMULATED_SETS["ranges"]),
+    pull_off_set=choices(SIMULATED_SETS["pull_offs"]),
     unresolved_set=choices(SIMULATED_SETS["unresolved"]),
 
 
@@ -85,6 +87,30 @@ rule measure_ranges:
         code=source_hash("limits/measure_ranges.py"),
     script:
         "../scripts/limits/measure_ranges.py"
+
+
+rule measure_pull_offs:
+    output:
+        f"{LIMITS}/pull_offs/{{pull_off_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_pull_offs/{{pull_off_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_pull_offs/{{pull_off_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: SIMULATED_SETS["pull_offs"][wildcards.pull_off_set],
+        law=LIMIT_CAMPAIGN["law"],
+        works=LIMIT_CAMPAIGN["pull_offs"]["works"],
+        shares=LIMIT_CAMPAIGN["pull_offs"]["shares"],
+        squeeze=LIMIT_CAMPAIGN["pull_offs"]["squeeze"],
+        steps=LIMIT_CAMPAIGN["pull_offs"]["steps"],
+        code=source_hash("limits/measure_pull_offs.py"),
+    script:
+        "../scripts/limits/measure_pull_offs.py"
 
 
 rule measure_unresolved:

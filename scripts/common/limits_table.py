@@ -32,6 +32,11 @@ COLUMNS = {
         *("full_contact_energy", "adhesion_length", "energy_ratio", "is_between"),
         *("range", "range_ratio", "finer", "bound", "chord", "simulated"),
     ),
+    "pull_offs": (
+        *OF_TOPOGRAPHY,
+        *("full_contact_energy", "adhesion_length", "energy_ratio", "range", "range_ratio"),
+        *("finer", "share", "distance", "path_share", "pull_off"),
+    ),
     "unresolved": (
         *OF_TOPOGRAPHY,
         *("full_contact_energy", "stride", "lacking", "range"),
@@ -58,6 +63,13 @@ the coarse grid. is_between: 1 for works of adhesion between two that were simul
 range_ratio: range over that of the states at this work. finer: points along a side of the finer
 grid over those of the coarse one. bound: deepest of the states at this range. chord: between the
 shares of the states at their own ranges. simulated: on the finer grid.""",
+    "pull_offs": """\
+Pull-off at the ranges of states on a coarse grid and at shorter ones. waves, shortest, points: of
+the coarse grid. range_ratio: range over that of the states at this work. finer: points along a side
+of the finer grid over those of the coarse one. share: predicted to remain at this range. distance:
+work that remains over the largest tension, of the states at their own range. path_share, pull_off:
+largest gain of energy, and largest tension over E*, where the surfaces are pressed together and
+part at given mean gaps on the finer grid; none where that did not converge.""",
     "unresolved": """\
 What states on every second or fourth point tell of a surface.
 lacking: energy of full contact that the thinned grid lacks, over that of the others.

@@ -14,7 +14,7 @@ from stickiness import __version__, datasets
 from stickiness.formatting import number, percent, table
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import find_height_shape
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_KNOWN, Roughness
 from stickiness.remaining.share import FIRST_TOUCH
 
 COVERAGE = 0.9
@@ -54,7 +54,8 @@ COMMENT = f"""\
 # "skewness" over the logarithm of its factor, of solids over their distance from a half-space, of
 # "patch" over the rms distance of the quarters' thresholds); share, absolute; first_touch, mean gap
 # over h_rms; ln_tension, ln_approach, ln_separation, of simulated over predicted ones; place, of a
-# share between both bounds, over w/U_full (1 - ratio of ranges)^2; unresolved, ln w beyond the
+# share between both bounds, over w/U_full (1 - ratio of ranges)^2; shortening, exponent of the
+# ratio of ranges with which the distance of the attraction falls; unresolved, ln w beyond the
 # energy that lacks, over the root of ln(1 + lacking energy) and the cube of the share lost; least,
 # of a patch.
 """
@@ -66,7 +67,7 @@ def main(job):
     remaining = remaining_table.read(tables["remaining"])
     simulated = {
         kind: limits_table.read(tables[kind], kind)
-        for kind in ("solids", "patches", "ranges", "unresolved")
+        for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved")
     }
     cells = [
         set_limit(compare_cells("spectrum", find_gaussian(heights, window=4))),
@@ -87,11 +88,16 @@ def main(job):
         *calibrate_weak(heights, job.params.touching),
         *calibrate_paths(remaining),
         *calibrate_states(heights, simulated["ranges"], simulated["unresolved"]),
+        *calibrate_pull_offs(simulated["pull_offs"]),
     ]
     text = COMMENT + pd.DataFrame(rows, columns=COLUMNS).to_csv(index=False, float_format="%.4g")
     for output, content in (
         (job.output.table, text),
-        (job.output.summary, summarise(errors, heights, simulated["solids"])),
+        (
+            job.output.summary,
+            f"{summarise(errors, heights, simulated['solids'])}\n\n"
+            f"{summarise_pull_offs(simulated['pull_offs'])}",
+        ),
     ):
         with datasets.whole_file(output) as path:
             path.write_text(content, encoding="utf-8")
@@ -331,6 +337,39 @@ def calibrate_states(heights, ranges, unresolved):
     yield describe("states", "unresolved", find_middle(scaled, rows), rows, "unresolved.csv")
 
 
+def calibrate_pull_offs(pull_offs):
+    """Pull-off by states simulated on heights: how their distance shortens, and what that errs.
+
+    At the range of the states the pull-off is known within 10 %. Surfaces attract at shorter ones,
+    of which the limits are.
+    """
+    shortening, rows = fit_pull_offs(pull_offs)
+    shorter = rows[rows.range_ratio < 1]
+    _, low, high = find_middle(shorter.error, shorter)  # the median is that of the exponent
+    for quantity, limited in (("shortening", shortening), ("ln_tension", (0.0, low, high))):
+        yield describe("states", quantity, limited, shorter, "pull_offs.csv")
+
+
+def fit_pull_offs(pull_offs):
+    """Spread of the exponent with which the distance shortens, and rows with the `error` then left.
+
+    Rows are left out where next to nothing remains, and where contact is full: there the strength
+    of the law bounds the pull-off.
+    """
+    rows = pull_offs.dropna(subset="pull_off")
+    rows = rows[(rows.path_share > LEAST_SHARE) & (rows.energy_ratio < PULL_OFF_KNOWN)]
+    shorter = rows[rows.range_ratio < 1]
+    exponent = -find_tension_error(shorter, exponent=0.0) / np.log(shorter.range_ratio)
+    shortening = find_middle(exponent, shorter)
+    return shortening, rows.assign(error=find_tension_error(rows, shortening[0]))
+
+
+def find_tension_error(rows, exponent):
+    """Logarithm of simulated pull-offs over those of a distance that shortens by an exponent."""
+    distance = rows.distance * rows.range_ratio**exponent
+    return np.log(rows.pull_off * distance / (rows.adhesion_length * rows.share))
+
+
 def find_middle(values, rows):
     """Median of the fitted rows, and the limits of the middle 90 %."""
     low, value, high = np.quantile(values[rows.role == "fitted"], (TAILS[0], 0.5, TAILS[1]))
@@ -380,6 +419,20 @@ def summarise(errors, heights, solids):
         lines.append((kind, role, str(len(rows)), inside, factor, *judged))
     columns = ("by", "rows", "number", "inside", "high/low w", "mean width of S")
     return table((*columns, "decided", "false"), lines)
+
+
+def summarise_pull_offs(pull_offs):
+    """Coverage and errors of pull-offs by states, by the range, as a table in Markdown."""
+    _, rows = fit_pull_offs(pull_offs)
+    shorter = rows[rows.range_ratio < 1]
+    _, low, high = find_middle(shorter.error, shorter)
+    lines = []
+    for (role, ratio), part in rows.groupby(["role", "range_ratio"], sort=False):
+        inside = percent(part.error.between(low, high).mean())
+        median = number(float(np.exp(part.error.median())), 3)
+        lines.append((role, number(ratio, 2), str(len(part)), inside, median))
+    columns = ("pull-offs", "range over that of the states", "number", "inside")
+    return table((*columns, "simulated over predicted"), lines)
 
 
 def judge_rows(rough, rows, chosen):

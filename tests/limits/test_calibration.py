@@ -8,6 +8,7 @@ import pandas as pd
 import pytest
 from helpers.entries import complete
 
+from common import limits_table
 from common.config import load
 from common.config.campaigns import LimitCampaign
 from limits import calibrate_limits
@@ -15,7 +16,7 @@ from stickiness import datasets
 from stickiness.remaining import calibration
 
 ROOT = Path(__file__).parents[2]
-TABLES = ("heights", "remaining", "solids", "patches", "ranges", "unresolved")
+TABLES = ("heights", "remaining", "solids", "patches", "ranges", "pull_offs", "unresolved")
 LEAST = 0.82  #: share of the unseen simulations of a kind within limits of 90 %
 #: Median ratio of both limits of the threshold, on unseen surfaces, that limits may not exceed.
 WIDEST = {
@@ -29,6 +30,7 @@ WIDEST = {
     "skin": 1.8,
     "patch": 1.9,
 }
+WIDEST_PULL_OFF = 3.1  #: ratio of both limits of a pull-off by states
 
 pytestmark = pytest.mark.slow
 
@@ -81,3 +83,20 @@ def test_limits_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrated):
         assert inside.mean() >= LEAST, kind
     for kind, limits in unseen.groupby("kind").limit:
         assert np.exp(2 * limits.median()) <= WIDEST[kind], kind
+
+
+def test_limits_of_pull_offs_hold_nine_in_ten_of_what_nothing_was_fitted_to():
+    table = limits_table.read(ROOT / "config/pull_offs.csv", "pull_offs")
+    _, rows = calibrate_limits.fit_pull_offs(table)
+    unseen = rows[rows.role == "unseen"]
+    spread = calibration.find_spread("states", "ln_tension")
+    is_inside = unseen.error.between(spread.low, spread.high)
+    assert 0.86 <= is_inside.mean() <= 0.96
+    assert 0.86 <= is_inside[unseen.range_ratio < 1].mean() <= 0.96
+    assert np.exp(spread.high - spread.low) <= WIDEST_PULL_OFF
+    # Limits that hold too few at the shortest range hold all at that of the states, within 20 %.
+    by_range = is_inside.groupby(unseen.range_ratio).mean()
+    assert by_range[0.25] >= LEAST
+    assert unseen.error[unseen.range_ratio == 1].abs().max() < 0.2
+    # The middle is right at every range.
+    assert unseen.groupby("range_ratio").error.median().abs().max() < 0.1

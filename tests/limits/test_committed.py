@@ -15,7 +15,7 @@ from common.topographies import FAMILIES
 ROOT = Path(__file__).parents[2]
 CAMPAIGN = complete(LimitCampaign, **load.load(ROOT / load.CAMPAIGNS["limits"]))
 KINDS = tuple(limits_table.COLUMNS)
-CLASS = {"solids": "kind", "patches": "family", "ranges": "family", "unresolved": "family"}
+CLASS = dict.fromkeys(KINDS, "family") | {"solids": "kind"}
 
 
 def read(kind):
@@ -101,6 +101,26 @@ def test_shorter_ranges_keep_between_bound_and_chord():
     assert (table.bound <= table.simulated * 1.03 + 2e-3).mean() > 0.9
     assert (table.simulated <= table.chord * 1.03 + 2e-3).all()
     assert table.groupby("range_ratio").size().min() >= 5
+
+
+def test_pull_offs_are_possible():
+    """Largest tensions are below the strength of the law, and few paths did not converge."""
+    table = read("pull_offs")
+    assert table.family.nunique() >= 8
+    assert table.pull_off.isna().mean() < 0.05
+    assert set(table.range_ratio) == {1.0, 0.5, 0.25}
+    known = table.dropna(subset="pull_off")
+    assert (known.pull_off <= 1.01 * known.adhesion_length / known.range).all()
+    assert known.path_share.min() < 0.03
+    assert known.path_share.max() > 0.55
+
+
+def test_states_and_paths_agree_on_what_remains():
+    """Predicted for every range and gained on the path, in shares of w."""
+    table = read("pull_offs").dropna(subset="pull_off")
+    error = abs(table.share - table.path_share)
+    assert error.quantile(0.9) < 0.012
+    assert error.max() < 0.05
 
 
 def test_lacking_energy_grows_with_the_stride():

@@ -13,13 +13,16 @@ from common.config.campaigns import RangeSet, SolidSet, TopographySet
 from common.model_surfaces import cell_size, make_heights
 from common.topographies import make_set
 from limits import (
+    calibrate_limits,
     measure_patches,
+    measure_pull_offs,
     measure_ranges,
     measure_solids,
     measure_unresolved,
     tabulate_limits,
 )
 from stickiness import surface
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.remaining.prediction import Roughness, predict
 
@@ -83,6 +86,20 @@ def patches(folder):
 def ranges(folder):
     params = {"law": "exponential", "works": 3, "shares": [0.03, 0.8]}
     return tabulate(folder, "ranges", measure_ranges, [COARSE], **params)
+
+
+@pytest.fixture(scope="module")
+def pull_offs(folder):
+    refinements = [{"ratio": 1.0, "finer": 2}, {"ratio": 0.5, "finer": 4}]
+    params = {
+        "law": "exponential",
+        "works": 2,
+        "shares": [0.1, 0.4],
+        "squeeze": 0.1,
+        "steps": 20,
+    }
+    settings = [COARSE | {"refinements": refinements}]
+    return tabulate(folder, "pull_offs", measure_pull_offs, settings, **params)
 
 
 @pytest.fixture(scope="module")
@@ -185,6 +202,44 @@ def test_shorter_ranges_lie_between_bound_and_chord(ranges):
     assert (shorter.simulated < shorter.chord).all()
     same = ranges[(ranges.range_ratio == 1) & (ranges.is_between == 0)]
     assert same.simulated.values == pytest.approx(same.chord.values, rel=0.08)
+
+
+def test_states_and_paths_pull_off_alike(pull_offs):
+    """A tension that grows and mean gaps that grow end at the same tension on one grid."""
+    assert pull_offs.groupby("adhesion_length").size().tolist() == [2, 2]
+    same = pull_offs[pull_offs.range_ratio == 1]
+    predicted = same.adhesion_length * same.share / same.distance
+    assert predicted.values == pytest.approx(same.pull_off.values, rel=0.15)
+    assert pull_offs.share.values == pytest.approx(pull_offs.path_share.values, abs=0.02)
+
+
+def test_what_is_calibrated_is_what_a_verdict_says(pull_offs):
+    """Pull-off by the states of the coarse grid, but for the middle of simulated ones."""
+    states = find_trial_states(make_set(COARSE, COARSE["seeds"][0]), 4 * np.pi)
+    rough = measure_pull_offs.judge_states(states, pixel=np.pi / 8)
+    spread = find_spread("states", "ln_tension")
+    shortening = find_spread("states", "shortening")
+    error = calibrate_limits.find_tension_error(pull_offs, shortening.value)
+    lengths = pull_offs.adhesion_length.values
+    said = rough.tension(lengths, pull_offs.range.values)
+    expected = pull_offs.pull_off.values * np.exp(spread.value - error.values)
+    # At a work that was simulated, rounding decides which of two ranges bounds the share.
+    np.testing.assert_allclose(said, expected, rtol=0.02)
+
+
+def test_exponents_and_errors_of_pull_offs_are_found():
+    """Distances that fall with the root of the range, but for 10 % at every second work."""
+    rows = pd.DataFrame({"range_ratio": np.tile([1.0, 0.5, 0.25], 40), "distance": 2.0})
+    rows = rows.assign(role="fitted", share=0.2, path_share=0.2, adhesion_length=0.1)
+    rows = rows.assign(energy_ratio=0.5)
+    factor = np.repeat([1.1, 1 / 1.1], 60)
+    rows["pull_off"] = 0.1 * 0.2 / (2.0 * np.sqrt(rows.range_ratio)) * factor
+    shortening, fitted = calibrate_limits.fit_pull_offs(rows)
+    assert shortening[0] == pytest.approx(0.5, abs=0.01)
+    assert fitted.error.abs().values == pytest.approx(np.log(1.1), abs=0.02)
+    full = rows.assign(energy_ratio=2.0)
+    _, fitted = calibrate_limits.fit_pull_offs(pd.concat([rows, full]))
+    assert len(fitted) == len(rows)  # full contact is left out
 
 
 def test_works_are_those_of_the_states_and_between():

@@ -269,6 +269,13 @@ class RangeCampaign(Section):
     sets: f.Names[RangeSet]
 
 
+class PullOffCampaign(RangeCampaign):
+    """Pull-off at the ranges of the states and at shorter ones."""
+
+    squeeze: f.Positive = needed("pressure before separation, over E* q0 h_rms")
+    steps: f.Count = needed("of the path, at least")
+
+
 class UnresolvedCampaign(Section):
     """What states on every second or fourth point tell of a surface."""
 
@@ -291,5 +298,6 @@ class LimitCampaign(Section):
     solids: SolidCampaign
     patches: PatchCampaign
     ranges: RangeCampaign
+    pull_offs: PullOffCampaign
     unresolved: UnresolvedCampaign
     touching: f.Several[TouchingSurface]

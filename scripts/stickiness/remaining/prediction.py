@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import number, plain, positive
-from stickiness.limited import Limited
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.share import (
     DeepestState,
@@ -32,9 +31,6 @@ from stickiness.traction_laws import EXPONENTIAL, find_strength
 # move it, and that they take their whole energy from the work of adhesion (Persson and Tosatti).
 FINEST_SIMULATED = 128.0
 EXTRAPOLATION_ERROR = 0.5
-# Of ln of the tension that states on heights withstand: at shorter ranges than those simulated the
-# same distance is assumed, and simulated pull-offs on eight maps are within this.
-STATES_TENSION_ERROR = 0.26
 #: Kinds of errors of the theory by the longest waves along a side of the contact.
 CELLS = {1: "one wave", 2: "two waves", 4: "spectrum"}
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
@@ -425,7 +421,7 @@ class Roughness:
         length = np.asarray(adhesion_length)
         is_theory = np.equal(self.simulated, None)
         of_theory = find_spread("spectrum", "ln_tension")
-        of_states = Limited(value=0.0, low=-STATES_TENSION_ERROR, high=STATES_TENSION_ERROR)
+        of_states = find_spread("states", "ln_tension")
         value, low, high = (
             np.where(is_theory, *pair) for pair in zip(of_theory, of_states, strict=True)
         )

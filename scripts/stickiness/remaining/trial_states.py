@@ -36,6 +36,8 @@ from stickiness.remaining.calibration import find_spread
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
+#: Range over that of the states, below which pull-offs were not simulated: distances stay
+SHORTEST_RATIO = 0.25
 #: Adhesion lengths over the energy of full contact at which thresholds of parts are looked for
 _LENGTHS = np.geomspace(1e-7, 1e4, 331)
 
@@ -116,13 +118,17 @@ class TrialStates:
     def distance(self, adhesion_length: NDArray, range: NDArray) -> NDArray:
         """Distance over which what remains acts, ``(n,)``: its work over the largest tension.
 
-        A range beyond the one simulated lengthens it by as much.
+        A range beyond the one simulated lengthens it by as much. A shorter one makes edges of
+        contact sharper, which hold more than the work that remains tells: the distance falls with a
+        power of the ratio of both, down to the shortest range on which that was measured.
         """
         log_length = np.log(adhesion_length)
         nodes = np.log(self.simulated_length)
         distance = np.exp(np.interp(log_length, nodes, np.log(self.simulated_distance)))
         simulated_range = np.exp(np.interp(log_length, nodes, np.log(self.simulated_range)))
-        return distance + np.maximum(range - simulated_range, 0.0)
+        ratio = np.clip(range / simulated_range, SHORTEST_RATIO, 1.0)
+        shortened = distance * ratio ** find_spread("states", "shortening").value
+        return shortened + np.maximum(range - simulated_range, 0.0)
 
     def _gains(self, adhesion_length: NDArray, range: NDArray, law: str) -> NDArray:
         """Energy gained in every state over the work of adhesion, ``(n, state)``."""

@@ -9,6 +9,7 @@ from references.energy_minimiser import find_full_contact_energy, minimise
 
 from stickiness import adhesive, surface
 from stickiness.remaining import height_simulation
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_simulation import (
     find_trial_states,
     simulate_heights,
@@ -183,8 +184,22 @@ def test_a_longer_range_lengthens_the_distance_by_as_much(simulated):
     lengths = states.simulated_length
     ranges = states.simulated_range
     np.testing.assert_allclose(states.distance(lengths, ranges), distances)
-    np.testing.assert_allclose(states.distance(lengths, 0.5 * ranges), distances)
     np.testing.assert_allclose(states.distance(lengths, 4 * ranges), distances + 3 * ranges)
+
+
+def test_a_shorter_range_shortens_the_distance_as_far_as_that_was_measured(simulated):
+    _, states = simulated
+    lengths = states.simulated_length
+    distances = np.linspace(0.01, 0.02, len(lengths))
+    states = replace(states, simulated_distance=distances)
+
+    def find_ratio(factor):
+        return states.distance(lengths, factor * states.simulated_range) / distances
+
+    exponent = find_spread("states", "shortening").value
+    np.testing.assert_allclose(find_ratio(0.5), 0.5**exponent)
+    np.testing.assert_allclose(find_ratio(0.25), 0.25**exponent)
+    np.testing.assert_allclose(find_ratio(0.01), 0.25**exponent)
 
 
 def test_contact_without_adhesion_bounds_less(gaussian):
