@@ -18,11 +18,18 @@ PRESETS = {
 
 wildcard_constraints:
     trade_case=choices([*TRADE_SURFACES, *ADHESIVE_SURFACES]),
+    trade_map=choices(TRADE["verdicts"]["maps"]),
 
 
 def trade_set(wildcards):
     """The part of the configuration that a surface belongs to."""
     return TRADE_SETS[wildcards.trade_case]
+
+
+def verdict_points(wildcards):
+    """Points a side of the grids on which contact is simulated for verdicts."""
+    verdicts = TRADE["verdicts"]
+    return [*verdicts["points"], *verdicts["finest"].get(wildcards.trade_map, [])]
 
 
 rule measure_contact:
@@ -71,6 +78,27 @@ rule measure_adhesion:
         "../scripts/tradeoff/measure_adhesion.py"
 
 
+rule measure_verdicts:
+    output:
+        f"{TRADEOFF}/verdicts/{{trade_map}}.nc",
+    log:
+        f"{TRADEOFF}/logs/measure_verdicts/verdicts/{{trade_map}}.log",
+    benchmark:
+        f"{TRADEOFF}/benchmarks/measure_verdicts/verdicts/{{trade_map}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=3000,
+    params:
+        map=lambda wildcards: TRADE["verdicts"]["maps"][wildcards.trade_map],
+        law=TRADE["verdicts"]["law"],
+        points=verdict_points,
+        energies=TRADE["verdicts"]["energies"],
+        code=source_hash("tradeoff/measure_verdicts.py"),
+    script:
+        "../scripts/tradeoff/measure_verdicts.py"
+
+
 rule tabulate_tradeoff:
     input:
         contact=expand(
@@ -80,6 +108,7 @@ rule tabulate_tradeoff:
         adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=ADHESIVE_SURFACES),
         pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=ADHESIVE_SURFACES),
         validation=expand(f"{TRADEOFF}/contact/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
+        verdicts=expand(f"{TRADEOFF}/verdicts/{{name}}.nc", name=TRADE["verdicts"]["maps"]),
         heights=HEIGHTS_TABLE,
         template=project_file("report/tradeoff.md.j2"),
     output:
@@ -96,6 +125,7 @@ rule tabulate_tradeoff:
     params:
         **PRESETS,
         accuracies=TRADE["validation"]["accuracies"],
+        energies=TRADE["verdicts"]["energies"],
         code=source_hash("tradeoff/tabulate_tradeoff.py"),
     script:
         "../scripts/tradeoff/tabulate_tradeoff.py"

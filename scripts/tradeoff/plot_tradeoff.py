@@ -33,6 +33,9 @@ SETTINGS = {
     "seeds": "number of random surfaces",
 }
 COST = r"cost [FFT pairs of $1024^2$]"
+SECONDS = "processor time of a verdict [s]"
+ABOVE = 4  # of texts beside markers, in points
+BELOW = -10
 
 
 @dataclass(frozen=True)
@@ -56,12 +59,18 @@ def main(job):
         Column("ACEG", "contact", CONTACT, predicted_error, cost_of_load),
         Column("BDFH", "adhesion", ADHESION, adhesive_error, adhesive_cost),
     )
-    with plotting.open_figure(job.output, "AB;CD;EF;GH", 9.5) as panels:
+    with plotting.open_figure(job.output, "AB;CD;EF;GH;IJ", 11.9) as panels:
         for column in columns:
             draw_column(panels, column, medians, models, job.params)
         kinds = {"plain mean": "--", "with a control variate": "-"}
         keys = [make_key(text, linestyle=line) for text, line in kinds.items()]
         panels["F"].legend(handles=keys, loc="lower left")
+        verdicts = pd.DataFrame(summary.list_verdicts(medians))
+        draw_widths(panels["I"], verdicts)
+        draw_pairs(panels["J"], verdicts)
+        ways = [make_key(way, **pick_look(i)) for i, way in enumerate(verdicts.way.unique())]
+        panels["J"].add_artist(panels["J"].get_legend())  # which a second one would replace
+        panels["J"].legend(handles=ways, loc="lower right", bbox_to_anchor=(1, 0.45))
 
 
 def draw_column(panels, column, medians, models, params):
@@ -134,6 +143,67 @@ def draw_models(ax, rows, styles):
     if (rows.cost > 0).any():
         return [make_key("theory", linestyle="", marker="*")]
     return [make_key("DMT sum", linestyle=":")]
+
+
+def draw_widths(ax, verdicts):
+    """Width of the limits of verdicts, and the error of the share, against processor time."""
+    draw_ways(ax, verdicts, verdicts.width, verdicts.share, (ABOVE, BELOW))
+    add_keys(ax, "width of the limits", "error of the share", loc="upper left", ncols=2)
+    ax.set_title("verdict: share that remains", loc="right")
+    ax.set(yscale="log", ylabel=r"share of $w$, median", ylim=(2e-4, 9))
+    write_ticks(ax.yaxis, (1e-3, 0.01, 0.1, 1))
+    finish_seconds(ax)
+
+
+def draw_pairs(ax, verdicts):
+    """Pairs rightly decided, and pairs within limits, against processor time."""
+    rightly = 1 - verdicts.undecided - verdicts.wrong
+    draw_ways(ax, verdicts, 100 * rightly, 100 * (1 - verdicts.outside), (BELOW, BELOW))
+    add_keys(ax, "rightly decided at 10 %", "within limits", loc="lower right")
+    ax.set_title("verdict: pairs", loc="right")
+    ax.set(ylabel="pairs [%]", ylim=(0, 110), yticks=range(0, 101, 20))
+    finish_seconds(ax)
+
+
+def draw_ways(ax, verdicts, full, dotted, places):
+    """Two quantities of every way, with the points a side at `places` beside the first, by turns.
+
+    Grids on fewer pairs are not comparable, and stand alone.
+    """
+    is_alone = verdicts.pairs < verdicts.pairs.max()
+    for index, way in enumerate(verdicts.way.unique()):
+        style = pick_look(index)
+        is_way = verdicts.way == way
+        for values, line, fill in ((full, "-", style["color"]), (dotted, ":", "white")):
+            look = style | {"markerfacecolor": fill}
+            curve = is_way & ~is_alone
+            ax.plot(verdicts.seconds[curve], values[curve], line, **look)
+            alone = is_way & is_alone
+            if alone.any():
+                ax.plot(verdicts.seconds[alone], values[alone], linestyle="none", **look)
+        for number, row in enumerate(verdicts[is_way].itertuples()):
+            text = f"{row.points}*" if is_alone[row.Index] else str(row.points)
+            place = {"xytext": (0, places[number % 2]), "textcoords": "offset points"}
+            at = (row.seconds, full[row.Index])
+            ax.annotate(text, at, **place, ha="center", fontsize=7)
+
+
+def add_keys(ax, full, dotted, **place):
+    """Legend of the two quantities of every way."""
+    keys = [
+        make_key(full, marker="o"),
+        make_key(dotted, linestyle=":", marker="o", markerfacecolor="white"),
+    ]
+    ax.legend(handles=keys, **place)
+
+
+def finish_seconds(ax):
+    """Axis of processor time."""
+    ax.set(xscale="log", xlabel=SECONDS)
+    ax.margins(x=0.1)
+    low, high = ax.get_xlim()
+    ticks = (0.1, 0.3, 1, 3, 10, 30, 100, 300)
+    write_ticks(ax.xaxis, [tick for tick in ticks if low <= tick <= high] or [low, high])
 
 
 def finish(ax, label):

@@ -19,6 +19,7 @@ from tradeoff.adhesion_table import tabulate_adhesion
 from tradeoff.contact_table import DESCRIBED_SEEDS, make_pool, tabulate_contact
 from tradeoff.fit_models import Records, fit_models
 from tradeoff.presets import list_presets
+from tradeoff.verdict_table import condense_verdicts
 
 TRADEOFF_VARIABLES = {
     "row": "number",
@@ -60,6 +61,8 @@ def main(job):
     table = annotate(rows.rename_axis("row").to_xarray(), **TRADEOFF_VARIABLES)
     datasets.write(table, job.output.dataset, title=title, parameters=parameters)
     medians = rows.groupby(summary.KEYS, sort=False)[["error", "cost"]].median().reset_index()
+    verdicts = pd.concat([datasets.read(path).to_dataframe() for path in job.input.verdicts])
+    medians = pd.concat([medians, condense_verdicts(verdicts)], ignore_index=True)
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)
     with datasets.whole_file(job.output.laws) as path:
@@ -72,6 +75,9 @@ def main(job):
         job.input.template,
         job.output.table,
         tables=summary.tables(medians),
+        verdicts=summary.list_verdicts(medians),
+        maps=len(job.input.verdicts),
+        energies=job.params.energies,
         asked=job.params.presets,
         presets=presets,
         remaining_models=remaining_models.condense(heights_table.read(job.input.heights)),

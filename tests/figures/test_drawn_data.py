@@ -562,6 +562,21 @@ def test_lines_of_the_trade_are_errors_against_costs(ax):
     assert {text.get_text() for text in ax.texts} == {"2", "4", "8"}
 
 
+def test_lines_of_verdicts_are_widths_and_pairs_against_time(ax):
+    row = {"way": "states", "share": 0.01, "outside": 0.1, "undecided": 0.2, "wrong": 0.1}
+    rows = [row | {"points": n, "seconds": n / 10, "width": 1 / n} for n in (10, 40, 80)]
+    verdicts = pd.DataFrame(rows).assign(pairs=[30, 30, 6])
+    plot_tradeoff.draw_widths(ax, verdicts)
+    np.testing.assert_allclose(ax.lines[0].get_xydata(), [[1, 0.1], [4, 0.025]])
+    np.testing.assert_allclose(ax.lines[1].get_xydata(), [[8, 0.0125]])
+    np.testing.assert_allclose(ax.lines[2].get_xydata(), [[1, 0.01], [4, 0.01]])
+    assert {text.get_text() for text in ax.texts} == {"10", "40", "80*"}
+    ax.clear()
+    plot_tradeoff.draw_pairs(ax, verdicts)
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), [70, 70])
+    np.testing.assert_allclose(ax.lines[2].get_ydata(), [90, 90])
+
+
 def test_map_of_validity_shows_the_worst_of_the_variants(ax):
     axes = {"hurst": [0.2, 0.8], "grid": [4.0], "variant": ["one", "other"]}
     outcome = xr.DataArray([[[0, 3]], [[0, 1]]], coords=axes)

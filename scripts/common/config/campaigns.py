@@ -88,6 +88,42 @@ class Validation(MeasuredSurfaces):
     accuracies: f.Several[f.Share]
 
 
+Family = Literal[
+    *("gaussian", "skewed_up", "skewed_down", "plateau_honed", "terraced", "scratched", "dimpled"),
+    *("cobbled", "beaded", "turned", "printed", "bifractal", "rolloff", "ground"),
+]
+
+
+class Topography(Section):
+    """A synthetic topography."""
+
+    family: Family = needed("name in common.topographies.FAMILIES, which takes long to load")
+    hurst: f.Hurst = optional("of a family that has one, if not its own")
+    points: Annotated[int, Field(ge=32, multiple_of=4)]
+    waves: Annotated[int, Field(ge=1)] = needed("longest waves along a side")
+    shortest: Annotated[float, Field(ge=2)] = needed("shortest wave in pixels")
+
+
+class TradeMap(Topography):
+    """A map on which verdicts are made."""
+
+    seed: f.Index
+
+
+class VerdictTrade(Section):
+    """Verdicts on maps in several ways, beside full simulation on their whole grid."""
+
+    law: f.Law
+    points: f.Several[Annotated[int, Field(ge=32, multiple_of=4)]] = needed(
+        "of the grids on which contact is simulated, along a side"
+    )
+    finest: f.Names[f.Several[Annotated[int, Field(ge=32, multiple_of=4)]]] = needed(
+        "further grids, by map"
+    )
+    energies: Values = needed("works of adhesion over the energy of full contact of the map")
+    maps: f.Names[TradeMap]
+
+
 class Tradeoff(Section):
     """What accuracy costs, as `snakemake tradeoff` measures it, and the rule of the presets."""
 
@@ -98,6 +134,7 @@ class Tradeoff(Section):
     cases: MeasuredSurfaces
     finer: MeasuredSurfaces
     validation: Validation
+    verdicts: VerdictTrade
 
     @model_validator(mode="after")
     def check_presets(self, info: ValidationInfo) -> Self:
@@ -215,21 +252,10 @@ class SolidCampaign(Section):
     sets: f.Names[SolidSet]
 
 
-Family = Literal[
-    *("gaussian", "skewed_up", "skewed_down", "plateau_honed", "terraced", "scratched", "dimpled"),
-    *("cobbled", "beaded", "turned", "printed", "bifractal", "rolloff", "ground"),
-]
-
-
-class TopographySet(Section):
+class TopographySet(Topography):
     """Synthetic topographies of one family."""
 
     role: Role
-    family: Family = needed("name in common.topographies.FAMILIES, which takes long to load")
-    hurst: f.Hurst = optional("of a family that has one, if not its own")
-    points: Annotated[int, Field(ge=32, multiple_of=4)]
-    waves: Annotated[int, Field(ge=1)] = needed("longest waves along a side")
-    shortest: Annotated[float, Field(ge=2)] = needed("shortest wave in pixels")
     seeds: f.Several[f.Index]
 
 
