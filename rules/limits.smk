@@ -1,10 +1,10 @@
 # Simulations behind the limits of verdicts: on other solids, on patches of surfaces, at ranges
-# shorter than a grid resolves, their pull-offs, and with waves that it lacks. Limits are calibrated
-# on the committed tables.
+# shorter than a grid resolves, their pull-offs, with waves that it lacks, and on surfaces larger than
+# a scan. Limits are calibrated on the committed tables.
 
 SIMULATED_SETS = {
     kind: LIMIT_CAMPAIGN[kind]["sets"]
-    for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved")
+    for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved", "larger")
 }
 
 
@@ -15,6 +15,7 @@ wildcard_constraints:
     range_set=choices(SIMULATED_SETS["ranges"]),
     pull_off_set=choices(SIMULATED_SETS["pull_offs"]),
     unresolved_set=choices(SIMULATED_SETS["unresolved"]),
+    larger_set=choices(SIMULATED_SETS["larger"]),
 
 
 def solid_of(wildcards):
@@ -132,6 +133,27 @@ rule measure_unresolved:
         code=source_hash("limits/measure_unresolved.py"),
     script:
         "../scripts/limits/measure_unresolved.py"
+
+
+rule measure_larger:
+    output:
+        f"{LIMITS}/larger/{{larger_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_larger/{{larger_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_larger/{{larger_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: SIMULATED_SETS["larger"][wildcards.larger_set],
+        range=LIMIT_CAMPAIGN["larger"]["range"],
+        patches=LIMIT_CAMPAIGN["larger"]["count"],
+        code=source_hash("limits/measure_larger.py"),
+    script:
+        "../scripts/limits/measure_larger.py"
 
 
 def simulated_files(wildcards):

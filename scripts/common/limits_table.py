@@ -42,6 +42,14 @@ COLUMNS = {
         *("full_contact_energy", "stride", "lacking", "range"),
         *(f"{grid}_{share}" for grid in ("full", "thinned") for share in SHARES),
     ),
+    "larger": (
+        *("set", "role", "family", "hurst", "height_skewness", "points", "waves", "shortest"),
+        *("seed", "parts", "patch", "skewness", "is_judged", "found_hurst", "found_rolloff"),
+        *("is_simulated", "longer", "shape", "unevenness"),
+        *(f"{limit}_{share}" for share in ("10", "30") for limit in ("value", "low", "high")),
+        *("whole_skewness", "whole_full_contact_energy", "range"),
+        *(f"whole_threshold_{share}" for share in SHARES),
+    ),
 }
 DESCRIPTIONS = {
     "solids": """\
@@ -76,6 +84,14 @@ lacking: energy of full contact that the thinned grid lacks, over that of the ot
 full_3 … full_60: ln of the adhesion length at which 3 % … 60 % of w remains, on the full grid.
 thinned_…: the same on the thinned grid, for w over 1 + lacking; none where so much remains at
 any.""",
+    "larger": """\
+What scans tell of a larger contact: patches judged for the whole surface that they were cut from,
+in the way of users. parts: patches along a side. height_skewness: of the surface, if not that of
+its family. is_judged: 0 where a patch has no verdict. found_…: by the fit to the patch. longer:
+share of the energy in longer waves. whole_threshold_3 … whole_threshold_60: ln of the adhesion
+length at which 3 % … 60 % of w remains on the surface, simulated. value_10 … high_30: the same with
+its limits, predicted, without what a scan does not tell of a larger contact; none where so much
+remains at any.""",
 }
 ALL = """\
 role: limits are fitted to rows that are fitted, and compared with those that are unseen.

@@ -95,7 +95,8 @@ def make_topography(
 
 def make_set(setting: dict, seed: int) -> NDArray:
     """Heights of one realisation of a set of the configuration."""
-    parameters = {} if setting["hurst"] is None else {"hurst": setting["hurst"]}
+    of_family = {"hurst": setting["hurst"], "skewness": setting.get("height_skewness")}
+    parameters = {name: value for name, value in of_family.items() if value is not None}
     return make_topography(
         setting["family"],
         setting["points"],
@@ -146,14 +147,14 @@ def gaussian(cell: Cell, hurst: float = 0.8) -> NDArray:
     return self_affine(cell, hurst)
 
 
-def skewed_up(cell: Cell, hurst: float = 0.8) -> NDArray:
+def skewed_up(cell: Cell, hurst: float = 0.8, skewness: float = SKEWNESS) -> NDArray:
     """Peaks on a plain, as after blasting."""
-    return self_affine(cell, hurst, skewness=SKEWNESS)
+    return self_affine(cell, hurst, skewness=skewness)
 
 
-def skewed_down(cell: Cell, hurst: float = 0.8) -> NDArray:
+def skewed_down(cell: Cell, hurst: float = 0.8, skewness: float = -SKEWNESS) -> NDArray:
     """A plateau with valleys, as after wear."""
-    return self_affine(cell, hurst, skewness=-SKEWNESS)
+    return self_affine(cell, hurst, skewness=skewness)
 
 
 def plateau_honed(cell: Cell, cut: float = 0.3, softness: float = 0.05) -> NDArray:

@@ -16,6 +16,7 @@ from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import find_height_shape
 from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_KNOWN, Roughness
 from stickiness.remaining.share import FIRST_TOUCH
+from stickiness.verdicts.longer_waves import find_unlikeness, weigh_larger
 
 COVERAGE = 0.9
 TAILS = (0.05, 0.95)
@@ -36,6 +37,8 @@ SOURCES = {
     "one wave": "remaining.csv",
     "skewness": "heights.csv",
     "patch": "patches.csv",
+    "larger": "larger.csv",
+    "larger non-Gaussian": "larger.csv",
 }
 ERROR_VARIABLES = {
     "row": "simulation",
@@ -52,12 +55,13 @@ COMMENT = f"""\
 # that are fitted and those that are unseen. Read by stickiness.remaining.calibration. kind: what is
 # predicted, and by what. quantity: ln_work, the error of the logarithm of the work of adhesion (of
 # "skewness" over the logarithm of its factor, of solids over their distance from a half-space, of
-# "patch" over the rms distance of the quarters' thresholds); share, absolute; first_touch, mean gap
-# over h_rms; ln_tension, ln_approach, ln_separation, of simulated over predicted ones; place, of a
-# share between both bounds, over w/U_full (1 - ratio of ranges)^2; shortening, exponent of the
-# ratio of ranges with which the distance of the attraction falls; unresolved, ln w beyond the
-# energy that lacks, over the root of ln(1 + lacking energy) and the cube of the share lost; least,
-# of a patch.
+# "patch" over the rms distance of the quarters' thresholds, of "larger" contacts over the root of
+# the doublings of the scan, and of "larger non-Gaussian" ones over that times what makes the scan
+# unlike Gaussian heights); share, absolute; first_touch, mean gap over h_rms; ln_tension,
+# ln_approach, ln_separation, of simulated over predicted ones; place, of a share between both
+# bounds, over w/U_full (1 - ratio of ranges)^2; shortening, exponent of the ratio of ranges with
+# which the distance of the attraction falls; unresolved, ln w beyond the energy that lacks, over
+# the root of ln(1 + lacking energy) and the cube of the share lost; least, of a patch.
 """
 
 
@@ -67,7 +71,7 @@ def main(job):
     remaining = remaining_table.read(tables["remaining"])
     simulated = {
         kind: limits_table.read(tables[kind], kind)
-        for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved")
+        for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved", "larger")
     }
     cells = [
         set_limit(compare_cells("spectrum", find_gaussian(heights, window=4))),
@@ -81,6 +85,7 @@ def main(job):
             compare_skewness(heights, base),
             *(compare_solid(kind, rows, base) for kind, rows in group_solids(simulated["solids"])),
             compare_patches(simulated["patches"]),
+            *compare_larger(simulated["larger"]),
         ]
     )
     rows = [
@@ -387,6 +392,30 @@ def compare_patches(patches):
     errors = make_errors("patch", rows, needed, weight=find_distance(rows))
     limited = [add_limits(errors, least).assign(least=least) for least in LEAST_ERRORS]
     return min(limited, key=lambda each: each.limit.median())
+
+
+def compare_larger(larger):
+    """Errors of what scans say of larger contacts: of Gaussian heights, and of others.
+
+    They go with the root of the number of doublings, and of other heights with that times what
+    makes them unlike Gaussian ones. Limits of the table contain neither.
+    """
+    rows = larger.dropna(subset=["value_10", "whole_threshold_10"])
+    error = rows.value_10 - rows.whole_threshold_10
+    half_width = np.where(error > 0, rows.value_10 - rows.low_10, rows.high_10 - rows.value_10)
+    needed = error.abs().to_numpy()
+    base = half_width
+    doublings = weigh_larger(rows.parts.to_numpy())
+    unlike = doublings * find_unlikeness(rows.unevenness.to_numpy(), rows["shape"].to_numpy())
+    is_unlike = unlike > LEAST_WEIGHT
+
+    def compare(kind, chosen, weight, base):
+        errors = make_errors(kind, rows[chosen], needed[chosen], weight=weight[chosen])
+        return add_limits(errors, base[chosen])
+
+    gaussian = compare("larger", ~is_unlike, doublings, base)
+    base = np.hypot(base, gaussian.slope.iloc[0] * doublings)
+    return gaussian, compare("larger non-Gaussian", is_unlike, unlike, base)
 
 
 def find_distance(rows):

@@ -16,7 +16,10 @@ from stickiness import datasets
 from stickiness.remaining import calibration
 
 ROOT = Path(__file__).parents[2]
-TABLES = ("heights", "remaining", "solids", "patches", "ranges", "pull_offs", "unresolved")
+TABLES = (
+    *("heights", "remaining", "solids", "patches", "ranges", "pull_offs", "unresolved"),
+    "larger",
+)
 LEAST = 0.82  #: share of the unseen simulations of a kind within limits of 90 %
 #: Median ratio of both limits of the threshold, on unseen surfaces, that limits may not exceed.
 WIDEST = {
@@ -29,6 +32,8 @@ WIDEST = {
     "thin": 1.6,
     "skin": 1.8,
     "patch": 1.9,
+    "larger": 10.0,
+    "larger non-Gaussian": 60.0,
 }
 WIDEST_PULL_OFF = 3.1  #: ratio of both limits of a pull-off by states
 

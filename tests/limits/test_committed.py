@@ -35,6 +35,8 @@ def rows_of_set(kind, entry):
         return sum(size["count"] for size in campaign["patches"])
     if kind == "unresolved":
         return len(campaign["strides"]) * len(campaign["ranges"])
+    if kind == "larger":
+        return len(entry["parts"]) * campaign["count"]
     return None  # as many works of adhesion as have such shares
 
 
@@ -128,3 +130,21 @@ def test_lacking_energy_grows_with_the_stride():
     lacking = table.pivot_table(index=["set", "seed"], columns="stride", values="lacking")
     assert (lacking[4] > lacking[2]).all()
     assert table.lacking.between(-0.01, 3).all()
+
+
+def test_larger_contacts_are_judged_both_ways():
+    table = read("larger")
+    judged = table[table.is_judged == 1]
+    assert len(judged) > 0.9 * len(table)
+    known = judged.dropna(subset=["value_10", "value_30"])
+    for share in ("10", "30"):
+        assert (known[f"low_{share}"] <= known[f"value_{share}"]).all()
+        assert (known[f"value_{share}"] <= known[f"high_{share}"]).all()
+    assert (known.value_10 < known.value_30).all()
+    assert (known.whole_threshold_10 < known.whole_threshold_30).all()
+    # Roughness of heights that are transformed point by point differs from place to place.
+    is_skewed = known.family.isin(["skewed_up", "skewed_down"])
+    assert known.unevenness[known.family == "gaussian"].median() < 0.05
+    assert known.unevenness[is_skewed].median() > 0.2
+    # Where the spectrum shows no roll-off within a patch, none is found.
+    assert known.found_rolloff[known.waves < 4 * known.parts].isna().all()

@@ -9,11 +9,12 @@ from helpers.entries import complete
 from helpers.jobs import make_job
 
 from common import limits_table
-from common.config.campaigns import RangeSet, SolidSet, TopographySet
+from common.config.campaigns import LargerSet, RangeSet, SolidSet, TopographySet
 from common.model_surfaces import cell_size, make_heights
 from common.topographies import make_set
 from limits import (
     calibrate_limits,
+    measure_larger,
     measure_patches,
     measure_pull_offs,
     measure_ranges,
@@ -49,6 +50,7 @@ COARSE = complete(
     shortest=5.0,
     refinements=[{"ratio": 1.0, "finer": 2}, {"ratio": 0.25, "finer": 8}],
 )
+SCANNED = complete(LargerSet, **TOPOGRAPHY | {"waves": 2}, shortest=4.0, parts=[1, 2])
 
 
 def tabulate(folder, kind, script, settings, **params):
@@ -100,6 +102,11 @@ def pull_offs(folder):
     }
     settings = [COARSE | {"refinements": refinements}]
     return tabulate(folder, "pull_offs", measure_pull_offs, settings, **params)
+
+
+@pytest.fixture(scope="module")
+def larger(folder):
+    return tabulate(folder, "larger", measure_larger, [SCANNED], range=0.15, patches=1)
 
 
 @pytest.fixture(scope="module")
@@ -259,6 +266,18 @@ def test_thinned_grids_lack_what_they_do_not_show(unresolved):
     assert lost.lacking.min() > 0.01
     # Above full contact both agree, whatever the grid.
     assert unresolved.thinned_60.values == pytest.approx(unresolved.full_60.values, abs=0.02)
+
+
+def test_a_scan_of_half_the_side_tells_less_of_a_contact(larger):
+    same, half = larger.itertuples()
+    assert same.is_judged == half.is_judged == 1
+    # A patch of the whole surface is simulated, and no longer waves are expected.
+    assert (same.is_simulated, same.longer) == (1, 0)
+    assert half.longer > 0
+    for row in (same, half):
+        assert row.low_10 < row.whole_threshold_10 < row.high_10
+        assert row.value_10 < row.value_30
+    assert half.high_10 - half.low_10 > 2 * (same.high_10 - same.low_10)
 
 
 def test_a_table_without_a_column_is_refused(tmp_path):

@@ -310,6 +310,21 @@ class UnresolvedCampaign(Section):
     sets: f.Names[TopographySet]
 
 
+class LargerSet(TopographySet):
+    """Topographies whose patches are judged for contact with all of it."""
+
+    height_skewness: float = optional("of a family that has one, if not its own")
+    parts: f.Several[f.Count] = needed("patches along a side, of every size")
+
+
+class LargerCampaign(Section):
+    """What scans tell of a larger contact."""
+
+    range: f.Positive = needed("range over h_rms of the surface")
+    count: f.Count = needed("patches of every size")
+    sets: f.Names[LargerSet]
+
+
 class TouchingSurface(ModelSurface):
     """A surface whose highest summits are looked for."""
 
@@ -326,4 +341,5 @@ class LimitCampaign(Section):
     ranges: RangeCampaign
     pull_offs: PullOffCampaign
     unresolved: UnresolvedCampaign
+    larger: LargerCampaign
     touching: f.Several[TouchingSurface]

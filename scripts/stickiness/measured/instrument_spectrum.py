@@ -27,6 +27,9 @@ TIP_FACTOR = 0.5  #: curvature over 1/R from which the tip's shape shows (Sanner
 LOWEST_MODES = 4  #: lattice steps left out at low q if the heights were tapered
 NYQUIST_SHARE = 0.5  #: default highest q over q_Nyquist
 BLUR_EXPONENT = 5.0  #: C ~ q^-s falls faster than any self-affine surface does (s = 4 at H = 1)
+#: Where waves end, C falls as q^-s beyond what looks like a plateau, with s = 19 to 34 on synthetic
+#: surfaces. Of heights with scratches s is 5.4, by their width.
+END_EXPONENT = 10.0
 EMPTY = 1e-6  #: q^5 C over its largest value, below which a spectrum is empty
 NOISE_EXPONENT = 1.5  #: and slower than any (s = 2 at H = 0)
 LOWEST_HURST = -0.4  #: of a profile; at -1/2 the transform of q^(-2(H+1)) no longer exists
@@ -146,15 +149,26 @@ def analyse(
         q_min = lowest
         cutoff = of_grid
 
-    # The fit, and the rings that are shown and integrated.
+    # The fit, and the rings that are shown and integrated. The end of the waves that an instrument
+    # resolves looks like that of a plateau.
     enough = demand and alone
+
+    def fit_to(q_max: float) -> tuple[RadialPSD, SelfAffineFit]:
+        if is_map:
+            return narrow, fit_rings(narrow, q_min, q_max, demand=enough)
+        return _fit_profile(line, q_min, q_max, NYQUIST_SHARE * nyquist, enough)
+
+    rings, fit = fit_to(cutoff.q)
+    while demand and limits.detect and fit.q_rolloff is not None and fit.fall > END_EXPONENT:
+        reason = f"blur of the instrument (C falls as q^-{fit.fall:.1f} beyond)"
+        cutoff = Cutoff(fit.q_rolloff, reason, detected=True)
+        rings, fit = fit_to(cutoff.q)
+    narrow = rings
     if is_map:
-        fit = fit_rings(narrow, q_min, cutoff.q, demand=enough)
         rings = radial_average(modes, RINGS)
         area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
         anisotropy, _ = modes.anisotropy(fit.q_min, fit.q_max)
     else:
-        narrow, fit = _fit_profile(line, q_min, cutoff.q, NYQUIST_SHARE * nyquist, enough)
         q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
         rings = RadialPSD(q, mean, dof)
         area = ring_areas(q, lowest)

@@ -79,6 +79,11 @@ class SelfAffineFit:
         return self.q_rolloff * float(np.sqrt(self.log_covariance[2, 2]))
 
     @property
+    def fall(self) -> float:
+        """Exponent s of C ~ q^-s beyond the plateau."""
+        return 2 * (self.hurst + 1)
+
+    @property
     def is_self_affine(self) -> bool:
         """Whether 0 < H <= 1, as a self-affine surface needs."""
         return 0 < self.hurst <= 1

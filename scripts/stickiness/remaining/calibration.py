@@ -27,7 +27,8 @@ def find_spread(kind: str, quantity: str) -> Limited:
         What was predicted: by the spectrum on half-spaces ("spectrum"), in contacts of few of the
         longest waves along a side ("two waves", "one wave"), for the skewness of heights
         ("skewness"), on other solids ("layer", "film", "thin", "skin"), by states simulated on
-        heights ("states"), or on a surface by a map that was cut from it ("patch").
+        heights ("states"), on a surface by a map that was cut from it ("patch"), or in a contact
+        larger than a scan ("larger", "larger non-Gaussian").
     quantity : str
         "ln_work" is the error of the logarithm of the work of adhesion; others are described in the
         table.

@@ -65,11 +65,17 @@ def find_shape_of(heights: ArrayLike) -> HeightShape:
     heights = np.asarray(heights, dtype=float)
     skewness = float(scipy.stats.skew(heights, axis=None))
     chance = CHANCE * find_skewness_error(heights)
-    # Nothing up to what chance explains, all of it far beyond, and doubtful between.
-    share = max(1 - (chance / skewness) ** 2, 0.0) if skewness else 0.0
-    shape, error = find_height_shape(skewness)
-    doubt = np.sqrt(share * (1 - share)) * abs(shape)
-    return HeightShape(share * shape, float(np.hypot(share * error, doubt)))
+    return keep_beyond_chance(find_height_shape(skewness), skewness, chance)
+
+
+def keep_beyond_chance(found: HeightShape, size: float, chance: float) -> HeightShape:
+    """What chance does not explain of a shape that was found.
+
+    Nothing of a `size` up to `chance`, all of one far beyond, and what is between is doubtful.
+    """
+    share = max(1 - (chance / size) ** 2, 0.0) if size else 0.0
+    doubt = np.sqrt(share * (1 - share)) * abs(found.shape)
+    return HeightShape(share * found.shape, float(np.hypot(share * found.error, doubt)))
 
 
 def find_skewness_error(heights: NDArray) -> float:

@@ -182,9 +182,11 @@ class TrialStates:
         return low_bound + place * np.maximum(high_bound - low_bound, 0.0)
 
     def find_threshold(self, range: float, law: str, wanted: float) -> float:
-        """Logarithm of the adhesion length at which a share remains, within those searched."""
+        """Logarithm of the adhesion length at which a share remains; NaN if it does at any."""
         lengths = _LENGTHS * self.full_contact_energy
         shares = self.share(lengths, np.full(lengths.shape, range), law)
+        if shares[0] >= wanted:
+            return np.nan
         # Shares fall a little where full contact takes over from states that are not its own.
         return float(np.interp(wanted, np.maximum.accumulate(shares), np.log(lengths)))
 
@@ -260,7 +262,9 @@ class SimulatedHeights:
         if (range, law) not in self._errors:
             parts = (self.whole, *self.quarters)
             whole, *quarters = (part.find_threshold(range, law, DEFAULT_SHARE) for part in parts)
-            distance = float(np.sqrt(np.mean(np.square(np.subtract(quarters, whole)))))
+            # Parts that hold at any work of adhesion have no threshold.
+            known = np.array(quarters)[np.isfinite(quarters)] - whole
+            distance = np.sqrt(np.mean(known**2)) if np.isfinite(known).any() else 0.0
             least = find_spread("patch", "least").high
             by_distance = find_spread("patch", "ln_work").high * distance
             self._errors[range, law] = float(np.hypot(least, by_distance))

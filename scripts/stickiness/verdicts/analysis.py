@@ -21,10 +21,17 @@ from stickiness.measured.instrument_spectrum import Cutoff, MeasuredSpectrum
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
 from stickiness.plausibility import LIMITS
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import find_shape_of
+from stickiness.remaining.uneven_roughness import find_unevenness
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
-from stickiness.verdicts.longer_waves import FIRST_WAVE, lengthen
+from stickiness.verdicts.longer_waves import (
+    FIRST_WAVE,
+    find_larger_error,
+    find_unlikeness,
+    lengthen,
+)
 from stickiness.verdicts.measured_surface import Measurement, find_spectra
 from stickiness.verdicts.parametric import (
     END_QUANTILES,
@@ -33,12 +40,13 @@ from stickiness.verdicts.parametric import (
     REFERENCE_HURST,
     describe_variables,
 )
-from stickiness.verdicts.simulated_surface import simulate_surface, stands_alone
+from stickiness.verdicts.simulated_surface import simulate_surface
 
 DRAWS = 200  #: spectra that are drawn
 SEED = 1  #: of the draws
 PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
 READING_POINTS = 100  #: along a side of the picture of the heights as read
+FEWEST_STEPS = 2  #: of the grid, over which a slope is taken: half of the shortest wave fitted
 LEFT_OUT = "left out of the spectrum"
 IGNORED = "judged all the same (plausibility: ignore)"
 
@@ -83,7 +91,8 @@ def analyse(
     doubts = [*doubt_fit(fit, is_end_told)] if is_fitted else unfitted.copy()
     if doubts:
         doubts = _find_patterns(heights) or doubts
-    q_extended = None if extend_to is None else 2 * np.pi / extend_to
+    # Without a fit there is no law that goes on.
+    q_extended = 2 * np.pi / extend_to if is_end_told and is_fitted else None
     end_of_grid = np.pi / max(heights[0].steps)
     if q_extended is not None and q_extended <= end_of_grid * (1 + 1e-9):
         # Whoever tells that the waves end within the grid says that the heights hold all of them.
@@ -106,27 +115,27 @@ def analyse(
             _thin_picture(heights[0]),
             _thin_reading(heights[0]),
             _describe_fit(spectrum, q_extended),
-            _describe_heights(measurements),
+            _describe_heights(measurements, spectrum),
             _tabulate_draws(draws),
         ]
     )
     if isinstance(spectrum, stitching.Stitched):
         dataset = dataset.merge(_compare_measurements(spectrum))
-    if contact is not None:
-        dataset = lengthen(dataset, contact)
 
     # Contact on the heights themselves.
-    simulated = None
-    if not not_judged and stands_alone(dataset):
-        simulated = simulate_surface(measurements, spectrum)
+    simulated = None if not_judged else simulate_surface(measurements, spectrum)
     if simulated is not None:
         dataset = dataset.merge(simulated)
+    if contact is not None:
+        dataset = lengthen(dataset, contact)
     dataset = _add_budgets(describe_variables(dataset), fit)
     remarks = [f"{LEFT_OUT}: {doubt}" for doubt in unfitted if is_fitted]
     remarks += [f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged]
     remarks += [remark for each in heights for remark in each.remarks]
     if q_extended is None and not doubts:
         remarks += _remark_on_exponent(fit)
+    if contact is not None:
+        remarks += _remark_on_heights(dataset)
     return dataset.assign_attrs(
         remarks="\n".join(remarks),
         cutoff=spectrum.cutoff.reason,
@@ -145,6 +154,21 @@ def _remark_on_exponent(fit: SelfAffineFit) -> list[str]:
     return [
         f"the fitted H = {fit.hurst:.2f} is outside {low:g} to {high:g}: waves that are not "
         "resolved continue the last octave with an exponent within these bounds"
+    ]
+
+
+def _remark_on_heights(data: xr.Dataset) -> list[str]:
+    """Say why heights tell little of a contact larger than the scan; nothing unless they do."""
+    unevenness = float(data.unevenness)
+    ratio = float(data.contact / data.scan)
+    error = float(find_larger_error(find_unlikeness(unevenness, float(data["shape"])), ratio))
+    if error <= find_spread("one wave", "ln_work").high:
+        return []
+    return [
+        f"the heights are unlike Gaussian ones (skewness {float(data.skewness):.2g}, mean square "
+        f"slopes of the quarters of the scan different by a factor of {np.exp(unevenness):.2g} "
+        f"beyond chance), so that a contact {ratio:.2g} times as large as the scan may differ from "
+        f"it by a factor of {np.exp(error):.2g} in the work of adhesion"
     ]
 
 
@@ -251,13 +275,17 @@ def _find_kept(spectrum: MeasuredSpectrum) -> float:
     return max(np.sqrt(area / np.pi), FIRST_WAVE * spectrum.lowest)
 
 
-def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
+def _describe_heights(
+    measurements: Sequence[Measurement], spectrum: MeasuredSpectrum
+) -> xr.Dataset:
     """Parameters of the first heights, the shape of the highest, and what is missing of all."""
     every = [measurement.heights for measurement in measurements]
     first = every[0]
     # The largest rms height is that of the longest waves, whose shape decides.
     highest = max(every, key=lambda heights: heights.h_rms)
     shape = find_shape_of(highest.heights)
+    half_wave = np.pi / spectrum.fit.q_max
+    lags = [max(round(half_wave / step), FEWEST_STEPS) for step in highest.steps]
     return xr.Dataset(
         {
             "h_rms_measured": first.h_rms,
@@ -267,6 +295,7 @@ def _describe_heights(measurements: Sequence[Measurement]) -> xr.Dataset:
             "kurtosis": scipy.stats.kurtosis(first.heights, axis=None, fisher=False),
             "shape": shape.shape,
             "shape_error": shape.error,
+            "unevenness": find_unevenness(highest.heights, lags),
             "h_rms_as_read": first.h_rms_as_read(),
             "missing_fraction": max(heights.missing_fraction for heights in every),
             "dropped_points": sum(heights.dropped for heights in every),

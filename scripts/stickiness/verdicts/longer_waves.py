@@ -21,10 +21,14 @@ from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.formatting import amount
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.height_shape import HeightShape
+from stickiness.statistics import COVERS
 from stickiness.verdicts.parametric import END_QUANTILES, ENDS
+from stickiness.verdicts.simulated_surface import find_simulated_shape
 
 LARGER = 10.0  #: side of the contact over that of the scan, of the answer beside that for the scan
 #: Places of the roll-off among which one is drawn, over the logarithm of wave numbers from twice
@@ -32,6 +36,7 @@ LARGER = 10.0  #: side of the contact over that of the scan, of the answer besid
 PLACES = np.minimum(np.linspace(0.0, 1.8, 181), 1.0)
 FIRST_TOLD = 1.9  #: lowest ring over 2 pi/L that tells of the roll-off; levelling changes others
 SEED = 4  #: of the roll-offs, and of the power of the longest waves
+SCATTER_SEED = 5  #: of what a scan does not tell of a larger contact
 RINGS = 20  #: per decade
 #: Wave number over 2 pi/L from which integrals over C equal sums over the lattice of a square of
 #: side L: 0.67 to 0.72 for energy and variance of self-affine spectra, H = 0.6 to 0.9.
@@ -121,7 +126,7 @@ def _draw_places(data: xr.Dataset, contact: float, rng: np.random.Generator) -> 
     return np.minimum(np.sum(share < drawn[:, None], axis=1), PLACES.size - 1)
 
 
-def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
+def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr.Dataset:
     """Add the waves that a larger contact meets to what is known of a measured surface.
 
     Parameters
@@ -130,6 +135,9 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
         Variables of `surface_variables.SURFACE_VARIABLES` of a measured surface.
     contact : float
         Side of the contact [m], at least that of the scan.
+    error : float, optional
+        Error of ln of the work of adhesion by what the scan does not tell of the contact; by
+        default `find_larger_error`.
 
     Returns
     -------
@@ -161,10 +169,24 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
     longer = np.maximum(energy / of_scan - 1, 0.0)
     share = np.median(longer / (1 + longer))
 
+    # The shape of the heights, by simulation if there is one. Those of the longer waves are not
+    # known: their shape is that of the scan's, or they are Gaussian.
+    of_heights = HeightShape(float(data.shape), float(data.shape_error))
+    of_scan_heights = find_simulated_shape(data) or of_heights
+    shape = of_scan_heights.shape * (1 - share / 2)
+    unlikeness = find_unlikeness(float(data.unevenness), shape)
+    shape_error = np.hypot(of_scan_heights.error, of_scan_heights.shape * share / 2)
+
+    # What the scan does not tell scatters the energy, for full contact bounds what remains.
+    if error is None:
+        error = float(find_larger_error(unlikeness, contact / scan))
+    scatter = np.random.default_rng(SCATTER_SEED).normal(size=energy.size) / COVERS
+    factor = np.exp(error * scatter)
+
     # Both ends of what is known are quantiles of the draws, as those of the scan.
     changed = data.assign(
         h_rms_draws=("draw", h_rms),
-        elastic_energy_draws=("draw", energy),
+        elastic_energy_draws=("draw", factor * energy),
         longer_energy_draws=("draw", longer),
         q0_draws=("draw", np.minimum(data.q0_draws.values, waves.q0)),
         h_rms=("end", np.quantile(h_rms, END_QUANTILES)),
@@ -172,17 +194,44 @@ def lengthen(data: xr.Dataset, contact: float) -> xr.Dataset:
         longer_energy=("end", np.quantile(longer, END_QUANTILES)),
         unresolved_energy=data.unresolved_energy * (1 - share),
         q0=np.minimum(float(data.q0), np.median(waves.q0)),
-        # The heights of the longer waves are not known: their shape is that of the scan's, or they
-        # are Gaussian.
-        shape=data.shape * (1 - share / 2),
-        shape_error=np.hypot(data.shape_error, data.shape * share / 2),
+        shape=shape,
+        shape_error=shape_error,
         contact=contact,
     )
 
     # Spectra of the draws, for layers, and of both ends.
-    spectra = ("draw", "longer_wave_number"), unknown * waves.width * waves.psd
+    spectra = ("draw", "longer_wave_number"), unknown * waves.width * waves.psd * factor[:, None]
     changed = changed.assign(longer_psd_draws=spectra).assign_coords(longer_wave_number=waves.q)
     return _prepend_spectrum(changed, waves, order=np.argsort(energy))
+
+
+def find_larger_error(unlikeness: ArrayLike, ratio: ArrayLike) -> NDArray:
+    """Error of ln of the work of adhesion by what a scan does not tell of a larger contact.
+
+    Parameters
+    ----------
+    unlikeness : array
+        Of the scan to Gaussian heights of even roughness, see `find_unlikeness`.
+    ratio : array
+        Side of the contact over that of the scan.
+    """
+    of_gaussian = find_spread("larger", "ln_work").high
+    of_others = find_spread("larger non-Gaussian", "ln_work").high
+    return weigh_larger(ratio) * np.hypot(of_gaussian, of_others * np.asarray(unlikeness))
+
+
+def find_unlikeness(unevenness: ArrayLike, shape: ArrayLike) -> NDArray:
+    """How unlike Gaussian heights of even roughness those of a scan are, beyond chance.
+
+    `unevenness` is the scatter among its quarters, see `uneven_roughness`, and `shape` what the
+    heights change, see `height_shape`; both are logarithms of factors on energies.
+    """
+    return np.hypot(unevenness, shape)
+
+
+def weigh_larger(ratio: ArrayLike) -> NDArray:
+    """Size of an error to which every doubling of the contact adds, over that of one doubling."""
+    return np.sqrt(np.maximum(np.log2(ratio), 0.0))
 
 
 def _prepend_spectrum(data: xr.Dataset, waves: LongerWaves, order: NDArray) -> xr.Dataset:

@@ -11,15 +11,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.topography import Topography
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.height_shape import HeightShape, keep_beyond_chance
+from stickiness.remaining.prediction import Roughness
 from stickiness.remaining.standard_heights import (
     FEWEST_POINTS,
     StandardHeights,
     StandardMap,
     standardise,
 )
-from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
+from stickiness.remaining.trial_states import DEFAULT_SHARE, SimulatedHeights, TrialStates
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.spectrum.interface import Spectrum
+from stickiness.traction_laws import EXPONENTIAL
 from stickiness.verdicts.measured_surface import Measurement
 
 #: Share of the elastic energy in waves longer than the map, up to which the map stands for the
@@ -187,6 +191,34 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
         resolved_energy=float(data.resolved_energy),
         pixel=float(data.simulated_pixel),
     )
+
+
+def find_simulated_shape(data: xr.Dataset) -> HeightShape | None:
+    """What the shape of the heights changes, by the states simulated on them; None without these.
+
+    None, too, if the share wanted by default remains on them at any work of adhesion.
+    The heights count as Gaussian ones which keep the share wanted by default at the same work of
+    adhesion. What theory errs by in a contact of one of the longest waves is chance.
+    """
+    simulated = read_simulated(data)
+    if simulated is None:
+        return None
+    states = simulated.whole
+    shares = np.maximum(states.simulated_share, np.finfo(float).tiny)
+    nearest = np.argmin(np.abs(np.log(shares / DEFAULT_SHARE)))
+    simulated_range = float(states.simulated_range[nearest])
+    rough = Roughness(
+        h_rms=float(data.h_rms_measured),
+        q0=float(data.q0),
+        q1=np.pi / simulated.pixel,
+        elastic_energy=float(states.full_contact_energy),
+    )
+    expected = float(np.log(rough.threshold(simulated_range)))
+    found = states.find_threshold(simulated_range, EXPONENTIAL, DEFAULT_SHARE)
+    if np.isnan(found):
+        return None
+    chance = find_spread("one wave", "ln_work").high
+    return keep_beyond_chance(HeightShape(expected - found, 0.0), expected - found, chance)
 
 
 def find_lacking(

@@ -53,6 +53,18 @@ def test_noise_and_blur_are_found_where_they_meet_the_spectrum():
     assert found.q == pytest.approx(np.sqrt(0.7) / (2 * dx), rel=0.35)
 
 
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_the_end_of_the_waves_is_no_rolloff(seed):
+    """Half a decade above the first wave fitted, where no bend is looked for."""
+    _, h, dx = patch(seed=seed, n=256, q1=32.0)
+    measured = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
+    assert measured.fit.q_rolloff is None
+    assert 0.4 < measured.fit.hurst < 1.2
+    assert measured.cutoff.detected
+    assert measured.cutoff.q < 32
+    assert measured.cutoff.reason.startswith("blur of the instrument")
+
+
 def test_rings_of_few_modes_do_not_bend_a_spectrum():
     # Every fourth ring has one mode, which may be a hundred times off; all others have many.
     q = np.geomspace(1.0, 1e3, 61) * 1.001

@@ -8,9 +8,17 @@ import pytest
 from stickiness import Material, Surface, judge, verdict
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
+from stickiness.statistics import COVERS
 from stickiness.surface import realised_spectrum, synthesise
-from stickiness.verdicts.longer_waves import FIRST_WAVE, LARGER, LongerWaves, lengthen
+from stickiness.verdicts.longer_waves import (
+    FIRST_WAVE,
+    LARGER,
+    LongerWaves,
+    find_larger_error,
+    lengthen,
+)
 from stickiness.verdicts.pair_roughness import combine_roughness
+from stickiness.verdicts.simulated_surface import find_simulated_shape
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -201,3 +209,33 @@ def test_patches_tell_the_threshold_of_the_whole_surface():
             without += [bool(contains.sel(surface=f"{parts}None")) for parts in (2, 4, 8)]
     assert np.mean(inside) >= 0.9
     assert np.mean(without) < 0.6, without
+
+
+def test_uneven_scans_tell_less_of_a_larger_contact(patch):
+    """Errors of every doubling add up, and a scan of even roughness has less of them."""
+    even = patch.data.assign(unevenness=0.0, shape=0.0).drop_vars("trial_energy")
+    uneven = even.assign(unevenness=0.3)
+    scan = float(patch.data.scan)
+
+    def find_added(times):
+        energies = [lengthen(data, times * scan).elastic_energy_draws for data in (even, uneven)]
+        return float(np.std(np.log(energies[1] / energies[0])))
+
+    added = find_added(2)
+    assert added == pytest.approx(find_larger_error(0.3, 2.0) / COVERS, rel=0.1)
+    assert find_added(16) == pytest.approx(2 * added)
+    assert find_added(1.001) < 0.1 * added
+    assert find_larger_error(0.3, 4.0) >= find_larger_error(0.0, 4.0)
+
+
+def test_simulated_tops_tell_the_shape_of_the_heights(patch):
+    """Skewness alone makes less of flat tops, on which little adhesion holds."""
+    assert find_simulated_shape(patch.data.drop_vars("trial_energy")) is None
+    heights, _ = take_patch(seed=1, parts=4)
+    heights = heights[:256, -256:] - heights[:256, -256:].mean()
+    cut = -1e-6 * np.logaddexp(0.0, -heights / 1e-6)
+    surface = Surface.from_heights(cut, SIDE / 4)
+    found = find_simulated_shape(surface.data)
+    assert found.shape > surface.data.shape.item() > 0
+    longer = lengthen(surface.data, 2 * SIDE / 4)
+    assert longer["shape"].item() > surface.data["shape"].item()

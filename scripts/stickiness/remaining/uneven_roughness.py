@@ -1,0 +1,64 @@
+"""How much the roughness of a surface differs from place to place, beyond chance.
+
+A scan of even roughness tells that of a larger contact. If the quarters of a scan differ, which are
+half as long, so may the scan differ from a contact twice as long.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy import fft
+
+
+def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
+    """Find the standard deviation of ln of the mean square slope among the quarters of a map.
+
+    Parameters
+    ----------
+    heights : (nx, ny) or (n,) array
+        Levelled heights of a map, or of a profile, which has halves; not flat.
+    lags : sequence of int
+        Points along every axis over which a slope is taken: half of the shortest wave resolved.
+
+    Returns
+    -------
+    float
+        Without the scatter that Gaussian heights with these waves have on average; 0 below that.
+    """
+    heights = np.asarray(heights, dtype=float)
+    parts = 2**heights.ndim
+    logs = np.zeros(parts)
+    chance = 0.0
+    for axis, lag in enumerate(lags):
+        slope = _difference(heights, axis, lag)
+        square = slope**2 / np.mean(slope**2)
+        logs += np.log([part.mean() for part in _halve(square)]) / heights.ndim
+        # The mean square of Gaussian values has the relative variance 2/n, with n the number of
+        # independent ones, of which 1/n is the mean of the squared correlation. That of a sample is
+        # twice as much, for its noise is as large.
+        chance += parts * np.mean(_correlate(slope) ** 2) / heights.ndim**2
+    return float(np.sqrt(max(np.var(logs, ddof=1) - chance, 0.0)))
+
+
+def _difference(heights: NDArray, axis: int, lag: int) -> NDArray:
+    """Differences of heights over a number of points along an axis."""
+    points = heights.shape[axis]
+    first, second = np.arange(points - lag), np.arange(lag, points)
+    return heights.take(second, axis) - heights.take(first, axis)
+
+
+def _halve(values: NDArray) -> list[NDArray]:
+    """Parts of half the length along every axis."""
+    middles = [points // 2 for points in values.shape]
+    ends = [(slice(middle), slice(middle, None)) for middle in middles]
+    return [values[part] for part in product(*ends)]
+
+
+def _correlate(values: NDArray) -> NDArray:
+    """Autocorrelation, 1 at no shift."""
+    correlation = fft.ifftn(np.abs(fft.fftn(values)) ** 2).real
+    return correlation / correlation.ravel()[0]
