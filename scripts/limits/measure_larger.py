@@ -3,15 +3,14 @@
 import logging
 
 import numpy as np
-import pandas as pd
 from scipy import stats
 
-from common.conventions import Q0, annotate
+from common.conventions import Q0
 from common.job import start
-from common.topographies import make_set
-from limits.measure_patches import THRESHOLDS, cut
+from limits.measure_patches import cut
+from limits.measuring import THRESHOLDS, write_rows
 from limits.trial_thresholds import SHARES, find_log_thresholds
-from stickiness import Material, Surface, datasets, judge
+from stickiness import Material, Surface, judge
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.longer_waves import lengthen
@@ -21,7 +20,6 @@ LENGTH_UNIT = 1e-5  # m, of lengths over 1/q0
 WORK_OF_ADHESION = 0.05  # J/m^2
 SHORTEST_FITTED = 4.0  # pixels: a fit goes up to half the Nyquist wave number
 JUDGED = ("10", "30")  # thresholds that are judged, by the ends of their names
-NEVER = "the share remains at any adhesion length"
 NO_VERDICT = "the patch is not judged"
 FOUND = ("found_hurst", "found_rolloff", "longer", "shape", "unevenness")
 PREDICTED = {
@@ -45,18 +43,17 @@ LARGER_VARIABLES = {
     "range": "range over h_rms of the surface",
     "whole_skewness": "of the surface",
     "whole_full_contact_energy": "elastic energy of full contact of the surface",
-    **{f"whole_{name}": ("1", text, NEVER) for name, text in THRESHOLDS.items()},
+    **{f"whole_threshold_{name}": texts for name, texts in THRESHOLDS.items()},
 }
 
 
 def main(job):
-    setting = job.params.surface
-    seed = int(job.wildcards.seed)
-    heights = make_set(setting, seed)
-    rows = list(measure(heights, setting, job.params))
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **LARGER_VARIABLES)
-    title = "what patches of a surface tell of contact with all of it"
-    datasets.write(dataset, job.output[0], title=title, parameters={**setting, "seed": seed})
+    write_rows(
+        job,
+        measure,
+        LARGER_VARIABLES,
+        title="what patches of a surface tell of contact with all of it",
+    )
 
 
 def measure(heights, setting, params):

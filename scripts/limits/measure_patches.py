@@ -4,24 +4,17 @@ import logging
 from itertools import product
 
 import numpy as np
-import pandas as pd
 from scipy import fft, stats
 
-from common.conventions import Q0, annotate
+from common.conventions import Q0
 from common.job import start
-from common.topographies import make_set
+from limits.measuring import NEVER, THRESHOLDS, write_rows
 from limits.trial_thresholds import SHARES, find_log_thresholds, share_on
-from stickiness import datasets
 from stickiness.measured.levelling import detrend
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.remaining.standard_heights import standardise
 
 OF_QUARTERS = ("10", "30")  # thresholds that are kept of the quarters
-NEVER = "the share remains at any adhesion length"
-THRESHOLDS = {
-    f"threshold_{name}": f"ln of the adhesion length at which {share:g} of w remains"
-    for name, share in SHARES.items()
-}
 PATCH_VARIABLES = {
     "row": "patch",
     "patch_waves": "longest waves along a side of the patch",
@@ -33,7 +26,7 @@ PATCH_VARIABLES = {
     "mean_cube": "mean of the cubed autocorrelation of the patch",
     "full_contact_energy": "elastic energy of full contact of the patch over E* q0 h_rms^2",
     "range": "range over h_rms of the surface",
-    **{name: ("1", text, NEVER) for name, text in THRESHOLDS.items()},
+    **{f"threshold_{name}": texts for name, texts in THRESHOLDS.items()},
     **{
         f"share_{name}": ("1", f"share on the patch where {share:g} remains on the surface", NEVER)
         for name, share in SHARES.items()
@@ -45,24 +38,17 @@ PATCH_VARIABLES = {
     "whole_skewness": "of the surface",
     "whole_kurtosis": "of the surface",
     "whole_full_contact_energy": "that of the surface",
-    **{
-        f"whole_{name}": ("1", f"{text} on the surface", NEVER) for name, text in THRESHOLDS.items()
-    },
+    **{f"whole_threshold_{name}": texts for name, texts in THRESHOLDS.items()},
 }
 
 
 def main(job):
-    setting = job.params.surface
-    seed = int(job.wildcards.seed)
-    heights = make_set(setting, seed)
-    rows = list(measure(heights, setting["waves"], job.params))
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **PATCH_VARIABLES)
-    title = "what patches of a surface tell of it"
-    datasets.write(dataset, job.output[0], title=title, parameters={**setting, "seed": seed})
+    write_rows(job, measure, PATCH_VARIABLES, title="what patches of a surface tell of it")
 
 
-def measure(heights, waves, params):
+def measure(heights, setting, params):
     """Rows of all patches, beside what remains on the whole surface."""
+    waves = setting["waves"]
     wavelength = 2 * np.pi / Q0
     whole = find_trial_states(heights, waves * wavelength, pull=False)
     whole_thresholds = find_log_thresholds(whole, params.range)

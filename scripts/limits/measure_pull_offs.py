@@ -4,13 +4,12 @@ import logging
 import warnings
 
 import numpy as np
-import pandas as pd
 
-from common.conventions import Q0, annotate
+from common.conventions import Q0
 from common.job import start
-from common.topographies import make_set
 from limits.measure_ranges import choose_works
-from stickiness import datasets, surface
+from limits.measuring import write_rows
+from stickiness import surface
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.measurement import measure as follow_path
@@ -35,12 +34,12 @@ PULL_OFF_VARIABLES = {
 
 
 def main(job):
-    setting = job.params.surface
-    seed = int(job.wildcards.seed)
-    rows = list(measure(make_set(setting, seed), setting, job.params))
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **PULL_OFF_VARIABLES)
-    title = "pull-off at the ranges of simulated states and at shorter ones"
-    datasets.write(dataset, job.output[0], title=title, parameters={**setting, "seed": seed})
+    write_rows(
+        job,
+        measure,
+        PULL_OFF_VARIABLES,
+        title="pull-off at the ranges of simulated states and at shorter ones",
+    )
 
 
 def measure(heights, setting, params):

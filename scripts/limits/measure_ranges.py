@@ -3,12 +3,11 @@
 import logging
 
 import numpy as np
-import pandas as pd
 
-from common.conventions import Q0, annotate
+from common.conventions import Q0
 from common.job import start
-from common.topographies import make_set
-from stickiness import datasets, surface
+from limits.measuring import write_rows
+from stickiness import surface
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
@@ -29,12 +28,12 @@ RANGE_VARIABLES = {
 
 
 def main(job):
-    setting = job.params.surface
-    seed = int(job.wildcards.seed)
-    rows = list(measure(make_set(setting, seed), setting, job.params))
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **RANGE_VARIABLES)
-    title = "what remains at ranges shorter than those of simulated states"
-    datasets.write(dataset, job.output[0], title=title, parameters={**setting, "seed": seed})
+    write_rows(
+        job,
+        measure,
+        RANGE_VARIABLES,
+        title="what remains at ranges shorter than those of simulated states",
+    )
 
 
 def measure(heights, setting, params):

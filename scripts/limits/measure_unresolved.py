@@ -3,26 +3,20 @@
 import logging
 
 import numpy as np
-import pandas as pd
 
-from common.conventions import Q0, annotate
+from common.conventions import Q0
 from common.job import start
-from common.topographies import make_set
+from limits.measuring import NEVER, THRESHOLDS, write_rows
 from limits.trial_thresholds import SHARES, find_log_thresholds
-from stickiness import datasets
 from stickiness.remaining.height_simulation import find_trial_states
 
-NEVER = "the share remains at any adhesion length"
 UNRESOLVED_VARIABLES = {
     "row": "stride and range",
     "stride": "of which every so many-th point is simulated",
     "range": "range over h_rms",
     "lacking": "energy of full contact that the thinned grid lacks, over that of the others",
     "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2, on the full grid",
-    **{
-        f"full_{name}": ("1", f"ln of the adhesion length at which {share:g} of w remains", NEVER)
-        for name, share in SHARES.items()
-    },
+    **{f"full_{name}": texts for name, texts in THRESHOLDS.items()},
     **{
         f"thinned_{name}": ("1", "the same of thinned heights, for w over 1 + lacking", NEVER)
         for name in SHARES
@@ -31,17 +25,14 @@ UNRESOLVED_VARIABLES = {
 
 
 def main(job):
-    setting = job.params.surface
-    seed = int(job.wildcards.seed)
-    rows = list(measure(make_set(setting, seed), setting["waves"], job.params))
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **UNRESOLVED_VARIABLES)
-    title = "what states on thinned heights tell of a surface"
-    datasets.write(dataset, job.output[0], title=title, parameters={**setting, "seed": seed})
+    write_rows(
+        job, measure, UNRESOLVED_VARIABLES, title="what states on thinned heights tell of a surface"
+    )
 
 
-def measure(heights, waves, params):
+def measure(heights, setting, params):
     """Rows of all strides and ranges."""
-    length = waves * 2 * np.pi / Q0
+    length = setting["waves"] * 2 * np.pi / Q0
     full = find_trial_states(heights, length, pull=False)
     for stride in params.strides:
         thinned = find_trial_states(heights[::stride, ::stride], length, pull=False)
