@@ -16,7 +16,8 @@ from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import JTB_CONSTANT
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.statistics import students_t
 

@@ -26,7 +26,7 @@ from stickiness.formatting import (
     quantity,
     with_error,
 )
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
 from stickiness.verdicts.limits import read_limited

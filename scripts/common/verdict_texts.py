@@ -4,7 +4,7 @@ import numpy as np
 
 from stickiness.criteria.pair import WORDS
 from stickiness.formatting import amount, duration, in_units_of, limited, number, percent
-from stickiness.remaining.prediction import PULL_OFF_UNKNOWN
+from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS, tell_share
 

@@ -14,7 +14,7 @@ from common.conventions import logarithmic_grid
 from stickiness import datasets
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.verdicts.limits import LIMIT_TEXT
 

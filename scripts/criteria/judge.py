@@ -16,7 +16,8 @@ from stickiness.criteria.a_v_table import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import percent
-from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.limits import read_limited
 
 # Head, unit and its size of the quantities that are tabulated with their limits.

@@ -25,7 +25,8 @@ from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.remaining import sphere
 from stickiness.remaining.calibration import find_spread
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.traction_laws import find_strength
 

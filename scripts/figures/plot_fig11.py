@@ -7,7 +7,7 @@ from common.job import start
 from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.measurement import RESOLVED
-from stickiness.remaining.prediction import SHORT_RANGE, Roughness
+from stickiness.remaining.roughness import SHORT_RANGE, Roughness
 
 LEAST = 0.05
 WORKS = {"approach": "v", "separation": "^"}

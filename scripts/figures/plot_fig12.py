@@ -8,7 +8,7 @@ from common.job import start
 from common.plotting import BLACK, BLUE, GREY, ORANGE, RED
 from stickiness import datasets
 from stickiness.formatting import number
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 VARIABLES = ("height", "height_skewness", "theory", "bound", "states", "simulated")
 HIGHEST = 6  # of the axes of heights, over h_rms

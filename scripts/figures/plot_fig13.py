@@ -6,7 +6,7 @@ from common import plotting, remaining_table
 from common.job import start
 from common.plotting import BLUE, GREY, RED, make_dot
 from stickiness.remaining.calibration import find_spread
-from stickiness.remaining.prediction import FINEST_SIMULATED, Roughness
+from stickiness.remaining.roughness import FINEST_SIMULATED, Roughness
 from stickiness.remaining.share import SHARP
 from stickiness.spectrum import SelfAffine
 

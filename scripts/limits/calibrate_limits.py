@@ -14,8 +14,9 @@ from stickiness import __version__, datasets
 from stickiness.formatting import number, percent, table
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import find_height_shape
-from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_KNOWN, Roughness
+from stickiness.remaining.roughness import PULL_OFF_KNOWN, Roughness
 from stickiness.remaining.share import FIRST_TOUCH
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.longer_waves import find_unlikeness, weigh_larger
 
 COVERAGE = 0.9

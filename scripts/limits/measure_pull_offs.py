@@ -13,7 +13,7 @@ from stickiness import surface
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.measurement import measure as follow_path
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.traction_laws import LAWS

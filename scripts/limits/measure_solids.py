@@ -10,7 +10,7 @@ from common.conventions import Q0, annotate
 from common.job import start
 from common.model_surfaces import cell_size, make_heights
 from stickiness import datasets, surface
-from stickiness.remaining.prediction import find_relative_compliance
+from stickiness.remaining.solid_response import find_relative_compliance
 from stickiness.remaining.thin_layers import find_flow
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.solids import Film, Layer, Skin
@@ -26,7 +26,7 @@ SOLID_VARIABLES = {
     "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2",
     "half_space_energy": "the same on a half-space",
     "q1": "largest wave number of the surface over q0",
-    "relative_compliance": "see stickiness.remaining.prediction.find_relative_compliance",
+    "relative_compliance": "see stickiness.remaining.solid_response.find_relative_compliance",
     "flow": "see stickiness.remaining.thin_layers.find_flow",
 }
 

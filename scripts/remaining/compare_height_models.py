@@ -14,7 +14,7 @@ from remaining.measure_heights import bound_share, press
 from stickiness import datasets, surface
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.remaining import height_simulation
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import Exponential
 from stickiness.verdicts.simulated_surface import find_lacking

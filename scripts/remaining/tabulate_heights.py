@@ -14,7 +14,8 @@ from common.model_surfaces import skewness_of
 from stickiness import __version__, datasets
 from stickiness.formatting import number, percent, table
 from stickiness.remaining.height_shape import find_height_shape
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.simulated_surface import read_simulated
 
 COMMENT = f"""\

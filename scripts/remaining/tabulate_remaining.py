@@ -8,7 +8,7 @@ from common.conventions import Q0
 from common.job import start
 from stickiness import datasets
 from stickiness.formatting import number, table
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 
 QUOTED = ("approach", "separation", "bound", "pull_off")
 SIMULATED = (

@@ -13,7 +13,8 @@ from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sid
 from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
 from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, find_scale
 from stickiness.formatting import unit_for
-from stickiness.remaining.prediction import DEFAULT_SHARE, SHORT_RANGE, Roughness
+from stickiness.remaining.roughness import SHORT_RANGE, Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.limits import read_limited
 
 LOOKS = (  # of the verdicts, in the order of their codes

@@ -11,7 +11,7 @@ from common.plotting import BLACK, COLOURS, GREY, MARKERS
 from common.verdict_texts import MPA
 from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.formatting import unit_for
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.limits import LIMITS
 
 HURST = 0.8  # of the paper's lines

@@ -14,7 +14,7 @@ from report.pages import find_pixels
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met
 LEAST_SHARE = 0.05  # remaining share from which predicted works are compared

@@ -22,7 +22,7 @@ from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 CLAIM_TONES = {
     "reproduced": "yes",

@@ -17,7 +17,7 @@ from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.formatting import amount, number, quantity_with_error, with_error
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import LIMITS
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.statistics import COVERS
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.material import Material

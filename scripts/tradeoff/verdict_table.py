@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 
 from common import tradeoff_table as summary
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 ROUNDING = 1e-4  # of shares: tolerance of simulations
 

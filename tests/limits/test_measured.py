@@ -25,7 +25,8 @@ from limits import (
 from stickiness import surface
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_simulation import find_trial_states
-from stickiness.remaining.prediction import Roughness, predict
+from stickiness.remaining.prediction import predict
+from stickiness.remaining.roughness import Roughness
 
 SURFACE = {"role": "fitted", "hurst": 0.8, "magnification": 4.0, "window": 2.0, "points": 64}
 LAYER = complete(

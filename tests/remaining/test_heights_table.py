@@ -14,7 +14,7 @@ from common.config.campaigns import HeightSet
 from common.model_surfaces import cell_size, make_heights
 from remaining import measure_heights, tabulate_heights
 from stickiness import surface
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 SURFACE = {"hurst": 0.8, "magnification": 4, "window": 2, "points": 64, "seeds": [5]}
 GAUSSIAN = complete(HeightSet, **SURFACE)

@@ -20,7 +20,7 @@ from stickiness.criteria.pair import NOT_JUDGED, STICKY, TOUCHES
 from stickiness.entries import check_material, check_surface
 from stickiness.formatting import in_unit, limited, number, with_error
 from stickiness.measured import topography
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.limits import read_limited
 

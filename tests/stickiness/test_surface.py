@@ -5,7 +5,8 @@ import pytest
 from scipy import stats
 
 from stickiness import surface
-from stickiness.remaining.prediction import find_anisotropy_error_factor, predict
+from stickiness.remaining.prediction import predict
+from stickiness.remaining.roughness import find_anisotropy_error_factor
 from stickiness.repulsive import solve
 from stickiness.spectrum import SelfAffine, Shells, combine
 

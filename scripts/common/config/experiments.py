@@ -10,7 +10,7 @@ from stickiness.criteria.registry import CRITERIA
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError
 from stickiness.entries.fields import Section, needed, optional
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.traction_laws import EXPONENTIAL
 from stickiness.units import Quantity
 

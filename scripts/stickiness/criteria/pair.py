@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.formulas import dmt_validity
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 WORDS = (
     *("does not stick", "adheres locally, does not hold", "depends", "sticks", "sticks fully"),
@@ -126,7 +127,7 @@ class Pair:
     def remaining(self) -> float | NDArray:
         """Share of the work of adhesion that remains."""
         return self.rough.share(
-            adhesion_length=self.adhesion_length, range=self.range, sign=self.deviation
+            adhesion_length=self.adhesion_length, range=self.range, deviation=self.deviation
         )
 
     @cached_property
@@ -135,7 +136,7 @@ class Pair:
         tension = self.rough.tension(
             adhesion_length=self.adhesion_length,
             range=self.range,
-            sign=self.deviation,
+            deviation=self.deviation,
             pressed=self.pressed / self.modulus,
         )
         return tension * self.modulus
@@ -150,7 +151,7 @@ class Pair:
         return self.rough.threshold(
             range=self.range,
             share=self.wanted_share,
-            sign=self.deviation,
+            deviation=self.deviation,
             adhesion_length=self.adhesion_length,
         )
 

@@ -14,7 +14,7 @@ import scipy  # its parts are loaded when first used, which reading a configurat
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.traction_laws import find_strength
 
 FEWEST_WAVES = 5.0  #: longest waves across the contact, from which the model applies
@@ -40,11 +40,11 @@ def pull_off(
     radius: ArrayLike,
     adhesion_length: ArrayLike,
     range: ArrayLike,
-    sign: ArrayLike = 0,
+    deviation: ArrayLike = 0,
 ) -> SpherePullOff:
-    """Pull-off after a contact formed by load; `sign` as of `Roughness.share`."""
+    """Pull-off after a contact formed by load; `deviation` as of `Roughness.share`."""
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
-    work = np.asarray(rough.separation(length, range, sign))
+    work = np.asarray(rough.separation(length, range, deviation))
     remaining_length = np.maximum(work, 1e-200) * length  # that may be divided by
     reach = np.asarray(rough.distance(length, range))
     force = work * length * _coefficient(radius, remaining_length, reach)

@@ -161,11 +161,11 @@ class TrialStates:
         return self.simulated_range[np.maximum(below, 0)]
 
     def share_between(
-        self, adhesion_length: NDArray, range: NDArray, law: str, sign: NDArray
+        self, adhesion_length: NDArray, range: NDArray, law: str, deviation: NDArray
     ) -> NDArray:
         """Share that remains, between both bounds, ``(n,)``; as `share`.
 
-        `sign` is -1 or +1 for the low or high limit of its place between them, 0 for the value.
+        `deviation` is -1 or +1 for the low or high limit of the place between them.
         States simulated at this range or a shorter one bound the share closely.
         """
         low_bound = self.share(adhesion_length, range, law)
@@ -177,7 +177,7 @@ class TrialStates:
         strongest = self.simulated_length[-1]
         strength = np.minimum(adhesion_length, strongest**2 / adhesion_length)
         strength = strength / self.full_contact_energy
-        place = np.interp(sign, (-1, 0, 1), (spread.low, spread.value, spread.high))
+        place = np.interp(deviation, (-1, 0, 1), (spread.low, spread.value, spread.high))
         place = np.clip(place * strength * np.maximum(1 - ratio, 0.0) ** 2, 0.0, 1.0)
         return low_bound + place * np.maximum(high_bound - low_bound, 0.0)
 
@@ -223,7 +223,7 @@ class SimulatedHeights:
         range: NDArray,
         law: str,
         lacking: NDArray,
-        sign: NDArray,
+        deviation: NDArray,
     ) -> NDArray:
         """Share of the work of adhesion that remains, ``(n,)``.
 
@@ -235,15 +235,20 @@ class SimulatedHeights:
             Name in `traction_laws.LAWS`.
         lacking : (n,) array
             Energy of full contact of the waves that are not simulated, over that of the others.
-        sign : (n,) array
+        deviation : (n,) array
             0 for the value, -1 or +1 for its low or high limit, between them in proportion.
         """
-        shift = self.find_shift(adhesion_length, range, law, lacking, sign)
-        share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, sign)
-        return np.clip(share + sign * find_spread("states", "share").high, 0.0, 1.0)
+        shift = self.find_shift(adhesion_length, range, law, lacking, deviation)
+        share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, deviation)
+        return np.clip(share + deviation * find_spread("states", "share").high, 0.0, 1.0)
 
     def find_shift(
-        self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray, sign: NDArray
+        self,
+        adhesion_length: NDArray,
+        range: NDArray,
+        law: str,
+        lacking: NDArray,
+        deviation: NDArray,
     ) -> NDArray:
         """Logarithm of the factor on the work of adhesion, ``(n,)``; arguments as of `share`."""
         ranges, place = np.unique(range, return_inverse=True)
@@ -253,9 +258,9 @@ class SimulatedHeights:
         lost = 1 - self.whole.share(adhesion_length / (1 + lacking), range, law)
         beyond = np.sqrt(stored) * lost**3
         spread = find_spread("states", "unresolved")
-        of_waves = np.where(sign < 0, spread.value - spread.low, spread.high - spread.value)
+        of_waves = np.where(deviation < 0, spread.value - spread.low, spread.high - spread.value)
         error = np.hypot(of_patch[place], of_waves * beyond)
-        return spread.value * beyond - stored + sign * error
+        return spread.value * beyond - stored + deviation * error
 
     def _find_patch_error(self, range: float, law: str) -> float:
         """Error by what the quarters of a map differ from it, at the share wanted by default."""

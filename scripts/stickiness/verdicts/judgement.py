@@ -29,7 +29,7 @@ from stickiness.criteria.pair import (
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.limited import Limited
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids.moduli import REFERENCE_FREQUENCY
 from stickiness.verdicts.curves import AXES, find_axes, find_rate_moduli, follow_remaining
 from stickiness.verdicts.limits import HIGH, LIMIT_TEXT, LIMITS, LOW, VALUE

@@ -15,9 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.limited import Limited
-from stickiness.remaining.prediction import (
+from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.solid_response import (
     FilmResponse,
-    Roughness,
     find_half_space_energy,
     find_relative_compliance,
     is_on_film,

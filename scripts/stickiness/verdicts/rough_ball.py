@@ -10,7 +10,7 @@ import numpy as np
 from stickiness.arguments import number
 from stickiness.formatting import amount, in_unit, limited
 from stickiness.remaining import sphere
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.verdicts.limits import VALUE
 from stickiness.verdicts.material import Material

@@ -25,7 +25,7 @@ from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, warn_of_si
-from stickiness.remaining.prediction import Roughness, find_anisotropy_error_factor
+from stickiness.remaining.roughness import Roughness, find_anisotropy_error_factor
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum

@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.statistics import COVERS
 
 ENDS = [0, 1]  #: rows of the smooth and the rough end

@@ -13,7 +13,7 @@ from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.topography import Topography
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import HeightShape, keep_beyond_chance
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.standard_heights import (
     FEWEST_POINTS,
     StandardHeights,

@@ -17,7 +17,8 @@ from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
 from stickiness.limited import Limited
 from stickiness.plausibility import LIMITS, PlausibilityWarning
-from stickiness.remaining.prediction import DEFAULT_SHARE, LEAST_LENGTH, PULL_OFF_UNKNOWN
+from stickiness.remaining.roughness import LEAST_LENGTH, PULL_OFF_UNKNOWN
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.judgement import DECIDED_BY, LARGER, judge
 from stickiness.verdicts.limits import read_limited

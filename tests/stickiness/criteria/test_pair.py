@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stickiness.criteria.pair import MOST_STRAIN, Pair
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 
 ENERGY = 0.6e-6  # of full contact over E* [m]: with tough contact at adhesion lengths of as much
 

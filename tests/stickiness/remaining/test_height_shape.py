@@ -10,7 +10,7 @@ from stickiness.remaining.height_shape import (
     find_shape_of,
     find_skewness_error,
 )
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import synthesise
 

@@ -9,7 +9,7 @@ import pytest
 from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.calibration import find_spread
-from stickiness.remaining.prediction import UNLIKE
+from stickiness.remaining.roughness import UNLIKE
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine, combine
 from stickiness.surface import realised_spectrum, synthesise
@@ -58,8 +58,8 @@ def test_laws_are_told_apart_by_element():
         for ask in ("share", "tension", "distance", "zone"):
             found = getattr(both, ask)(np.full(2, 0.01), 0.1)
             assert found[place] == pytest.approx(getattr(alone, ask)(0.01, 0.1), rel=1e-12)
-        lengths = both.threshold(0.1, sign=1)
-        assert lengths[place] == pytest.approx(alone.threshold(0.1, sign=1), rel=1e-9)
+        lengths = both.threshold(0.1, deviation=1)
+        assert lengths[place] == pytest.approx(alone.threshold(0.1, deviation=1), rel=1e-9)
         assert alone.share(lengths[place], 0.1, 1) == pytest.approx(0.1, rel=1e-6)
 
 

@@ -9,7 +9,7 @@ from common import remaining_table
 from stickiness import repulsive, surface
 from stickiness.remaining import share as module
 from stickiness.remaining.calibration import find_spread
-from stickiness.remaining.prediction import LASTING, Roughness
+from stickiness.remaining.roughness import LASTING, Roughness
 from stickiness.remaining.share import (
     FIRST_TOUCH,
     LIFT,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stickiness.remaining.prediction import Roughness
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.thin_layers import find_flow, find_gain
 from stickiness.solids import HALF_SPACE, Layer
 

@@ -12,7 +12,7 @@ from common.table_rows import describe_pair
 from stickiness import Material, judge
 from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, WORDS
 from stickiness.entries import check_material
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.units import si
 from stickiness.verdicts import curves, pair_roughness

@@ -10,7 +10,7 @@ from helpers.analysed import fix_a_v
 
 from stickiness import Material, Surface, judge
 from stickiness.remaining import predict
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import Layer
 from stickiness.solids.moduli import Prony, Table
 from stickiness.spectrum import SelfAffine

@@ -10,7 +10,7 @@ from stickiness.criteria.a_v_table import SurfaceAv
 from stickiness.criteria.pair import REGIMES, WORDS, decide
 from stickiness.criteria.registry import EDGES
 from stickiness.remaining import predict
-from stickiness.remaining.prediction import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")

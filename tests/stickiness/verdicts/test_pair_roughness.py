@@ -9,11 +9,8 @@ from helpers.analysed import LONGEST, fix_a_v, wall
 from stickiness import Material, Surface, judge
 from stickiness.criteria.pair import WORDS
 from stickiness.remaining import predict
-from stickiness.remaining.prediction import (
-    DEFAULT_SHARE,
-    FilmResponse,
-    find_relative_compliance,
-)
+from stickiness.remaining.solid_response import FilmResponse, find_relative_compliance
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import Film, Layer, Skin
 from stickiness.solids.moduli import Table
 from stickiness.spectrum import SelfAffine

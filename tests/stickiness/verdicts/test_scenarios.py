@@ -7,7 +7,8 @@ import pytest
 
 from stickiness import Material
 from stickiness.criteria.pair import Pair
-from stickiness.remaining.prediction import DEFAULT_SHARE, Roughness
+from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids.moduli import Prony
 from stickiness.verdicts.judgement import describe_draws
 from stickiness.verdicts.limits import QUANTILES, find_limits
@@ -111,7 +112,7 @@ def test_draws_spread_over_the_error_of_the_model(factor, expected):
         assert judged["probability"] == pytest.approx(expected, abs=0.025)
         return
     length = find_adhesion_length(material)
-    limits = [length / ROUGH.threshold(material.range, sign=sign) for sign in (-1, 0, 1)]
+    limits = [length / ROUGH.threshold(material.range, deviation=limit) for limit in (-1, 0, 1)]
     # Standard errors of quantiles of 4000 draws are below 0.5 % of these.
     np.testing.assert_allclose(find_limits(find_margins(pair), weights), limits, rtol=0.01)
     limits = [ROUGH.share(length, material.range, sign) for sign in (-1, 0, 1)]

@@ -11,7 +11,8 @@ from stickiness import Material, surface, verdict
 from stickiness.criteria.pair import TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.remaining.prediction import DEFAULT_SHARE, PULL_OFF_UNKNOWN
+from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import Layer
 from stickiness.solids.moduli import Prony
 from stickiness.spectrum import SelfAffine

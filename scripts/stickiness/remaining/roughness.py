@@ -1,0 +1,517 @@
+"""What is to be known of a surface to predict what remains of adhesion, and what follows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.arguments import plain, positive
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.share import (
+    DeepestState,
+    count_scales,
+    find_deepest_state,
+    find_exponent,
+    find_narrowest_wave,
+    find_onset,
+    remaining_share,
+)
+from stickiness.remaining.thin_layers import find_gain
+from stickiness.remaining.trial_states import DEFAULT_SHARE
+from stickiness.traction_laws import EXPONENTIAL, find_strength
+
+# The narrowest wave that simulations followed: zeta = 64 with zone zeta = 0.25. Beyond it the onset
+# is as uncertain as half of its further rise. That holds the two extremes: that finer waves do not
+# move it, and that they take their whole energy from the work of adhesion (Persson and Tosatti).
+FINEST_SIMULATED = 128.0
+EXTRAPOLATION_ERROR = 0.5
+#: Kinds of errors of the theory by the longest waves along a side of the contact.
+CELLS = {1: "one wave", 2: "two waves", 4: "spectrum"}
+# Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
+PULL_OFF_KNOWN = 1.4
+PULL_OFF_UNKNOWN = 3.0
+# Elastic energies that a pinned edge costs at most: the loss measured on rough diamond is within
+# at the energy ratios of 4 to 6 where it was.
+PINNING = 6.0
+# Pressed to more than 2 E* times the rms slope, contact is full. It lasts if the strength of the
+# law exceeds LASTING times the rms tension of full contact, E* rms slope/2; below that a preload
+# changed no simulation.
+LASTING = 2.2
+SHORT_RANGE = 1e-6  #: over h_rms; at 1e-4 no share differs by more than 3e-5
+LEAST_LENGTH = 1e-12  #: of thresholds, over the energy of full contact
+THRESHOLD_TOLERANCE = 1e-9  #: of their logarithm
+# Factor on E* to which thresholds are searched: beside so soft a layer a film is rigid, and full
+# contact of a half-space that is as soft takes the bending of its skin alone.
+SOFTEST = 1e-6
+# Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
+UNLIKE = 2.0
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """What the prediction needs to know of a surface; numbers or arrays, lengths in one unit."""
+
+    h_rms: ArrayLike
+    q0: ArrayLike  #: of the longest waves, or of the roll-off
+    elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
+    q1: ArrayLike = np.inf  #: of the finest waves; infinite: many decades of waves
+    relative_compliance: ArrayLike = 1.0  #: see `find_relative_compliance`
+    flow: ArrayLike = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
+    #: Energy of a half-space, which bounds that of a layer or skin; NaN: it does not.
+    half_space_energy: ArrayLike = np.nan
+    is_skin: ArrayLike = False  #: whether the compliance is that of a skin, not of a layer
+    anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
+    waves: ArrayLike = np.inf  #: longest waves along a side of the contact
+    rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
+    law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
+    #: `FilmResponse`, or an array of these, by which elastic energy and compliance depend on the
+    #: modulus of a layer on a film, or below a skin; None without these
+    film_response: Any = None
+    #: ln of the factor by which heights that are not Gaussian change the energy ratio at which a
+    #: share remains, and its error: see `height_shape`
+    shape: ArrayLike = 0.0
+    shape_error: ArrayLike = 0.0
+    #: `SimulatedHeights`, or an array of these, which replace the theory of share, area and
+    #: distance; None where there are none
+    simulated: Any = None
+    #: Energy of full contact of waves that are not simulated, over that of the others
+    lacking: ArrayLike = 0.0
+    height_factor: ArrayLike = 1.0  #: on the heights simulated
+    #: Instantaneous modulus over E* after a dwell, by which fast separation may exceed the share
+    instant_ratio: ArrayLike = 1.0
+
+    def at_modulus(self, factor: ArrayLike) -> Self:
+        """Return the same with E* times a factor: films and skins keep their stiffness."""
+        if not np.any(np.not_equal(self.film_response, None)):
+            return self
+        factor, responses = np.broadcast_arrays(factor, self.film_response)
+        energy_ratio = np.ones(factor.shape)
+        compliance_ratio = np.ones(factor.shape)
+        for response in set(responses.ravel()) - {None}:
+            rows = responses == response
+            factors, place = np.unique(factor[rows], return_inverse=True)
+            energies, compliances = response.at_modulus(factors)
+            energy_ratio[rows] = energies[place]
+            compliance_ratio[rows] = compliances[place]
+        return replace(
+            self,
+            elastic_energy=self.elastic_energy * energy_ratio,
+            relative_compliance=self.relative_compliance * compliance_ratio,
+        )
+
+    def scaled(self, factor: ArrayLike) -> Self:
+        """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
+        return replace(
+            self,
+            h_rms=self.h_rms * factor,
+            rms_slope=self.rms_slope * factor,
+            elastic_energy=self.elastic_energy * factor**2,
+            half_space_energy=self.half_space_energy * factor**2,
+            height_factor=self.height_factor * factor,
+        )
+
+    def take(self, rows: ArrayLike) -> Self:
+        """Return some rows of the arrays; a number is that of all rows."""
+        return replace(
+            self,
+            **{
+                field.name: values[rows]
+                for field in fields(self)
+                if np.ndim(values := getattr(self, field.name))
+            },
+        )
+
+    def broadcast(self, shape: tuple[int, ...]) -> Self:
+        """Return the same with every number and array in one shape, as rows ``(n,)``."""
+        return replace(
+            self,
+            **{
+                field.name: np.broadcast_to(getattr(self, field.name), shape).ravel()
+                for field in fields(self)
+            },
+        )
+
+    @property
+    def shape_of_arrays(self) -> tuple[int, ...]:
+        """Shape to which numbers and arrays broadcast."""
+        return np.broadcast_shapes(*(np.shape(getattr(self, field.name)) for field in fields(self)))
+
+    def share(
+        self,
+        adhesion_length: ArrayLike,
+        range: ArrayLike,
+        deviation: ArrayLike = 0,
+        error: ArrayLike | None = None,
+    ) -> float | NDArray:
+        """Share of the work of adhesion that remains.
+
+        `deviation` is the error of the model in units of its limits: -1 and +1 give the low and the
+        high limit. The share is that of slow separation. The high limit after a dwell is that of a
+        fast edge of contact, and may exceed 1. `error` of the logarithm of the work of adhesion
+        replaces that of the theory.
+        """
+        by_theory = self._share_by_theory(adhesion_length, range, deviation, error)
+        slow = self._replace_simulated("share", by_theory, adhesion_length, range, deviation)
+        return plain(slow * np.asarray(self.instant_ratio) ** np.clip(deviation, 0.0, 1.0))
+
+    def _share_by_theory(self, adhesion_length, range, deviation, error=None) -> NDArray:
+        """Share by the spectrum; arguments as of `share`."""
+        deviation = np.asarray(deviation)
+        length = np.asarray(adhesion_length)
+        full_contact_share = 1 - 1 / self._energy_ratio(length)
+
+        # A limit is the value at another work of adhesion, and another height of the summits.
+        error = self._find_error(length, range) if error is None else error
+        shifted = length * np.exp(deviation * error)
+        touch = find_spread("spectrum", "first_touch")
+        energy_ratio = self._energy_ratio(shifted) * np.exp(self.shape)
+        compliance = np.asarray(self.relative_compliance)
+        # Points of a skin are coupled, so that the limit of independent springs does not apply.
+        layer_compliance = np.where(self.is_skin, 1.0, compliance)
+        share = remaining_share(
+            energy_ratio,
+            np.asarray(range) / self.h_rms,
+            onset=self.onset(shifted, range),
+            relative_compliance=layer_compliance,
+            load_scale=self.load_scale,
+            law=self.law,
+            gain=find_gain(energy_ratio, compliance, self.flow),
+            first_touch=np.interp(deviation, (-1, 0, 1), (touch.high, touch.value, touch.low)),
+        )
+        # Where next to nothing remains an error is absolute, and fades with the adhesion.
+        fading = np.minimum(self._energy_ratio(length) / self.onset(length, range), 1.0) ** 2
+        share = share + deviation * fading * find_spread("spectrum", "share").high
+        if np.isfinite(self.half_space_energy).any():
+            share = self._bound_by_half_space(share, length, range, deviation)
+
+        # Full contact is a state that the surfaces may take.
+        return np.clip(share, np.maximum(full_contact_share, 0.0), 1.0)
+
+    def _find_error(self, adhesion_length, range) -> NDArray:
+        """Error of the logarithm of the work of adhesion, which covers 90 %."""
+        # Other solids are less certain the further their compliance is from a half-space's, and
+        # layers on a film, which no half-space bounds, by as much at any compliance.
+        compliance = np.asarray(self.relative_compliance)
+        flow = np.asarray(self.flow)
+        is_layer = ~np.asarray(self.is_skin)
+        is_on_film = is_layer & np.isnan(self.half_space_energy) & (compliance != 1)
+        is_on_base = is_layer & ~is_on_film
+        weights = {
+            "film": 1.0 * is_on_film,
+            "layer": np.maximum(1 - compliance, 0.0) * (1 - flow) * is_on_base,
+            "thin": flow * is_on_base,
+            "skin": np.maximum(1 - compliance, 0.0) * ~is_layer,
+        }
+        by_solid = [weight * find_spread(kind, "ln_work").high for kind, weight in weights.items()]
+        # Beyond the waves that were simulated the onset may rise further.
+        onset = self.onset(adhesion_length, range)
+        simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
+        extrapolated = EXTRAPOLATION_ERROR * np.log(onset / np.asarray(simulated_onset))
+        # A contact of few waves is one realisation.
+        by_waves = [find_spread(kind, "ln_work").high for kind in CELLS.values()]
+        of_spectrum = np.interp(np.log(self.waves), np.log(list(CELLS)), by_waves)
+        errors = (of_spectrum, *by_solid, extrapolated)
+        independent = np.sqrt(sum(np.square(error) for error in errors))
+        return np.hypot(independent * self.anisotropy_error_factor, self.shape_error)
+
+    def _replace_simulated(
+        self, quantity: str, by_theory, adhesion_length, range, *others
+    ) -> float | NDArray:
+        """Values by theory, replaced where there are simulated heights; `others` as of these."""
+        if not np.any(np.not_equal(self.simulated, None)):
+            return plain(by_theory)
+        # One row per pair. Heights times a factor take the factor squared of all energies.
+        values, simulated, law, lacking, length, row_range, *others = (
+            np.array(column)
+            for column in np.broadcast_arrays(
+                by_theory,
+                self.simulated,
+                self.law,
+                self.lacking,
+                adhesion_length / np.square(self.height_factor),
+                range / np.asarray(self.height_factor),
+                *others,
+            )
+        )
+        for name in np.unique(law):
+            for heights in set(simulated.ravel()) - {None}:
+                rows = (simulated == heights) & (law == name)
+                values[rows] = getattr(heights, quantity)(
+                    length[rows],
+                    row_range[rows],
+                    str(name),
+                    lacking[rows],
+                    *(x[rows] for x in others),
+                )
+        return plain(values)
+
+    def _bound_by_half_space(self, share, adhesion_length, range, deviation) -> NDArray:
+        """Bound a share by that on a half-space.
+
+        A solid that is stiffer to every wave has no state of less energy than a half-space, and a
+        softer one has none of more.
+        """
+        is_known = np.isfinite(self.half_space_energy)
+        half_space = replace(
+            self,
+            elastic_energy=self._energy_on_half_space,
+            half_space_energy=np.nan,
+            relative_compliance=1.0,
+            flow=0.0,
+            is_skin=False,
+            film_response=None,
+            simulated=None,
+            instant_ratio=1.0,
+        )
+        bound = half_space.share(adhesion_length, range, deviation)
+        is_stiffer = 1 - np.asarray(self.relative_compliance) >= 0
+        bounded = np.where(is_stiffer, np.minimum(share, bound), np.maximum(share, bound))
+        return np.where(is_known, bounded, share)
+
+    def _energy_ratio(self, adhesion_length: ArrayLike) -> NDArray:
+        """Work of adhesion over the elastic energy of full contact."""
+        return np.asarray(adhesion_length) / self.elastic_energy
+
+    @property
+    def magnification(self) -> float | NDArray:
+        """Wavelength of the longest waves over that of the finest."""
+        return np.maximum(self.q1 / np.asarray(self.q0), 1.0)
+
+    def onset(
+        self, adhesion_length: ArrayLike, range: ArrayLike, finest: float = np.inf
+    ) -> float | NDArray:
+        """Work of adhesion over the energy of full contact at which tough contact begins.
+
+        Waves finer than `finest`, over q0, are not counted.
+        """
+        narrowest_wave = self.narrowest_wave(adhesion_length, range)
+        return find_onset(count_scales(np.minimum(narrowest_wave, finest), self._exponent))
+
+    def narrowest_wave(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Wave number over q0 up to which attraction does not bridge the waves."""
+        return find_narrowest_wave(self.zone(adhesion_length, range), self.magnification)
+
+    def extrapolation(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Decades of wave numbers by which the theory goes beyond the simulations behind it."""
+        beyond = np.asarray(self.narrowest_wave(adhesion_length, range)) / FINEST_SIMULATED
+        return plain(np.maximum(np.log10(beyond), 0.0))
+
+    @cached_property
+    def _exponent(self) -> NDArray:
+        """Exponent of the elastic energy, by the mean wave number."""
+        return find_exponent(
+            magnification=self.magnification,
+            mean_wave_number=4 * self._energy_on_half_space / (np.square(self.h_rms) * self.q0),
+        )
+
+    @property
+    def _energy_on_half_space(self) -> NDArray:
+        """Energy of full contact of a half-space, as far as it is known."""
+        is_known = np.isfinite(self.half_space_energy)
+        return np.where(is_known, self.half_space_energy, self.elastic_energy)
+
+    @property
+    def load_scale(self) -> float | NDArray:
+        """Elastic energy of full contact over rms height and rms slope, see `share`.
+
+        A layer that is stiff to long waves raises the pressures of full contact by the same factor
+        as the energy, which cancels: hence the energy of the half-space. The scale of a half-space
+        is at most 1/4, since the mean of q over a spectrum is at most its rms.
+        """
+        energy = self._energy_on_half_space
+        return np.minimum(energy / (np.asarray(self.h_rms) * self.rms_slope), 0.25)
+
+    def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Share of the nominal area that is in contact at zero load."""
+        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
+        by_theory = self._deepest_state(energy_ratio, adhesion_length, range).area
+        return self._replace_simulated("area", by_theory, adhesion_length, range)
+
+    def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Distance over which what remains acts: its work over the largest tension [length]."""
+        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
+        state = self._deepest_state(energy_ratio, adhesion_length, range)
+        acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
+        tension = np.where(acts, state.tension, 1.0)
+        distance = self.h_rms * energy_ratio * state.share / tension
+        by_theory = np.where(acts, distance, np.asarray(range) + self.h_rms)
+        # Heights times a factor are simulated as they were, in a unit that is so much larger.
+        in_unit = self._replace_simulated(
+            "distance", by_theory / self.height_factor, adhesion_length, range
+        )
+        return plain(in_unit * self.height_factor)
+
+    def _deepest_state(self, energy_ratio, adhesion_length, range) -> DeepestState:
+        return find_deepest_state(
+            energy_ratio=energy_ratio,
+            range_ratio=range / self.h_rms,
+            onset=self.onset(adhesion_length, range),
+            load_scale=self.load_scale,
+            law=self.law,
+        )
+
+    def zone(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Width of the cohesive zone times q0.
+
+        That is twice the stiffness q0/(2 S) of these waves over the strength^2/w of the law,
+        so that attraction reaches over gaps the more, the stiffer a layer or skin holds them.
+        """
+        softened = np.asarray(adhesion_length) * self.relative_compliance
+        return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
+
+    def separation(
+        self, adhesion_length: ArrayLike, range: ArrayLike, deviation: ArrayLike = 0
+    ) -> float | NDArray:
+        """Work of separation over the work of adhesion; `deviation` as of `share`.
+
+        The high limit allows for jumps and for a pinned edge, which may cost the work of adhesion
+        times the area of contact, as Dalvi et al. (doi:10.1073/pnas.1913126116) measured it. Full
+        contact that lasts up to the strength of the law is within this limit, too.
+        """
+        share = np.asarray(self.share(adhesion_length, range, deviation))
+        energy_ratio = self._energy_ratio(adhesion_length)
+        jumps = np.exp(find_spread("spectrum", "ln_separation").high)
+        with_jumps = np.minimum(jumps * share, 1.0)
+        pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / energy_ratio)
+        high_limit = np.maximum(with_jumps, pinned)
+        return plain(np.where(np.asarray(deviation) > 0, high_limit, share))
+
+    def tension(
+        self,
+        adhesion_length: ArrayLike,
+        range: ArrayLike,
+        deviation: ArrayLike = 0,
+        pressed: ArrayLike = 0.0,
+    ) -> float | NDArray:
+        """Largest mean tension on separation over E*; `deviation` as of `share`.
+
+        Edges that lag behind on separation raise the high limit by theory as they do the work. It
+        goes over to the strength of the law towards full contact, which was not simulated, and
+        takes it where full contact, `pressed` with that pressure over E*, lasts.
+        """
+        length = np.asarray(adhesion_length)
+        is_theory = np.equal(self.simulated, None)
+        of_theory = find_spread("spectrum", "ln_tension")
+        of_states = find_spread("states", "ln_tension")
+        value, low, high = (
+            np.where(is_theory, *pair) for pair in zip(of_theory, of_states, strict=True)
+        )
+        deviation = np.asarray(deviation)
+        correction = value + np.where(deviation < 0, value - low, high - value) * deviation
+        share = self.share(length, range, deviation)
+        predicted = length / self.distance(length, range) * share * np.exp(correction)
+        # Towards full contact, which was not simulated, only the strength bounds the high limit.
+        log_known = np.log(PULL_OFF_KNOWN)
+        log_unknown = np.log(PULL_OFF_UNKNOWN)
+        log_ratio = np.log(self._energy_ratio(length))
+        weight = np.clip((log_ratio - log_known) / (log_unknown - log_known), 0, 1)
+        # Full contact that a preload made lasts up to the strength of a law that is strong enough.
+        strength = find_strength(self.law) * length / range
+        slope = np.asarray(self.rms_slope)
+        lasts = (np.asarray(pressed) > 2 * slope) & (strength > LASTING * slope / 2)
+        weight = np.where(lasts, 1.0, weight) * np.clip(deviation, 0.0, 1.0)
+        # Geometric interpolation between what is predicted and the strength.
+        return plain(np.minimum(predicted, strength) ** (1 - weight) * strength**weight)
+
+    def threshold(
+        self,
+        range: ArrayLike,
+        share: ArrayLike = DEFAULT_SHARE,
+        deviation: ArrayLike = 0,
+        adhesion_length: ArrayLike | None = None,
+    ) -> float | NDArray:
+        """Adhesion length from which on at least a share remains.
+
+        With `deviation` +1 or -1, from which on its high or low limit is at least that. On a film
+        the modulus of the layer changes the length, from `adhesion_length`, and below a skin that
+        of the half-space.
+        """
+        from scipy.optimize import elementwise  # not needed to read a configuration
+
+        positive(
+            h_rms=self.h_rms,
+            q0=self.q0,
+            elastic_energy=self.elastic_energy,
+            relative_compliance=self.relative_compliance,
+            range=range,
+        )
+        # One row per pair: the root search runs over rows. Without a length to start from, the film
+        # under a layer is taken as it is.
+        surface = self
+        start = adhesion_length
+        if adhesion_length is None:
+            surface = replace(self, film_response=None)
+            start = np.nan
+        columns = (range, deviation, share, start)
+        shape = np.broadcast_shapes(surface.shape_of_arrays, *map(np.shape, columns))
+        pairs = PairRows(
+            surface.broadcast(shape), *(np.broadcast_to(x, shape).ravel() for x in columns)
+        )
+
+        def find_excess(log_length: NDArray, row: NDArray) -> NDArray:
+            """Share that remains in these rows of the table, less the wanted one."""
+            pair = pairs.take(row)
+            length = np.exp(log_length)
+            rough = pair.rough.at_modulus(pair.start_length / length)
+            return rough.share(length, pair.range, pair.deviation) - pair.wanted_share
+
+        # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
+        # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
+        # A film may raise the energy on the way there.
+        energy = pairs.rough.elastic_energy
+        most_energy = pairs.rough.at_modulus(SOFTEST).elastic_energy
+        lowest = np.log(LEAST_LENGTH * energy)
+        highest = np.log(20 * most_energy / (1 - pairs.wanted_share))
+
+        # Shares need not rise with the length. The threshold must agree with the share at the
+        # start: search below that if enough remains there, else above.
+        row = np.arange(energy.size)
+        log_start = np.clip(np.fmax(np.log(pairs.start_length), lowest), lowest, highest)
+        is_enough = find_excess(log_start, row) >= 0
+        bracket = (np.where(is_enough, lowest, log_start), np.where(is_enough, log_start, highest))
+        root = elementwise.find_root(
+            find_excess, bracket, args=(row,), tolerances={"xatol": THRESHOLD_TOLERANCE}
+        )
+
+        # Attraction whose range is far above h_rms holds at any strength. On a skin that takes more
+        # to bend than is gained, nothing holds however soft the half-space is.
+        holds_always = find_excess(bracket[0], row) >= 0
+        holds_never = find_excess(bracket[1], row) < 0
+        extremes = [LEAST_LENGTH * energy, energy / LEAST_LENGTH]
+        lengths = np.select([holds_always, holds_never], extremes, np.exp(root.x))
+        return plain(lengths.reshape(shape))
+
+
+@dataclass(frozen=True)
+class PairRows:
+    """Pairs as a flat table with one row each; all columns are arrays `(n,)`."""
+
+    rough: Roughness
+    range: NDArray  #: of the attraction [length]
+    #: Error of the share in units of its limits, see `Roughness.share`: -1, 0 or 1 for low limit,
+    #: value and high limit, any number for an error that is drawn
+    deviation: NDArray
+    wanted_share: NDArray
+    start_length: NDArray  #: adhesion length of the pair as given; NaN if none is
+
+    def take(self, row: NDArray) -> PairRows:
+        """Return some rows of the table."""
+        return PairRows(
+            rough=self.rough.take(row),
+            range=self.range[row],
+            deviation=self.deviation[row],
+            wanted_share=self.wanted_share[row],
+            start_length=self.start_length[row],
+        )
+
+
+def find_anisotropy_error_factor(ratio: float) -> float:
+    """Factor on the errors of a prediction for a ratio of correlation lengths: 1 without direction.
+
+    Simulations of ratios up to 4 lie within the limits without it, but they are few.
+    """
+    return UNLIKE ** float(np.log(ratio) / np.log(4.0))
