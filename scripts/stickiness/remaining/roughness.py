@@ -156,7 +156,11 @@ class Roughness:
         """
         by_theory = self._share_by_theory(adhesion_length, range, deviation, error)
         slow = self._replace_simulated("share", by_theory, adhesion_length, range, deviation)
-        return plain(slow * np.asarray(self.instant_ratio) ** np.clip(deviation, 0.0, 1.0))
+        return plain(slow * self._find_fast_ratio(deviation))
+
+    def _find_fast_ratio(self, deviation: ArrayLike) -> NDArray:
+        """Factor of the high limit by which fast separation may exceed a slow one after a dwell."""
+        return np.asarray(self.instant_ratio) ** np.clip(deviation, 0.0, 1.0)
 
     def _share_by_theory(self, adhesion_length, range, deviation, error=None) -> NDArray:
         """Share by the spectrum; arguments as of `share`."""
@@ -394,15 +398,22 @@ class Roughness:
         takes it where full contact, `pressed` with that pressure over E*, lasts.
         """
         length = np.asarray(adhesion_length)
+        deviation = np.asarray(deviation)
+        share = np.asarray(self.share(length, range, deviation))
         is_theory = np.equal(self.simulated, None)
         of_theory = find_spread("spectrum", "ln_tension")
         of_states = find_spread("states", "ln_tension")
         value, low, high = (
             np.where(is_theory, *pair) for pair in zip(of_theory, of_states, strict=True)
         )
-        deviation = np.asarray(deviation)
-        correction = value + np.where(deviation < 0, value - low, high - value) * deviation
-        share = self.share(length, range, deviation)
+
+        # The errors of the share and of the distance are independent: they add in quadrature.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slow = share / self._find_fast_ratio(deviation)
+            of_share = np.abs(np.log(slow / self.share(length, range)))
+            of_distance = np.abs(np.where(deviation < 0, value - low, high - value) * deviation)
+            added = np.hypot(of_share, of_distance) - of_share
+        correction = value + np.sign(deviation) * np.where(np.isfinite(of_share), added, 0.0)
         predicted = length / self.distance(length, range) * share * np.exp(correction)
         # Towards full contact, which was not simulated, only the strength bounds the high limit.
         log_known = np.log(PULL_OFF_KNOWN)
