@@ -320,8 +320,7 @@ def calibrate_paths(remaining):
 def calibrate_states(heights, ranges, unresolved):
     """States simulated on heights: on the same heights, at shorter ranges, with waves lacking."""
     rows = heights[heights.window == 4]
-    error = np.abs(rows.states - rows.simulated).to_numpy()
-    half_width = find_half_width(error, rows.role)
+    half_width = find_half_width(find_share_error(rows), rows.role)
     yield describe("states", "share", symmetric(half_width), rows, "heights.csv")
 
     # Between the bound and the chord, where there is room.
@@ -374,6 +373,18 @@ def find_tension_error(rows, exponent):
     """Logarithm of simulated pull-offs over those of a distance that shortens by an exponent."""
     distance = rows.distance * rows.range_ratio**exponent
     return np.log(rows.pull_off * distance / (rows.adhesion_length * rows.share))
+
+
+def find_share_error(rows):
+    """Error of shares by states, absolute, with which limits hold every simulated share.
+
+    Limits of a share S are S e/(S + e) apart from it, for an error e.
+    """
+    share = rows.states.to_numpy()
+    missed = np.maximum(np.abs(share - rows.simulated.to_numpy()) - ROUNDING, 0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        needed = share * missed / (share - missed)
+    return np.select([missed == 0, missed < share], [0.0, needed], np.inf)
 
 
 def find_middle(values, rows):

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from helpers.entries import complete
 
-from common import limits_table
+from common import heights_table, limits_table
 from common.config import load
 from common.config.campaigns import LimitCampaign
 from limits import calibrate_limits
@@ -88,6 +88,16 @@ def test_limits_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrated):
         assert inside.mean() >= LEAST, kind
     for kind, limits in unseen.groupby("kind").limit:
         assert np.exp(2 * limits.median()) <= WIDEST[kind], kind
+
+
+def test_states_tell_shares_within_their_limits_however_little_remains():
+    heights = calibrate_limits.add_roles(heights_table.read(ROOT / "config/heights.csv"))
+    rows = heights[(heights.window == 4) & (heights.role == "unseen")]
+    error = calibration.find_spread("states", "share").high
+    is_inside = calibrate_limits.find_share_error(rows) <= error
+    assert 0.86 <= is_inside.mean() <= 0.96
+    # Where next to nothing remains, the limits do not end at what is lost on other surfaces.
+    assert is_inside[rows.simulated.to_numpy() < 0.01].mean() > 0.9
 
 
 def test_limits_of_pull_offs_hold_nine_in_ten_of_what_nothing_was_fitted_to():

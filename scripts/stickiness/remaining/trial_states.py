@@ -240,7 +240,9 @@ class SimulatedHeights:
         """
         shift = self.find_shift(adhesion_length, range, law, lacking, deviation)
         share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, deviation)
-        return np.clip(share + deviation * find_spread("states", "share").high, 0.0, 1.0)
+        # The error is absolute, but no larger than a share of which next to nothing remains.
+        error = find_spread("states", "share").high
+        return np.clip(share + deviation * error * share / (share + error), 0.0, 1.0)
 
     def find_shift(
         self,
