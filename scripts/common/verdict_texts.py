@@ -5,6 +5,7 @@ import numpy as np
 from stickiness.criteria.pair import WORDS
 from stickiness.formatting import amount, duration, in_units_of, limited, number, percent
 from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
+from stickiness.solids.moduli import REFERENCE_FREQUENCY
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.verdict import LEAST_STRESS, MOST_STRESS, tell_share
 
@@ -41,13 +42,12 @@ def describe_larger(pair):
 
 
 def describe_moment(judged):
-    """Rate or dwell at which a pair or a `Material` is judged; empty of an elastic solid."""
+    """Rate at which, or dwell after which, a pair is judged; empty of an elastic solid."""
     if not judged.depends_on_rate:
         return ""
-    rate = amount(judged.broken_at, "Hz")
     if judged.dwell is None or np.isnan(judged.dwell):
-        return f"at {rate}"
-    return f"after {duration(judged.dwell)} of dwell, broken at {rate}"
+        return f"at {amount(REFERENCE_FREQUENCY, 'Hz')}"
+    return f"after {duration(judged.dwell)} of dwell"
 
 
 def join(low, high, between=" … "):

@@ -120,7 +120,7 @@ def describe_contact(files, entries, mine):
         "data": contact,
         "loads": loads,
         "pulled": pulled["label"],
-        "moment": tell_moment(Material.from_entry(pulled | {"surface": None})),
+        "moment": describe_moment(Material.from_entry(pulled | {"surface": None})),
         "pull_off": pull_off,
         "outside": outside,
         "pulled_works": {name: read_limited(pull_off[name]) for name in compared},
@@ -129,11 +129,6 @@ def describe_contact(files, entries, mine):
             for name in outside
         ),
     }
-
-
-def tell_moment(material):
-    """When the modulus of a material is taken, without how contact is broken."""
-    return describe_moment(material).partition(",")[0]
 
 
 def list_loads(contact, entries):
@@ -153,7 +148,7 @@ def list_loads(contact, entries):
         )
         pressures = {}
         for material in suited:
-            name = f"{material.label} {tell_moment(material)}".strip()
+            name = f"{material.label} {describe_moment(material)}".strip()
             pressure = float(load.mean_pressure) * material.plane_strain_modulus
             pressures[name] = amount(pressure, "Pa", 2)
         rows.append(

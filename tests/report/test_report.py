@@ -127,7 +127,6 @@ def verdicts():
             "modulus_quoted": ("material", [4e3 / 3, 2e9]),
             "depends_on_rate": ("material", [1, 0]),
             "dwell": ("material", [np.nan, np.nan]),
-            "broken_at": ("material", [1.0, 1.0]),
             "stiffening": (dims, ones),
             "layer_strain": (dims, 0 * ones),
             "energy_ratio": (dims, np.array(derived) / 2),

@@ -99,7 +99,6 @@ class Material(ElasticPair, f.Labelled):
     )
     youngs_modulus_prony: Prony = optional("Prony series of Young's modulus")
     dwell: f.Time = optional('time for which contact is made, e.g. "60 s"')
-    broken_at: f.Frequency = optional("rate at which contact is broken after a dwell (1 Hz)")
     thickness: f.Thickness = optional("thickness of a layer; without it infinitely deep")
     backing: Backing = optional(
         "a layer is bonded to a rigid base (default), slips on it, or is bonded to a film"
@@ -150,21 +149,15 @@ class Material(ElasticPair, f.Labelled):
                 "does not fall with frequency; correct this row"
             )
             raise EntryError(f"youngs_modulus_table[{fall}]", modulus, text)
-        if self.dwell is None and self.broken_at is not None:
-            raise EntryError("broken_at", self.broken_at, "belongs to a dwell: give it, too")
         quoted = Quantity(REFERENCE_FREQUENCY, f"{REFERENCE_FREQUENCY:g} Hz")
         roles = {quoted: "at which the verdict is quoted"}
         if self.dwell is not None:
             if not frequencies and self.youngs_modulus_prony is None:
                 text = "give youngs_modulus_table or youngs_modulus_prony"
                 raise EntryError("dwell", self.dwell, text)
-            self.broken_at = self.broken_at or quoted
             rate = relaxation_frequency(self.dwell)
             relaxed = Quantity(float(f"{rate:.3g}"), f"{rate:.3g} Hz")
-            roles = {
-                self.broken_at: "at which the verdict is quoted",
-                relaxed: f"1/(pi^2 dwell) for dwell = {self.dwell!r}",
-            }
+            roles = {relaxed: f"1/(pi^2 dwell) for dwell = {self.dwell!r}"}
         for frequency, role in roles.items():
             if frequencies and not frequencies[0] <= frequency <= frequencies[-1]:
                 covered = f"{frequencies[0].text} to {frequencies[-1].text}"

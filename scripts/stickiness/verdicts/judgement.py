@@ -289,7 +289,6 @@ def _arrange(
         "work_of_adhesion": [material.work_of_adhesion for material in materials.values()],
         "modulus_quoted": [material.plane_strain_modulus for material in materials.values()],
         "dwell": [material.dwell or np.nan for material in materials.values()],
-        "broken_at": [material.broken_at for material in materials.values()],
         "instant_ratio": [material.instant_ratio for material in materials.values()],
         "depends_on_rate": [int(material.depends_on_rate) for material in materials.values()],
     }
@@ -351,7 +350,6 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
         "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
         "dwell": ("s", "time for which contact is made", "judged at one frequency"),
-        "broken_at": ("Hz", "frequency of the modulus, or after a dwell the rate of breaking"),
         "instant_ratio": ("1", "instantaneous modulus over that after the dwell, 1 without one"),
         "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
         "verdict": ("1", "verdict: " + ", ".join(f"{i} {word}" for i, word in enumerate(WORDS))),

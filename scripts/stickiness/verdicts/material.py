@@ -48,9 +48,6 @@ class Material:
     dwell : float, optional
         Time [s] for which contact is made. Then the relaxation modulus at this time decides, and
         the high limits allow for separation with the instantaneous modulus.
-    broken_at : float
-        Frequency [Hz] that stands for the rate at which contact is broken after a dwell. A table
-        must reach it.
     surface : Surface, optional
         Roughness of the solid itself, which adds to that of the other.
     label : str
@@ -78,7 +75,6 @@ class Material:
     law: str = EXPONENTIAL
     pressed: float = 0.0
     dwell: float | None = None
-    broken_at: float = REFERENCE_FREQUENCY
     surface: Surface | None = None
     work_on_smooth: bool = False
     label: str = "the material"
@@ -89,7 +85,6 @@ class Material:
         _check_size("work_of_adhesion", self.work_of_adhesion)
         _check_size("range", self.range)
         number("pressed", self.pressed, zero=True)
-        number("broken_at", self.broken_at)
         if self.poisson is not None and not -1 < self.poisson <= 0.5:
             raise ValueError(f"poisson must be above -1 and at most 0.5, got {self.poisson!r}")
         check_solid(self.solid)
@@ -116,11 +111,10 @@ class Material:
                     f"dwell = {self.dwell!r} needs a modulus that depends on time: give a Prony "
                     "series or a table"
                 )
-        breaks_within = self.dwell is None or np.isfinite(self.plane_strain.storage(self.broken_at))
-        if not (np.isfinite(self.plane_strain_modulus) and breaks_within):
+        if not np.isfinite(self.plane_strain_modulus):
             raise ValueError(
                 "modulus: the table must cover the frequency at which the verdict is made: 1 Hz, "
-                "or after a dwell 1/(pi^2 dwell) and `broken_at`"
+                "or after a dwell 1/(pi^2 dwell)"
             )
 
     @classmethod
@@ -139,7 +133,6 @@ class Material:
             law=entry.get("law") or EXPONENTIAL,
             pressed=float(entry.get("pressed") or 0.0),
             dwell=entry.get("dwell"),
-            broken_at=float(entry.get("broken_at") or REFERENCE_FREQUENCY),
             surface=_find_surface(entry.get("surface"), surfaces),
             work_on_smooth=bool(entry.get("work_on_smooth")),
             label=entry.get("label") or cls.label,

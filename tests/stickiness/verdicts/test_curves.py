@@ -22,7 +22,7 @@ HEIGHTS = np.array([1e-6, 1.5e-6])
 Q0 = 6e4
 TAPE = Material(modulus=0.4e6, poisson=0.5, work_of_adhesion=0.07, range=3e-9)
 SLOW = replace(TAPE, modulus=Prony(0.1e6, ((0.5e6, 0.1), (1e9, 1e-6))))
-RESTED = replace(SLOW, dwell=0.2, broken_at=3.0)
+RESTED = replace(SLOW, dwell=0.2)
 THICK = 40e-6  # of a layer that can take the heights [m]
 THIN = 7e-6  # of one that cannot
 FREQUENCIES = np.geomspace(1e-4, 1e6, 21)
@@ -172,7 +172,7 @@ def test_the_dwell_counts_by_the_relaxed_modulus(drawn, factor):
 
 def test_the_curve_of_a_table_ends_where_the_table_does():
     table = Table((0.01, 1.0, 100.0), (0.1e6, 0.2e6, 0.6e6))
-    tape = replace(RESTED, modulus=table, dwell=1.0, broken_at=10.0)
+    tape = replace(RESTED, modulus=table, dwell=1.0)
     dataset = judge_on_surface([tape], drawn=False)
     known = np.isfinite(dataset.remaining_by_dwell.isel(material=0).sel(limit="low"))
     covered = abs(np.log10(DWELL_FACTORS * np.pi**2)) <= 2  # 0.01 to 100 Hz are 10 s to 1 ms

@@ -65,15 +65,15 @@ def test_modulus_in_every_form(texts, modulus, depends_on_rate):
             replace(TAPE, law="van_der_waals", pressed=1e6),
         ),
         (
-            {"youngs_modulus_prony": SERIES_TEXTS, "dwell": "10 s", "broken_at": "3 Hz"},
-            replace(TAPE, modulus=SERIES, dwell=10.0, broken_at=3.0),
+            {"youngs_modulus_prony": SERIES_TEXTS, "dwell": "10 s"},
+            replace(TAPE, modulus=SERIES, dwell=10.0),
         ),
         ({"youngs_modulus_table": TABLE_TEXTS}, replace(TAPE, modulus=TABLE)),
     ],
 )
 def test_entries_are_the_same_materials_as_properties(texts, expected):
     material = read(poisson_ratio=0.5, **texts)
-    for name in ("work_of_adhesion", "range", "poisson", "law", "pressed", "broken_at", "dwell"):
+    for name in ("work_of_adhesion", "range", "poisson", "law", "pressed", "dwell"):
         ours = getattr(material, name)
         theirs = getattr(expected, name)
         assert ours == theirs or ours == pytest.approx(theirs, rel=1e-12), name
@@ -129,7 +129,7 @@ def test_a_dwell_decides_by_the_relaxed_modulus():
         ({"modulus": SERIES, "dwell": 0.0}, "dwell must"),
         ({"modulus": Table((10.0, 100.0), (1e5, 1e6))}, "the table must cover the frequency"),
         ({"modulus": TABLE, "dwell": 1e4}, "the table must cover the frequency"),
-        ({"modulus": TABLE, "dwell": 1.0, "broken_at": 1e9}, "the table must cover the frequency"),
+        ({"modulus": TABLE, "dwell": 1e9}, "the table must cover the frequency"),
     ],
 )
 def test_impossible_materials_are_refused(properties, message):

@@ -109,7 +109,7 @@ def test_a_rate_dependent_tape_has_its_film_at_every_rate_and_dwell():
         return replace(material, solid=Layer(40e-6, 0.5, film))
 
     slow = put_on_film(replace(TAPE, modulus=table))
-    rested = put_on_film(replace(TAPE, modulus=table, dwell=10.0, broken_at=1.0))
+    rested = put_on_film(replace(TAPE, modulus=table, dwell=10.0))
     surface = wall()
     dataset = judge(
         {"slow": slow, "rested": rested},
