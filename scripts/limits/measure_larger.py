@@ -10,10 +10,12 @@ from common.job import start
 from limits.measure_patches import cut
 from limits.measuring import THRESHOLDS, write_rows
 from limits.trial_thresholds import SHARES, find_log_thresholds
-from stickiness import Material, Surface, judge
 from stickiness.remaining.height_simulation import find_trial_states
+from stickiness.verdicts.judgement import judge
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.longer_waves import lengthen
+from stickiness.verdicts.material import Material
+from stickiness.verdicts.rough_surface import Surface
 
 HEIGHT_UNIT = 1e-7  # m, of heights over h_rms
 LENGTH_UNIT = 1e-5  # m, of lengths over 1/q0

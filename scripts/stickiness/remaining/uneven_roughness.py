@@ -1,4 +1,4 @@
-"""How much the roughness of a surface differs from place to place, beyond chance.
+"""How much the roughness of a surface differs from place to place, beyond that of Gaussian heights.
 
 A scan of even roughness tells that of a larger contact. If the quarters of a scan differ, which are
 half as long, so may the scan differ from a contact twice as long.
@@ -27,7 +27,8 @@ def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
     Returns
     -------
     float
-        Without the scatter that Gaussian heights with these waves have on average; 0 below that.
+        Without the scatter that Gaussian heights with these waves have in the mean; 0 below that.
+        Of a third of Gaussian maps something is left: their scatter is above its mean.
     """
     heights = np.asarray(heights, dtype=float)
     parts = 2**heights.ndim

@@ -21,17 +21,11 @@ from stickiness.measured.instrument_spectrum import Cutoff, MeasuredSpectrum
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
 from stickiness.plausibility import LIMITS
-from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import find_shape_of
 from stickiness.remaining.uneven_roughness import find_unevenness
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
-from stickiness.verdicts.longer_waves import (
-    FIRST_WAVE,
-    find_larger_error,
-    find_unlikeness,
-    lengthen,
-)
+from stickiness.verdicts.longer_waves import FIRST_WAVE, lengthen
 from stickiness.verdicts.measured_surface import Measurement, find_spectra
 from stickiness.verdicts.parametric import (
     END_QUANTILES,
@@ -134,8 +128,8 @@ def analyse(
     remarks += [remark for each in heights for remark in each.remarks]
     if q_extended is None and not doubts:
         remarks += _remark_on_exponent(fit)
-    if contact is not None:
-        remarks += _remark_on_heights(dataset)
+    # What a larger contact adds.
+    remarks += dataset.attrs.get("remarks", "").splitlines()
     return dataset.assign_attrs(
         remarks="\n".join(remarks),
         cutoff=spectrum.cutoff.reason,
@@ -154,21 +148,6 @@ def _remark_on_exponent(fit: SelfAffineFit) -> list[str]:
     return [
         f"the fitted H = {fit.hurst:.2f} is outside {low:g} to {high:g}: waves that are not "
         "resolved continue the last octave with an exponent within these bounds"
-    ]
-
-
-def _remark_on_heights(data: xr.Dataset) -> list[str]:
-    """Say why heights tell little of a contact larger than the scan; nothing unless they do."""
-    unevenness = float(data.unevenness)
-    ratio = float(data.contact / data.scan)
-    error = float(find_larger_error(find_unlikeness(unevenness, float(data["shape"])), ratio))
-    if error <= find_spread("one wave", "ln_work").high:
-        return []
-    return [
-        f"the heights are unlike Gaussian ones (skewness {float(data.skewness):.2g}, mean square "
-        f"slopes of the quarters of the scan different by a factor of {np.exp(unevenness):.2g} "
-        f"beyond chance), so that a contact {ratio:.2g} times as large as the scan may differ from "
-        f"it by a factor of {np.exp(error):.2g} in the work of adhesion"
     ]
 
 

@@ -143,7 +143,8 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
     -------
     Dataset
         The same variables for the larger contact, with `longer_energy` and its draws. The slope
-        and the curvature are those of the scan, whose shorter waves decide them.
+        and the curvature are those of the scan, whose shorter waves decide them. `remarks` say why
+        the scan tells little of the contact, if it does.
 
     Raises
     ------
@@ -202,7 +203,23 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
     # Spectra of the draws, for layers, and of both ends.
     spectra = ("draw", "longer_wave_number"), unknown * waves.width * waves.psd * factor[:, None]
     changed = changed.assign(longer_psd_draws=spectra).assign_coords(longer_wave_number=waves.q)
-    return _prepend_spectrum(changed, waves, order=np.argsort(energy))
+    remarks = (data.attrs.get("remarks", ""), _explain_error(data, contact / scan, error))
+    return _prepend_spectrum(changed, waves, order=np.argsort(energy)).assign_attrs(
+        remarks="\n".join(filter(None, remarks))
+    )
+
+
+def _explain_error(data: xr.Dataset, ratio: float, error: float) -> str:
+    """Say why a scan tells little of a contact `ratio` times as large; empty unless it does."""
+    if error <= find_spread("one wave", "ln_work").high:
+        return ""
+    return (
+        f"the heights are unlike Gaussian ones of even roughness (skewness "
+        f"{float(data.skewness):.2g}, scatter of the mean square slope among the quarters of the "
+        f"scan by a factor of {np.exp(float(data.unevenness)):.2g} more than of Gaussian heights "
+        f"in the mean), so that a contact {ratio:.2g} times as large as the scan may differ from "
+        f"it by a factor of {np.exp(error):.2g} in the work of adhesion"
+    )
 
 
 def find_larger_error(unlikeness: ArrayLike, ratio: ArrayLike) -> NDArray:
@@ -221,7 +238,7 @@ def find_larger_error(unlikeness: ArrayLike, ratio: ArrayLike) -> NDArray:
 
 
 def find_unlikeness(unevenness: ArrayLike, shape: ArrayLike) -> NDArray:
-    """How unlike Gaussian heights of even roughness those of a scan are, beyond chance.
+    """How unlike Gaussian heights of even roughness those of a scan are.
 
     `unevenness` is the scatter among its quarters, see `uneven_roughness`, and `shape` what the
     heights change, see `height_shape`; both are logarithms of factors on energies.

@@ -21,7 +21,7 @@ SURFACE_VARIABLES = {
     "kurtosis": ("1", "kurtosis of the levelled heights, Sku (profile: Pku); 3 of Gaussian ones"),
     "shape": ("1", "ln of the factor on the energy ratio that the shape of the heights makes"),
     "shape_error": ("1", "half the width of the interval of 90 % of that"),
-    "unevenness": ("1", "scatter of ln of the mean square slope among quarters, beyond chance"),
+    "unevenness": ("1", "scatter of ln of the mean square slope among quarters, beyond the mean"),
     "part": ("1", "part of the map that is simulated: 0 the whole, then its quarters"),
     "resolved_energy": ("m", "elastic energy of full contact of the periodic map, resolved waves"),
     "simulated_pixel": ("m", "pixel of the grid on which the heights are simulated"),

@@ -214,7 +214,7 @@ def find_pressure(
 
     It is that of both ends: draws do not keep their spectra.
     """
-    q0 = float(np.mean(pair.q0))
+    q0 = float(np.mean(pair.q0[ENDS]))
     error = min(AREA_ERROR * float(np.mean(pair.rough.anisotropy_error_factor)), MOST_AREA_ERROR)
     if isinstance(solid, Skin):
         error = max(error, AREA_ERROR_SKIN)

@@ -12,7 +12,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from stickiness import __version__
-from stickiness.criteria.pair import MOST_STRAIN, NOT_JUDGED, REGIMES, WORDS
+from stickiness.criteria.pair import DEPENDS, MOST_STRAIN, NOT_JUDGED, REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
 from stickiness.limited import Limited
@@ -400,6 +400,9 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
     a_v = read_limited(cell.pair_a_v)
     reasons = str(cell.not_judged.item()).splitlines()
     remarks = [text for text in pair.surface.remarks if text not in reasons]
+    larger = find_larger(cell)
+    if larger is not None and larger.word == WORDS[DEPENDS]:
+        remarks += filter(lambda text: text not in remarks, pair.surface.larger.remarks)
     strain = float(cell.layer_strain.max())
     if strain > MOST_STRAIN:
         remarks.append(
@@ -425,7 +428,7 @@ def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> Stickine
         wanted_share=wanted_share,
         decided_by=DECIDED_BY[int(cell.decided_by)],
         contact=float(cell.contact),
-        larger=find_larger(cell),
+        larger=larger,
         material=pair.material,
         surface=pair.surface,
         doubts=(*pair.doubts, *remarks, *reasons),
