@@ -1,7 +1,6 @@
 """Pull-off at the ranges of simulated states and at shorter ones, simulated on finer grids."""
 
 import logging
-import warnings
 
 import numpy as np
 
@@ -10,7 +9,6 @@ from common.job import start
 from limits.measure_ranges import choose_works
 from limits.measuring import write_rows
 from stickiness import surface
-from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.measurement import measure as follow_path
 from stickiness.remaining.roughness import Roughness
@@ -95,22 +93,19 @@ def judge_states(states, pixel):
 
 def part(heights, length, law, params):
     """Share gained and largest tension where surfaces are pressed and part at given mean gaps."""
-    with warnings.catch_warnings():
-        # At the shortest range a pixel is as wide as the cohesive zone.
-        warnings.simplefilter("ignore", PlausibilityWarning)
-        try:
-            found = follow_path(
-                heights,
-                length,
-                law,
-                squeeze=params.squeeze,
-                tol=ADHESION_TOLERANCE,
-                half_grid=False,
-                steps=params.steps,
-            )
-        except ConvergenceError as error:
-            logging.info("%s: %s", law, error)
-            return np.nan, np.nan
+    try:
+        found = follow_path(
+            heights,
+            length,
+            law,
+            squeeze=params.squeeze,
+            tol=ADHESION_TOLERANCE,
+            half_grid=False,
+            steps=params.steps,
+        )
+    except ConvergenceError as error:
+        logging.info("%s: %s", law, error)
+        return np.nan, np.nan
     return found.bound, found.pull_off
 
 

@@ -37,7 +37,7 @@ from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
 #: Range over that of the states, below which pull-offs were not simulated: distances stay
-SHORTEST_RATIO = 0.25
+SHORTEST_RATIO = 0.36
 #: Adhesion lengths over the energy of full contact at which thresholds of parts are looked for
 _LENGTHS = np.geomspace(1e-7, 1e4, 331)
 

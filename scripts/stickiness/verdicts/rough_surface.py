@@ -477,7 +477,7 @@ class Surface:
     def warn(self) -> None:
         """Warn of heights and slopes that are improbable, and of unresolved waves that decide."""
         warn_of_si(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
-        if self.unresolved_energy > MOST_UNRESOLVED:
+        if self.unresolved_energy > MOST_UNRESOLVED and not self.not_judged:
             warnings.warn(
                 "waves that the instrument does not resolve decide: if the fitted law goes on to "
                 f"0.3 nm, full contact takes {1 + self.unresolved_energy:.2g} times the energy. "

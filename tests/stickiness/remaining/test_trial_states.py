@@ -198,8 +198,8 @@ def test_a_shorter_range_shortens_the_distance_as_far_as_that_was_measured(simul
 
     exponent = find_spread("states", "shortening").value
     np.testing.assert_allclose(find_ratio(0.5), 0.5**exponent)
-    np.testing.assert_allclose(find_ratio(0.25), 0.25**exponent)
-    np.testing.assert_allclose(find_ratio(0.01), 0.25**exponent)
+    np.testing.assert_allclose(find_ratio(0.36), 0.36**exponent)
+    np.testing.assert_allclose(find_ratio(0.01), 0.36**exponent)
 
 
 def test_contact_without_adhesion_bounds_less(gaussian):
