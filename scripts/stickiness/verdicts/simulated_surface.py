@@ -194,14 +194,14 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
 
 
 def find_simulated_shape(data: xr.Dataset) -> HeightShape | None:
-    """What the shape of the heights changes, by the states simulated on them; None without these.
+    """What the shape of the heights changes, by the states simulated on them.
 
-    None, too, if the share wanted by default remains on them at any work of adhesion.
-    The heights count as Gaussian ones which keep the share wanted by default at the same work of
-    adhesion. What theory errs by in a contact of one of the longest waves is chance.
+    None without states with adhesion, and if the share wanted by default remains on them at any
+    work of adhesion. The heights count as Gaussian ones which keep that share at the same work.
+    What theory errs by in a contact of one of the longest waves is chance.
     """
     simulated = read_simulated(data)
-    if simulated is None:
+    if simulated is None or not simulated.whole.has_adhesion.any():
         return None
     states = simulated.whole
     shares = np.maximum(states.simulated_share, np.finfo(float).tiny)

@@ -1,5 +1,7 @@
 """`Surface` from whatever source, and what two rough solids have in common."""
 
+import warnings
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -111,7 +113,8 @@ def test_profiles_of_a_worn_surface_tell_what_remains_on_it():
 
 def test_nothing_is_said_of_a_pair_that_is_not_judged():
     noise = 1e-9 * np.random.default_rng(1).normal(size=(128, 128))
-    with pytest.warns(UserWarning, match="unresolved|does not resolve|rms_slope"):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # of limits that there are not
         answer = thresholds(noise, length=1e-5, **TAPE)
     assert np.isnan(answer.modulus).all()
     rough = Surface.from_spectrum(SelfAffine(**BAND, h_rms=1e-12))
