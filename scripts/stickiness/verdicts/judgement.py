@@ -136,7 +136,7 @@ def judge(
         for surface in surfaces.values():
             rough = combine_roughness(material, surface)
             pair = rough.meet(material, wanted_share)
-            cell = _judge_pair(material, rough, pair)
+            cell = _judge_pair(rough, pair)
             if curves:
                 cell |= follow_remaining(pair, rough, material, axes)
             if thresholds:
@@ -172,7 +172,7 @@ def _name(argument: str, items: Mapping | Sequence, kind: type) -> dict:
     return named
 
 
-def _judge_pair(material: Material, rough: PairRoughness, pair: Pair) -> dict[str, Any]:
+def _judge_pair(rough: PairRoughness, pair: Pair) -> dict[str, Any]:
     """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
     # What has limits, in the rows of what the surface may be.
     threshold = pair.remaining_threshold
@@ -255,7 +255,7 @@ def _judge_larger(material: Material, surface: Surface, wanted_share: float) -> 
     # A material that is rough itself meets the same contact.
     material = material.on_contact(larger.contact)
     rough = combine_roughness(material, larger)
-    cell = _judge_pair(material, rough, rough.meet(material, wanted_share))
+    cell = _judge_pair(rough, rough.meet(material, wanted_share))
     if rough.not_judged:
         cell |= dict.fromkeys(LARGER, np.full(3, np.nan)) | {"verdict": NOT_JUDGED}
     return {f"larger_{name}": cell[name] for name in ("verdict", *LARGER)}

@@ -98,8 +98,8 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
     pair = rough.meet(material, DEFAULT_SHARE)
     length = pair.adhesion_length
     with_errors, exact = (
-        sphere.pull_off(pair.rough, radius, length, pair.range, sign)
-        for sign in (pair.deviation, 0.0)
+        sphere.pull_off(pair.rough, radius, length, pair.range, deviation)
+        for deviation in (pair.deviation, 0.0)
     )
     low, _, high = rough.limit(pair.modulus * with_errors.force, pair)
     value = rough.limit(pair.modulus * exact.force, pair)[VALUE]
