@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
+ROUNDING = 1e-6  #: slope along an axis, over the steepest, below which there is none
+
 
 def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
     """Find the standard deviation of ln of the mean square slope among the quarters of a map.
@@ -31,17 +33,21 @@ def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
         Of a third of Gaussian maps something is left: their scatter is above its mean.
     """
     heights = np.asarray(heights, dtype=float)
+    slopes = [_difference(heights, axis, lag) for axis, lag in enumerate(lags)]
+    # Along grooves there is no slope but that of rounding.
+    steepest = max(np.mean(slope**2) for slope in slopes)
+    slopes = [slope for slope in slopes if np.mean(slope**2) > ROUNDING**2 * steepest]
     parts = 2**heights.ndim
     logs = np.zeros(parts)
     chance = 0.0
-    for axis, lag in enumerate(lags):
-        slope = _difference(heights, axis, lag)
+    for slope in slopes:
         square = slope**2 / np.mean(slope**2)
-        logs += np.log([part.mean() for part in _halve(square)]) / heights.ndim
+        of_parts = np.array([part.mean() for part in _halve(square)])
+        logs += np.log(np.maximum(of_parts, ROUNDING**2)) / len(slopes)
         # The mean square of Gaussian values has the relative variance 2/n, with n the number of
         # independent ones, of which 1/n is the mean of the squared correlation. That of a sample is
         # twice as much, for its noise is as large.
-        chance += parts * np.mean(_correlate(slope) ** 2) / heights.ndim**2
+        chance += parts * np.mean(_correlate(slope) ** 2) / len(slopes) ** 2
     return float(np.sqrt(max(np.var(logs, ddof=1) - chance, 0.0)))
 
 

@@ -44,3 +44,20 @@ def test_the_unit_of_the_heights_does_not_matter():
     found = find_unevenness(heights, (2, 2))
     assert found > 0.1
     assert find_unevenness(1e-9 * heights, (2, 2)) == pytest.approx(found)
+
+
+def test_grooves_have_the_roughness_across_them():
+    """Along them slopes are nothing but rounding, which says nothing."""
+    profile = np.random.default_rng(4).normal(size=128)
+    profile[64:] *= 2
+    grooves = np.tile(profile[:, None], 96)
+    rounded = grooves + 1e-15 * np.random.default_rng(5).normal(size=grooves.shape)
+    found = find_unevenness(grooves, (1, 1))
+    assert found > 0.4
+    assert find_unevenness(rounded, (1, 1)) == pytest.approx(found)
+
+
+def test_a_part_without_slope_is_as_uneven_as_can_be():
+    heights = np.zeros((64, 64))
+    heights[:32] = np.random.default_rng(6).normal(size=(32, 64))
+    assert 5 < find_unevenness(heights, (1, 1)) < 30
