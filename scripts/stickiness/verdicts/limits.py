@@ -7,6 +7,8 @@ cover 90 %. Files hold them along the dimension `limit`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
@@ -18,7 +20,6 @@ LOW, VALUE, HIGH = range(3)  #: their places
 #: Unit and description of that dimension.
 LIMIT_TEXT = ("1", "value, and the limits of all that is unknown, which cover 90 %")
 QUANTILES = (0.05, 0.5, 0.95)  #: of the rows, low limit, value and high limit
-_ROUNDING = 1e-9  # of sums of weights
 
 
 def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = True) -> NDArray:
@@ -31,7 +32,7 @@ def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = Tru
     values : (..., n) array
         The number in every row.
     weights : (n,) array
-        Weights of the rows; their sum is 1.
+        Weights of the rows, whole numbers, whose sums are exact.
     withstands : (..., n) array
         Whether a layer takes the heights of a row. For the low limit, nothing remains where not.
 
@@ -42,24 +43,13 @@ def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = Tru
     """
     values = np.asarray(values, dtype=float)
     least = np.where(withstands, values, 0.0)
-    sorted_rows = [_sort(least, weights), _sort(values, weights)]
-    chosen = [sorted_rows[0], sorted_rows[1], sorted_rows[1]]
-    return np.stack(
-        [_find_quantile(*rows, part) for rows, part in zip(chosen, QUANTILES, strict=True)],
-        axis=-1,
-    )
 
+    def find_quantiles(rows: NDArray, parts: Sequence[float]) -> NDArray:
+        return np.quantile(rows, parts, axis=-1, weights=weights, method="inverted_cdf")
 
-def _sort(values: NDArray, weights: NDArray) -> tuple[NDArray, NDArray]:
-    """Values in rising order, and the sums of the weights up to each."""
-    order = np.argsort(values, axis=-1)
-    return np.take_along_axis(values, order, axis=-1), np.cumsum(weights[order], axis=-1)
-
-
-def _find_quantile(values: NDArray, reached: NDArray, part: float) -> NDArray:
-    """Least value up to which the weights reach a part of the whole, along the last axis."""
-    place = np.argmax(reached >= part - _ROUNDING, axis=-1)
-    return np.take_along_axis(values, place[..., None], axis=-1)[..., 0]
+    low = find_quantiles(least, QUANTILES[:1])
+    value_and_high = find_quantiles(values, QUANTILES[1:])
+    return np.moveaxis(np.concatenate([low, value_and_high]), 0, -1)
 
 
 def read_limited(numbers: xr.DataArray) -> Limited:

@@ -30,7 +30,7 @@ _SHUFFLE_SEED = 3  # of the order in which draws of a second surface meet those 
 # so small that the median is the value of the rough end.
 _END_ROWS = np.array([0, 1, 0, 1, 0, 1])
 _END_DEVIATIONS = np.array([0.0, 0.0, -1.0, -1.0, 1.0, 1.0])
-_END_WEIGHTS = np.array([0.0, 0.76, 0.06, 0.06, 0.06, 0.06])
+_END_WEIGHTS = np.array([0.0, 76.0, 6.0, 6.0, 6.0, 6.0])
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Scenarios:
     """What a surface may be, `n` rows."""
 
     roughness: Roughness  #: of every row, arrays ``(n,)``
-    weights: NDArray  #: of the rows; their sum is 1, ``(n,)``
+    weights: NDArray  #: of the rows, whole numbers, ``(n,)``
     #: error of the model in units of its limits, -1 and 1 at the low and the high one, ``(n,)``
     deviation: NDArray
     place: NDArray  #: between the smooth end, 0, and the rough end, 1; draws are at 1/2, ``(n,)``
@@ -62,7 +62,7 @@ class Scenarios:
         of_ends = np.zeros(len(ENDS))
         return cls(
             roughness=roughness,
-            weights=np.append(of_ends, np.full(count, 1 / count)),
+            weights=np.append(of_ends, np.ones(count)),
             deviation=np.append(of_ends, errors),
             place=np.append([0.0, 1.0], np.full(count, 0.5)),
         )
