@@ -142,7 +142,8 @@ def judge(
             if thresholds:
                 threshold = Limited(*cell["modulus_threshold"][[VALUE, LOW, HIGH]])
                 found = find_thresholds(material, rough, pair, threshold, contact_area)
-                cell |= {each: [x.low, x.value, x.high] for each, x in found.items()}
+                for name, limited in found.items():
+                    cell[name] = [limited.low, limited.value, limited.high]
             cells.append(cell | _judge_larger(material, surface, wanted_share))
     dataset = _arrange(cells, materials, surfaces)
     rate_moduli = [find_rate_moduli(material, axes) for material in materials.values()]

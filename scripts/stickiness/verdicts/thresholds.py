@@ -105,10 +105,12 @@ def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited:
 
     def remain(thickness: NDArray) -> NDArray:
         # The layer as it is comes first: all else is in proportion to what the pair has with it.
-        layers = [solid, *(replace(solid, thickness=d) for d in thickness)]
+        layers = [solid, *(replace(solid, thickness=each) for each in thickness)]
         energy = np.array(
             [
-                rough.scenarios.between([s.elastic_energy(layer) for s in rough.spectra])
+                rough.scenarios.between(
+                    [spectrum.elastic_energy(layer) for spectrum in rough.spectra]
+                )
                 for layer in layers
             ]
         )
