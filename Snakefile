@@ -53,26 +53,20 @@ include: "rules/stability.smk"
 
 TARGETS = {
     **{figure: f"{RESULTS}/figures/{figure}.png" for figure in FIGURES},
-    "verdicts": expand(f"{RESULTS}/criteria/verdicts.{{kind}}", kind=["html", "md", "csv", "xlsx"]),
-    "experiments": [
-        f"{RESULTS}/experiments/experiments.md",
-        f"{RESULTS}/figures/experiments.png",
-    ],
-    "claims": f"{RESULTS}/claims/claims.md",
-    "report": f"{RESULTS}/report/report.html",
-    "findings": f"{RESULTS}/report/findings.md",
-    "surfaces": expand(f"{RESULTS}/report/surfaces/{{surface}}.html", surface=REAL_SURFACES),
+    "verdicts": [rules.judge.output[kind] for kind in ("page", "table", "csv", "workbook")],
+    "experiments": [rules.predict_experiments.output[kind] for kind in ("table", "png")],
+    "claims": rules.check_claims.output.table,
+    "report": rules.write_report.output,
+    "findings": rules.write_findings.output,
+    "surfaces": expand(rules.write_surface.output.page, real_surface=REAL_SURFACES),
     "cases": expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
-    "stability": f"{RESULTS}/figures/stability.png",
-    "dmt_error": f"{RESULTS}/adhesion/dmt_error.csv",
-    "remaining_measured": f"{REMAINING}/remaining.csv",
-    "heights_measured": f"{REMAINING}/heights.csv",
-    "limits_calibrated": [f"{LIMITS}/limits.csv", f"{RESULTS}/figures/limits.png"],
-    "limits_measured": expand(f"{LIMITS}/{{kind}}.csv", kind=SIMULATED_SETS),
-    "tradeoff": expand(
-        f"{TRADEOFF}/{{file}}",
-        file=["tradeoff.md", "tradeoff.png"],
-    ),
+    "stability": rules.plot_stability.output.png,
+    "dmt_error": rules.tabulate_dmt_error.output,
+    "remaining_measured": rules.tabulate_remaining.output.table,
+    "heights_measured": rules.tabulate_heights.output.table,
+    "limits_calibrated": [rules.calibrate_limits.output.table, rules.plot_limits.output.png],
+    "limits_measured": expand(rules.tabulate_limits.output, limits_kind=SIMULATED_SETS),
+    "tradeoff": [rules.tabulate_tradeoff.output.table, rules.plot_tradeoff.output.png],
 }
 
 
@@ -85,6 +79,8 @@ rule all:
     input:
         [TARGETS[target] for target in ALL],
         f"{RESULTS}/fits/a_v_table.nc",
+    message:
+        "All is made"
 
 
 for target, files in TARGETS.items():
@@ -94,6 +90,8 @@ for target, files in TARGETS.items():
             target
         input:
             files,
+        message:
+            f"Made: {target}"
 
 
 save_cache()

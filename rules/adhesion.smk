@@ -77,6 +77,8 @@ rule solve_adhesive:
         full=points_in_full,
         grids=seeds_by_grids,
         code=source_hash("adhesion/solve_adhesive.py"),
+    message:
+        "Solve contact with adhesion: {wildcards.adhesion}, seeds {wildcards.part}"
     script:
         "../scripts/adhesion/solve_adhesive.py"
 
@@ -103,6 +105,8 @@ rule average_adhesive:
         dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
         jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
         code=source_hash("adhesion/average_adhesive.py"),
+    message:
+        "Average contact with adhesion: {wildcards.adhesion}"
     script:
         "../scripts/adhesion/average_adhesive.py"
 
@@ -121,6 +125,8 @@ rule tabulate_dmt_error:
         "../envs/environment.yaml"
     params:
         code=source_hash("adhesion/tabulate_dmt_error.py"),
+    message:
+        "Tabulate the error of the DMT sum"
     script:
         "../scripts/adhesion/tabulate_dmt_error.py"
 
@@ -145,6 +151,8 @@ rule adhesive_maps:
         },
         points=FIDELITY["map_points"],
         code=source_hash("adhesion/adhesive_maps.py"),
+    message:
+        "Map contact and attraction of one realisation: {wildcards.adhesion}"
     script:
         "../scripts/adhesion/adhesive_maps.py"
 
@@ -169,5 +177,7 @@ rule follow_loop:
         loop=lambda wildcards: LOOPS[wildcards.loop],
         pixels_per_wavelength=FIDELITY["pixels_per_wavelength"],
         code=source_hash("adhesion/follow_loop.py"),
+    message:
+        "Follow approach and separation: {wildcards.loop}"
     script:
         "../scripts/adhesion/follow_loop.py"

@@ -42,6 +42,8 @@ rule answer_case:
         plan=describe_plan,
         windows=config["a_v"]["windows"],
         code=source_hash("cases/answer_case.py"),
+    message:
+        "Average realisations and fit kappa and a_V: {wildcards.case}"
     script:
         "../scripts/cases/answer_case.py"
 
@@ -57,12 +59,14 @@ use rule answer_case as answer_areas with:
         f"{RESULTS}/benchmarks/answer_areas/cases/{{case}}.tsv"
     wildcard_constraints:
         case=choices(case for case in SIMULATED_CASES if case not in WITH_A_V),
+    message:
+        "Average realisations and fit kappa: {wildcards.case}"
 
 
 use rule answer_case as answer_by_theory with:
     input:
         laws=ERROR_MODELS,
-        theory=f"{RESULTS}/persson/lattice/{{case}}.nc",
+        theory=rules.persson_lattice.output.theory[0],
     output:
         answer=f"{RESULTS}/cases/{{case}}.nc",
     log:
@@ -71,3 +75,5 @@ use rule answer_case as answer_by_theory with:
         f"{RESULTS}/benchmarks/answer_by_theory/cases/{{case}}.tsv"
     wildcard_constraints:
         case=choices(case for case in CASES if case not in SIMULATED_CASES),
+    message:
+        "Answer a case by Persson's theory: {wildcards.case}"

@@ -20,18 +20,18 @@ def paper_surface(name):
 
 def ledger_inputs():
     """Files behind the claims, by the names that the claims in scripts/claims use."""
-    parts = plan.seed_batches(len(seeds_of("H0.8_zeta64")))
+    parts = plan.seed_batches(len(seeds_of(ROLES.middle_band)))
     return {
-        "kappa_64": f"{RESULTS}/fits/kappa/H0.8_zeta64.nc",
-        "kappa_128": f"{RESULTS}/fits/kappa/H0.8_zeta128.nc",
-        "kappa_wide": f"{RESULTS}/fits/kappa/H0.8_zeta32_wide.nc",
-        "lattice_128": f"{RESULTS}/persson/lattice/H0.8_zeta128.nc",
-        "lattice_wide": f"{RESULTS}/persson/lattice/H0.8_zeta32_wide.nc",
-        "fit_lattice_128": f"{RESULTS}/fits/a_v/lattice/H0.8_zeta128.nc",
-        "ensemble_wide": f"{RESULTS}/contact/ensembles/H0.8_zeta32_wide.nc",
-        "fit_bem_wide": a_v_of_simulation("H0.8_zeta32_wide"),
-        "fit_bem_64": a_v_of_simulation("H0.8_zeta64"),
-        "fit_bem_128": a_v_of_simulation("H0.8_zeta128"),
+        "kappa_middle_band": f"{RESULTS}/fits/kappa/{ROLES.middle_band}.nc",
+        "kappa_broad_band": f"{RESULTS}/fits/kappa/{ROLES.broad_band}.nc",
+        "kappa_wide_cell": f"{RESULTS}/fits/kappa/{ROLES.wide_cell}.nc",
+        "lattice_broad_band": f"{RESULTS}/persson/lattice/{ROLES.broad_band}.nc",
+        "lattice_wide_cell": f"{RESULTS}/persson/lattice/{ROLES.wide_cell}.nc",
+        "fit_lattice_broad_band": f"{RESULTS}/fits/a_v/lattice/{ROLES.broad_band}.nc",
+        "ensemble_wide_cell": f"{RESULTS}/contact/ensembles/{ROLES.wide_cell}.nc",
+        "fit_bem_wide_cell": a_v_of_simulation(ROLES.wide_cell),
+        "fit_bem_middle_band": a_v_of_simulation(ROLES.middle_band),
+        "fit_bem_broad_band": a_v_of_simulation(ROLES.broad_band),
         **{f"fig{n}": f"{RESULTS}/persson/sweeps/fig{n}.nc" for n in ("1b", "3a", "3b", "3d")},
         **{f"fit_fig{n}": f"{RESULTS}/fits/a_v/sweeps/fig{n}.nc" for n in ("3a", "3c", "3d")},
         "loop": f"{RESULTS}/adhesion/loops/fig4a.nc",
@@ -39,13 +39,13 @@ def ledger_inputs():
         "adhesive_sets": [f"{RESULTS}/adhesion/full/fig4b_{name}.nc" for name in FIG4B],
         "adhesion_fig2": f"{RESULTS}/adhesion/dmt/fig2.nc",
         "adhesion_sets": [f"{RESULTS}/adhesion/dmt/fig4b_{name}.nc" for name in FIG4B],
-        "map": f"{RESULTS}/criteria/map.nc",
-        "verdicts": f"{RESULTS}/criteria/verdicts.nc",
+        "map": rules.map_criterion.output.map,
+        "verdicts": rules.judge.output.dataset,
         **{name: paper_surface(name) for name in PAPER_SURFACES},
         "remaining": REMAINING_TABLE,
-        "experiments": f"{RESULTS}/experiments/experiments.nc",
+        "experiments": rules.predict_experiments.output.dataset,
         "measured_surfaces": several("real_surfaces/{surface}.nc", surface=MEASURED_SURFACES),
-        "seeds": [surfaces_of("H0.8_zeta64", part) for part in parts],
+        "seeds": [surfaces_of(ROLES.middle_band, part) for part in parts],
     }
 
 
@@ -72,5 +72,7 @@ rule check_claims:
     params:
         differences=find_differences(config, REAL_SURFACES),
         code=source_hash("claims/check_claims.py"),
+    message:
+        "Check the claims of the paper"
     script:
         "../scripts/claims/check_claims.py"

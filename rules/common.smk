@@ -4,6 +4,7 @@ import re
 import time
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 
 from snakemake.utils import update_config
 
@@ -52,6 +53,8 @@ LIMIT_CAMPAIGN = checked["limits"]
 FIDELITY = config["fidelities"][config["fidelity"]]
 MODEL_SURFACES = config["model_surfaces"]
 CASES = config["cases"]
+# Cases by their roles in the paper's figures and claims: rules and scripts know no other names.
+ROLES = SimpleNamespace(**config["roles"])
 SWEEPS = config["theory"]["sweeps"]
 ADHESION = config["adhesion"]
 LOOPS = config["loops"]

@@ -68,6 +68,8 @@ rule solve_repulsive:
         gaps=gaps_of,
         measured=measured_of,
         code=source_hash("contact/solve_repulsive.py"),
+    message:
+        "Solve contact without adhesion: {wildcards.case}, seeds {wildcards.part}"
     script:
         "../scripts/contact/solve_repulsive.py"
 
@@ -94,6 +96,8 @@ rule solve_coarse:
         seeds=lambda wildcards: plan.seeds_in(wildcards.part)[-1],
         descriptor_seeds=config["sampling"]["descriptor_seeds"],
         code=source_hash("contact/solve_coarse.py"),
+    message:
+        "Solve contact without adhesion on a coarse grid: {wildcards.case}, seeds {wildcards.part}"
     script:
         "../scripts/contact/solve_coarse.py"
 
@@ -115,6 +119,8 @@ rule contact_maps:
         pressures=lambda wildcards: CASES[wildcards.case]["maps"] or [],
         tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
         code=source_hash("contact/contact_maps.py"),
+    message:
+        "Map gaps and pressures of one realisation: {wildcards.case}"
     script:
         "../scripts/contact/contact_maps.py"
 
@@ -143,5 +149,7 @@ rule solve_ensemble:
         pixels_per_wavelength=comparison_pixels,
         gaps=GAPS,
         code=source_hash("contact/solve_ensemble.py"),
+    message:
+        "Solve contact that theory is compared with: {wildcards.comparison}"
     script:
         "../scripts/contact/solve_ensemble.py"

@@ -33,6 +33,8 @@ rule map_criterion:
         compared=config["criteria"]["compared"],
         pressure=config["criteria"]["a_v"]["pressure"],
         code=source_hash("criteria/map_criterion.py"),
+    message:
+        "Map the paper's criterion, and compare it with others"
     script:
         "../scripts/criteria/map_criterion.py"
 
@@ -70,6 +72,8 @@ rule judge_surface:
             name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
         },
         code=source_hash("criteria/judge_surface.py"),
+    message:
+        "Judge all materials on a surface: {wildcards.real_surface}"
     script:
         "../scripts/criteria/judge_surface.py"
 
@@ -104,5 +108,7 @@ rule judge:
         materials=MATERIALS,
         labels=LABELS,
         code=source_hash("criteria/judge.py"),
+    message:
+        "Collect the verdicts on all pairs"
     script:
         "../scripts/criteria/judge.py"

@@ -26,5 +26,7 @@ rule predict_experiments:
     params:
         experiments=EXPERIMENTS,
         code=source_hash("experiments/predict_experiments.py"),
+    message:
+        "Predict published experiments"
     script:
         "../scripts/experiments/predict_experiments.py"

@@ -4,9 +4,9 @@
 # lists the parameters of the paper.
 
 
-MAGNIFICATIONS = [f"H0.8_zeta{magnification}" for magnification in (32, 64, 128)]
+MAGNIFICATIONS = [ROLES.narrow_band, ROLES.middle_band, ROLES.broad_band]
 FIG4B = ("rough", "rough_near", "smooth")  # its adhesive sets, without "fig4b_"
-WITH_EXPONENTS = [*MAGNIFICATIONS, "H0.8_zeta32_wide"]
+WITH_EXPONENTS = [*MAGNIFICATIONS, ROLES.wide_cell]
 FIG2_CASE = ADHESION["fig2"]["case"]
 # Cases on the surface of Figure 4A, whose theory on the spectrum of the cell it shows.
 FIG4A_CASES = [case for case in COMPLETE if CASES[case]["surface"] == LOOPS["fig4a"]["surface"]]
@@ -56,8 +56,8 @@ FIGURE_INPUTS = {
     },
     "fig10": {
         "edges": several("adhesion/edges/{adhesion}.nc", adhesion=SIMULATED_IN_FULL),
-        "ensemble": f"{RESULTS}/contact/ensembles/H0.8_zeta64.nc",
-        "lattice": f"{RESULTS}/persson/lattice/H0.8_zeta64.nc",
+        "ensemble": f"{RESULTS}/contact/ensembles/{ROLES.middle_band}.nc",
+        "lattice": f"{RESULTS}/persson/lattice/{ROLES.middle_band}.nc",
         "sweep": f"{RESULTS}/fits/a_v/sweeps/fig3a.nc",
         "fits": several("fits/a_v/ensembles/{case}.nc", case=WITH_EXPONENTS),
     },
@@ -93,5 +93,7 @@ for figure, files in FIGURE_INPUTS.items():
             labels={name: LABELS[name] for name in FIG6_SURFACES} if figure == "fig6" else {},
             figure=figure,  # the path of the script is formatted when the job runs
             code=source_hash(f"figures/plot_{figure}.py"),
+        message:
+            f"Draw Figure {figure.removeprefix('fig')}"
         script:
             "../scripts/figures/plot_{params.figure}.py"

@@ -24,13 +24,15 @@ if SIMULATED:
             runtime=lambda wildcards, attempt: attempt * (10 + len(SIMULATED) // 20),
         params:
             code=source_hash("fits/compare_theory.py"),
+        message:
+            "Compare Persson's theory with simulation, and fit gamma"
         script:
             "../scripts/fits/compare_theory.py"
 
 
 rule tabulate_a_v:
     input:
-        theory=f"{RESULTS}/persson/table.nc",
+        theory=rules.persson_table.output[0],
         comparisons=several("fits/theory/{compared}.nc", compared=SIMULATED),
     output:
         f"{RESULTS}/fits/a_v_table.nc",
@@ -42,5 +44,7 @@ rule tabulate_a_v:
         "../envs/environment.yaml"
     params:
         code=source_hash("fits/tabulate_a_v.py"),
+    message:
+        "Tabulate a_V with its errors"
     script:
         "../scripts/fits/tabulate_a_v.py"

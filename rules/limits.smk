@@ -43,6 +43,8 @@ rule measure_solids:
         ],
         energies=LIMIT_CAMPAIGN["solids"]["energies"],
         code=source_hash("limits/measure_solids.py"),
+    message:
+        "Simulate adhesion on layers and skins: {wildcards.solid_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_solids.py"
 
@@ -64,6 +66,8 @@ rule measure_patches:
         patches=LIMIT_CAMPAIGN["patches"]["patches"],
         range=LIMIT_CAMPAIGN["patches"]["range"],
         code=source_hash("limits/measure_patches.py"),
+    message:
+        "Simulate adhesion on patches of a surface: {wildcards.patch_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_patches.py"
 
@@ -86,6 +90,8 @@ rule measure_ranges:
         works=LIMIT_CAMPAIGN["ranges"]["works"],
         shares=LIMIT_CAMPAIGN["ranges"]["shares"],
         code=source_hash("limits/measure_ranges.py"),
+    message:
+        "Simulate ranges that a grid does not resolve: {wildcards.range_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_ranges.py"
 
@@ -110,6 +116,8 @@ rule measure_pull_offs:
         squeeze=LIMIT_CAMPAIGN["pull_offs"]["squeeze"],
         steps=LIMIT_CAMPAIGN["pull_offs"]["steps"],
         code=source_hash("limits/measure_pull_offs.py"),
+    message:
+        "Simulate pull-off at short ranges: {wildcards.pull_off_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_pull_offs.py"
 
@@ -131,6 +139,8 @@ rule measure_unresolved:
         ranges=LIMIT_CAMPAIGN["unresolved"]["ranges"],
         strides=LIMIT_CAMPAIGN["unresolved"]["strides"],
         code=source_hash("limits/measure_unresolved.py"),
+    message:
+        "Simulate waves that a grid lacks: {wildcards.unresolved_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_unresolved.py"
 
@@ -152,6 +162,8 @@ rule measure_larger:
         range=LIMIT_CAMPAIGN["larger"]["range"],
         patches=LIMIT_CAMPAIGN["larger"]["count"],
         code=source_hash("limits/measure_larger.py"),
+    message:
+        "Simulate surfaces larger than a scan: {wildcards.larger_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_larger.py"
 
@@ -180,6 +192,8 @@ rule tabulate_limits:
         "../envs/environment.yaml"
     params:
         code=source_hash("limits/tabulate_limits.py"),
+    message:
+        "Tabulate the simulations behind limits: {wildcards.limits_kind}"
     script:
         "../scripts/limits/tabulate_limits.py"
 
@@ -202,13 +216,15 @@ rule calibrate_limits:
     params:
         touching=LIMIT_CAMPAIGN["touching"],
         code=source_hash("limits/calibrate_limits.py"),
+    message:
+        "Calibrate the limits of verdicts"
     script:
         "../scripts/limits/calibrate_limits.py"
 
 
 rule plot_limits:
     input:
-        errors=f"{LIMITS}/limits.nc",
+        errors=rules.calibrate_limits.output.dataset,
     output:
         png=f"{RESULTS}/figures/limits.png",
         pdf=f"{RESULTS}/figures/limits.pdf",
@@ -220,5 +236,7 @@ rule plot_limits:
         "../envs/environment.yaml"
     params:
         code=source_hash("limits/plot_limits.py"),
+    message:
+        "Draw how well the limits of verdicts hold"
     script:
         "../scripts/limits/plot_limits.py"

@@ -38,6 +38,8 @@ rule persson_sweep:
         **THEORY,
         sweeps=list(SWEEPS.values()),
         code=source_hash("persson/persson_sweep.py"),
+    message:
+        "Evaluate Persson's theory for the sweeps of the figures"
     script:
         "../scripts/persson/persson_sweep.py"
 
@@ -60,6 +62,8 @@ rule persson_lattice:
         **THEORY,
         lattices=lambda wildcards: describe_lattices([wildcards.case]),
         code=source_hash("persson/persson_lattice.py"),
+    message:
+        "Evaluate Persson's theory on the spectrum of the cell: {wildcards.case}"
     script:
         "../scripts/persson/persson_lattice.py"
 
@@ -84,6 +88,8 @@ if COMPARISONS:
             **THEORY,
             lattices=describe_lattices(COMPARISONS),
             code=source_hash("persson/persson_lattice.py"),
+        message:
+            "Evaluate Persson's theory on the spectra of all comparisons"
         script:
             "../scripts/persson/persson_lattice.py"
 
@@ -105,5 +111,7 @@ rule persson_table:
         table=config["theory"]["table"],
         gamma=GAMMA,
         code=source_hash("persson/persson_table.py"),
+    message:
+        "Tabulate Persson's theory for all surfaces"
     script:
         "../scripts/persson/persson_table.py"

@@ -33,6 +33,8 @@ rule analyse_surface:
     params:
         surface=lambda wildcards: without_texts(REAL_SURFACES[wildcards.real_surface]),
         code=source_hash("real_surfaces/analyse_surface.py"),
+    message:
+        "Analyse a real surface: {wildcards.real_surface}"
     script:
         "../scripts/real_surfaces/analyse_surface.py"
 
@@ -59,6 +61,8 @@ rule contact_measured:
         gamma=GAMMA,
         gaps=GAPS,
         code=source_hash("real_surfaces/contact_measured.py"),
+    message:
+        "Simulate contact on measured heights: {wildcards.real_surface}"
     script:
         "../scripts/real_surfaces/contact_measured.py"
 
@@ -83,5 +87,7 @@ rule picture_contact:
         entry=without_texts(MATERIALS[PICTURED_MATERIAL]),
         squeeze=REMAINING_CAMPAIGN["squeeze"],
         code=source_hash("real_surfaces/picture_contact.py"),
+    message:
+        "Picture contact on measured heights: {wildcards.real_surface}"
     script:
         "../scripts/real_surfaces/picture_contact.py"

@@ -42,6 +42,8 @@ rule measure_remaining:
         law=REMAINING_CAMPAIGN["law"],
         squeeze=REMAINING_CAMPAIGN["squeeze"],
         code=source_hash("remaining/measure_remaining.py"),
+    message:
+        "Simulate how much adhesion remains: {wildcards.remaining_set}, seed {wildcards.seed}"
     script:
         "../scripts/remaining/measure_remaining.py"
 
@@ -65,6 +67,8 @@ rule tabulate_remaining:
         "../envs/environment.yaml"
     params:
         code=source_hash("remaining/tabulate_remaining.py"),
+    message:
+        "Tabulate how much adhesion remains"
     script:
         "../scripts/remaining/tabulate_remaining.py"
 
@@ -87,6 +91,8 @@ rule measure_heights:
         energies=HEIGHT_CAMPAIGN["energies"],
         pixels_in_zone=HEIGHT_CAMPAIGN["pixels_in_zone"],
         code=source_hash("remaining/measure_heights.py"),
+    message:
+        "Simulate what remains at zero load: {wildcards.height_set}, seed {wildcards.seed}"
     script:
         "../scripts/remaining/measure_heights.py"
 
@@ -109,6 +115,8 @@ rule tabulate_heights:
         "../envs/environment.yaml"
     params:
         code=source_hash("remaining/tabulate_heights.py"),
+    message:
+        "Tabulate what remains at zero load"
     script:
         "../scripts/remaining/tabulate_heights.py"
 
@@ -129,5 +137,7 @@ rule compare_height_models:
         energies=[round(10 ** (k / 20), 4) for k in range(-20, 11)],
         simulated_energies=[0.13, 0.3, 0.6, 1.2, 2.2],
         code=source_hash("remaining/compare_height_models.py"),
+    message:
+        "Compare models of what remains on peaks and on worn tops"
     script:
         "../scripts/remaining/compare_height_models.py"

@@ -77,6 +77,8 @@ rule write_report:
         figure_sources=figure_sources,
         panels=compare_panels(config),
         code=source_hash("report/write_report.py"),
+    message:
+        "Write the report of all results"
     script:
         "../scripts/report/write_report.py"
 
@@ -113,6 +115,8 @@ rule write_surface:
             name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
         },
         code=source_hash("report/write_surface.py"),
+    message:
+        "Write the page of a surface: {wildcards.real_surface}"
     script:
         "../scripts/report/write_surface.py"
 
@@ -149,5 +153,7 @@ rule write_findings:
         fidelity=config["fidelity"],
         panels=compare_panels(config),
         code=source_hash("report/write_findings.py"),
+    message:
+        "Write the findings"
     script:
         "../scripts/report/write_findings.py"

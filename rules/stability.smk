@@ -19,13 +19,15 @@ rule probe_stability:
         runtime=20,
     params:
         code=source_hash("stability/probe_stability.py"),
+    message:
+        "Probe the library at extremes: {wildcards.component}"
     script:
         "../scripts/stability/probe_stability.py"
 
 
 rule plot_stability:
     input:
-        components=expand(f"{RESULTS}/stability/{{component}}.nc", component=COMPONENTS),
+        components=expand(rules.probe_stability.output, component=COMPONENTS),
     output:
         png=report(
             f"{RESULTS}/figures/stability.png",
@@ -41,5 +43,7 @@ rule plot_stability:
         "../envs/environment.yaml"
     params:
         code=source_hash("stability/plot_stability.py"),
+    message:
+        "Draw where the library is right, refuses or fails"
     script:
         "../scripts/stability/plot_stability.py"

@@ -25,5 +25,7 @@ rule synthesise_surface:
         surface=lambda wildcards: MODEL_SURFACES[wildcards.model_surface],
         pixels_per_wavelength=pixels_of,
         code=source_hash("surfaces/synthesise_surface.py"),
+    message:
+        "Synthesise random surfaces: {wildcards.model_surface}{wildcards.grid}, seeds {wildcards.part}"
     script:
         "../scripts/surfaces/synthesise_surface.py"

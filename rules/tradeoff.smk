@@ -54,6 +54,8 @@ rule measure_contact:
         at_pixels=TRADE["settings"]["at_pixels"],
         gaps=GAPS,
         code=source_hash("tradeoff/measure_contact.py"),
+    message:
+        "Measure what settings of contact cost: {wildcards.trade_case}"
     script:
         "../scripts/tradeoff/measure_contact.py"
 
@@ -74,6 +76,8 @@ rule measure_adhesion:
         case=lambda wildcards: ADHESIVE_SURFACES[wildcards.trade_case],
         adhesion={key: value for key, value in TRADE["adhesion"].items() if key != "surfaces"},
         code=source_hash("tradeoff/measure_adhesion.py"),
+    message:
+        "Measure what settings of adhesion cost: {wildcards.trade_case}"
     script:
         "../scripts/tradeoff/measure_adhesion.py"
 
@@ -95,6 +99,8 @@ rule measure_verdicts:
         points=verdict_points,
         energies=TRADE["verdicts"]["energies"],
         code=source_hash("tradeoff/measure_verdicts.py"),
+    message:
+        "Measure what settings of verdicts cost: {wildcards.trade_map}"
     script:
         "../scripts/tradeoff/measure_verdicts.py"
 
@@ -102,13 +108,13 @@ rule measure_verdicts:
 rule tabulate_tradeoff:
     input:
         contact=expand(
-            f"{TRADEOFF}/contact/{{name}}.nc",
-            name=[*TRADE["cases"]["surfaces"], *TRADE["finer"]["surfaces"]],
+            rules.measure_contact.output,
+            trade_case=[*TRADE["cases"]["surfaces"], *TRADE["finer"]["surfaces"]],
         ),
-        adhesive=expand(f"{TRADEOFF}/adhesive/{{name}}.nc", name=ADHESIVE_SURFACES),
-        pull_off=expand(f"{TRADEOFF}/pull_off/{{name}}.nc", name=ADHESIVE_SURFACES),
-        validation=expand(f"{TRADEOFF}/contact/{{name}}.nc", name=TRADE["validation"]["surfaces"]),
-        verdicts=expand(f"{TRADEOFF}/verdicts/{{name}}.nc", name=TRADE["verdicts"]["maps"]),
+        adhesive=expand(rules.measure_adhesion.output.states, trade_case=ADHESIVE_SURFACES),
+        pull_off=expand(rules.measure_adhesion.output.pull_off, trade_case=ADHESIVE_SURFACES),
+        validation=expand(rules.measure_contact.output, trade_case=TRADE["validation"]["surfaces"]),
+        verdicts=expand(rules.measure_verdicts.output, trade_map=TRADE["verdicts"]["maps"]),
         heights=HEIGHTS_TABLE,
         template=project_file("report/tradeoff.md.j2"),
     output:
@@ -127,14 +133,16 @@ rule tabulate_tradeoff:
         accuracies=TRADE["validation"]["accuracies"],
         energies=TRADE["verdicts"]["energies"],
         code=source_hash("tradeoff/tabulate_tradeoff.py"),
+    message:
+        "Tabulate accuracy against cost, and fit error models"
     script:
         "../scripts/tradeoff/tabulate_tradeoff.py"
 
 
 rule plot_tradeoff:
     input:
-        summary=f"{TRADEOFF}/tradeoff.csv",
-        laws=f"{TRADEOFF}/accuracy.csv",
+        summary=rules.tabulate_tradeoff.output.summary,
+        laws=rules.tabulate_tradeoff.output.laws,
     output:
         png=report(
             f"{TRADEOFF}/tradeoff.png",
@@ -151,6 +159,8 @@ rule plot_tradeoff:
     params:
         **PRESETS,
         code=source_hash("tradeoff/plot_tradeoff.py"),
+    message:
+        "Draw accuracy against cost"
     script:
         "../scripts/tradeoff/plot_tradeoff.py"
 
@@ -167,3 +177,5 @@ use rule plot_tradeoff as plot_measured_trade with:
         f"{RESULTS}/logs/plot_measured_trade/figures/tradeoff.log",
     benchmark:
         f"{RESULTS}/benchmarks/plot_measured_trade/figures/tradeoff.tsv"
+    message:
+        "Draw accuracy against cost, as committed"

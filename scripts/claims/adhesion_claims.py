@@ -114,7 +114,7 @@ def area_at(curve, load, way):
 
 
 @claim(11)
-def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
+def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_middle_band, fit_bem_broad_band):
     """1/kappa_ad follows the formula of the criterion."""
     sets = map(list_points, adhesive_sets, adhesion_sets)
     points = xr.concat(sets, "point", data_vars="all")
@@ -131,7 +131,7 @@ def inverse_kappa_ad(adhesive_sets, adhesion_sets, fit_bem_64, fit_bem_128):
     apart = np.abs(np.log(np.concatenate([slopes, net]))).max()
     direct = points.inverse_kappa_ad_direct.values
     resolved = np.isfinite(direct)
-    fits = [at_load(fit).isel(window=0) for fit in (fit_bem_64, fit_bem_128)]
+    fits = [at_load(fit).isel(window=0) for fit in (fit_bem_middle_band, fit_bem_broad_band)]
     return Finding(
         np.exp(np.mean(np.log(slopes))),
         grade(apart < np.log(1.25), apart < np.log(4)),

@@ -23,11 +23,11 @@ MIDDLE_GAP = 2  # index of the gap at which exponents are quoted
 
 
 @claim(1)
-def area_slope(kappa_128, kappa_64, kappa_wide, lattice_128):
+def area_slope(kappa_broad_band, kappa_middle_band, kappa_wide_cell, lattice_broad_band):
     """Contact area is linear in load, with a slope kappa of 2."""
-    loaded = at_load(kappa_128)
+    loaded = at_load(kappa_broad_band)
     simulations = []
-    for data in (kappa_128, kappa_64, kappa_wide):
+    for data in (kappa_broad_band, kappa_middle_band, kappa_wide_cell):
         quoted = {"cell": describe_cell(data), "kappa": value_and_error(at_load(data), "kappa")}
         simulations.append(quoted | {"ends": kappa_ends(data)})
     (_, first), (_, last) = simulations[0]["ends"]
@@ -39,8 +39,8 @@ def area_slope(kappa_128, kappa_64, kappa_wide, lattice_128):
         errors=errors_by_source(loaded, "kappa"),
         pressure=loaded.pressure,
         simulations=simulations,
-        fit=value_and_error(kappa_128, "kappa_fit"),
-        theory=at_load(lattice_128).kappa.sel(variant=VARIANT),
+        fit=value_and_error(kappa_broad_band, "kappa_fit"),
+        theory=at_load(lattice_broad_band).kappa.sel(variant=VARIANT),
     )
 
 
@@ -126,18 +126,18 @@ def grade_power_law(fig3a):
 
 
 @claim(4)
-def load_separation(fig3d, ensemble_wide, lattice_wide):
+def load_separation(fig3d, ensemble_wide_cell, lattice_wide_cell):
     """Load falls exponentially with the mean gap."""
     sweep = choose(fig3d.sel(variant=VARIANT), hurst=HURST, magnification=ZETA_3D)
     theory = over_exponential(sweep.pressure, sweep.mean_gap)
-    ratio = over_exponential(ensemble_wide.pressure, ensemble_wide.mean_gap_mean)
+    ratio = over_exponential(ensemble_wide_cell.pressure, ensemble_wide_cell.mean_gap_mean)
     ratio = ratio.dropna("pressure")
     off = np.abs(np.log(ratio))
     worst = ratio.isel(pressure=int(off.values.argmax()))
-    simulated = ensemble_wide.sel(pressure=worst.pressure)
-    lattice = lattice_wide.sel(variant=VARIANT, pressure=worst.pressure)
+    simulated = ensemble_wide_cell.sel(pressure=worst.pressure)
+    lattice = lattice_wide_cell.sel(variant=VARIANT, pressure=worst.pressure)
     # Largest mean gap up to which simulation keeps to the law; 1 to 3 is claimed.
-    until = float(ensemble_wide.mean_gap_mean.where(off < np.log(1.25)).max().fillna(0))
+    until = float(ensemble_wide_cell.mean_gap_mean.where(off < np.log(1.25)).max().fillna(0))
     everywhere = max(off.max(), np.abs(np.log(theory)).max()) < np.log(1.25)
     errors = errors_by_source(simulated, "mean_gap_mean")
     return Finding(
@@ -150,8 +150,10 @@ def load_separation(fig3d, ensemble_wide, lattice_wide):
         made=sweep,
         theory=(theory.min(), theory.max()),
         loads=LOADS_OF_GAPS,
-        gaps=np.interp(LOADS_OF_GAPS, ensemble_wide.pressure, ensemble_wide.mean_gap_mean),
-        cell=describe_cell(ensemble_wide),
+        gaps=np.interp(
+            LOADS_OF_GAPS, ensemble_wide_cell.pressure, ensemble_wide_cell.mean_gap_mean
+        ),
+        cell=describe_cell(ensemble_wide_cell),
         lattice=lattice.pressure * np.exp(2 * lattice.mean_gap),
     )
 
@@ -188,14 +190,14 @@ def area_against_range(fig3a, fit_fig3a):
 
 
 @claim(7)
-def area_against_load(fig3b, ensemble_wide, lattice_wide):
+def area_against_load(fig3b, ensemble_wide_cell, lattice_wide_cell):
     """Attractive area is linear in load."""
     sweep = choose(fig3b.sel(variant=VARIANT), hurst=HURST, magnification=ZETA_3B)
     loads = sweep.pressure.values
     theory = load_exponent(loads, sweep.attractive_area)
-    bem = ensemble_wide.sel(pressure=slice(loads[0] * (1 - 1e-9), None))
+    bem = ensemble_wide_cell.sel(pressure=slice(loads[0] * (1 - 1e-9), None))
     measured = load_exponent(bem.pressure.values, bem.attractive_area_mean)
-    lattice = lattice_wide.sel(variant=VARIANT, pressure=bem.pressure)
+    lattice = lattice_wide_cell.sel(variant=VARIANT, pressure=bem.pressure)
     everywhere = np.abs(np.concatenate([theory, measured]) - 1).max() < 0.1
     return Finding(
         theory[0],
@@ -205,7 +207,7 @@ def area_against_load(fig3b, ensemble_wide, lattice_wide):
         made=sweep,
         loads=loads,
         theory=theory,
-        cell=describe_cell(ensemble_wide),
+        cell=describe_cell(ensemble_wide_cell),
         simulated=measured,
         lattice=load_exponent(bem.pressure.values, lattice.attractive_area),
     )
@@ -219,7 +221,9 @@ def load_exponent(loads, area, at=0.03):
 
 
 @claim(8)
-def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_wide):
+def a_v_against_magnification(
+    fit_fig3c, fit_bem_broad_band, fit_lattice_broad_band, fit_bem_wide_cell
+):
     """a_V converges to about 3 with the magnification."""
     theory = fit_fig3c.sel(variant=VARIANT).isel(load=0).sortby("magnification")
     fit = choose(theory, hurst=HURST_3C)
@@ -237,8 +241,8 @@ def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_w
     about = float(np.abs(middle / A_V - 1).max()) < 0.25
     steady = float(np.abs(step).max()) < 0.02
     errors = errors_by_source(largest.isel(window=0), "a_v")
-    narrow = at_load(fit_bem_128).isel(window=0)
-    wide = at_load(fit_bem_wide).isel(window=0)
+    broad = at_load(fit_bem_broad_band).isel(window=0)
+    wide = at_load(fit_bem_wide_cell).isel(window=0)
     return Finding(
         value,
         grade(is_3 and steady, about),
@@ -253,10 +257,10 @@ def a_v_against_magnification(fit_fig3c, fit_bem_128, fit_lattice_128, fit_bem_w
         growth=[(float(change.hurst), change) for change in step],
         intervals=(largest.a_v.min(), largest.a_v.max()),
         simulated=[
-            (value_and_error(case, "a_v_mean"), describe_cell(case)) for case in (wide, narrow)
+            (value_and_error(case, "a_v_mean"), describe_cell(case)) for case in (wide, broad)
         ],
-        lattice=at_load(fit_lattice_128).isel(window=0).a_v.sel(variant=VARIANT),
-        continuous=interpolate_a_v(theory.a_v.isel(window=0), **datasets.parameters(narrow)),
+        lattice=at_load(fit_lattice_broad_band).isel(window=0).a_v.sel(variant=VARIANT),
+        continuous=interpolate_a_v(theory.a_v.isel(window=0), **datasets.parameters(broad)),
     )
 
 
@@ -270,7 +274,7 @@ def interpolate_a_v(a_v, hurst, magnification, **_):
 
 
 @claim(9)
-def a_v_against_load(fit_fig3d, fig3d, fit_bem_wide, fit_bem_128):
+def a_v_against_load(fit_fig3d, fig3d, fit_bem_wide_cell, fit_bem_broad_band):
     """a_V hardly depends on the load."""
     paper = {"hurst": HURST, "magnification": ZETA_3D}
     fit = choose(fit_fig3d.sel(variant=VARIANT).isel(window=0), **paper)
@@ -282,7 +286,7 @@ def a_v_against_load(fit_fig3d, fig3d, fit_bem_wide, fit_bem_128):
     value = float(inside.max() / inside.min())
     full = float(fit.a_v.max() / fit.a_v.min())
     simulated = []
-    for data in (fit_bem_wide, fit_bem_128):
+    for data in (fit_bem_wide_cell, fit_bem_broad_band):
         case = data.isel(window=0).sel(pressure=slice(low, high))
         ratio = case.a_v_mean.max() / case.a_v_mean.min()
         simulated.append((ratio, case.pressure[[0, -1]], describe_cell(case)))

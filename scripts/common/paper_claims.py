@@ -71,8 +71,8 @@ def _covers(symbol: str, ends: tuple[float, float], *keys: str) -> list[Need]:
     return [Need(Parameter(symbol, ends, (key,)), BETWEEN) for key in keys]
 
 
-_NARROW = "cases/H0.8_zeta128"
-_WIDE = "cases/H0.8_zeta32_wide"
+_BROAD_BAND = "roles/broad_band"
+_WIDE_CELL = "roles/wide_cell"
 _FIG2 = "adhesion/fig2"
 _FIG4B = ("adhesion/fig4b_rough", "adhesion/fig4b_rough_near", "adhesion/fig4b_smooth")
 _STEEL = "surfaces/polished_steel"
@@ -88,17 +88,17 @@ _ASPHALT = [
 #: (18), or about tables and experiments that the configuration does not parametrise (21, 22).
 CLAIMS: dict[int, list[Need]] = {
     1: [
-        *_hurst(_NARROW),
-        Need(Parameter("ζ", 128, (f"{_NARROW}/surface/magnification",))),
-        *_load(_NARROW),
-        *_covers("p̂", LINEAR_LOADS, f"{_NARROW}/pressures"),
+        *_hurst(_BROAD_BAND),
+        Need(Parameter("ζ", 128, (f"{_BROAD_BAND}/surface/magnification",))),
+        *_load(_BROAD_BAND),
+        *_covers("p̂", LINEAR_LOADS, f"{_BROAD_BAND}/pressures"),
     ],
     2: _panel("1B"),
     3: _panel("3A"),
     4: [
         *_panel("3D"),
-        *_hurst(_WIDE),
-        *_covers("p̂", LOADS_OF_GAPS, f"{_WIDE}/pressures"),
+        *_hurst(_WIDE_CELL),
+        *_covers("p̂", LOADS_OF_GAPS, f"{_WIDE_CELL}/pressures"),
     ],
     5: [
         *_hurst(f"{_FIG2}/case"),
@@ -108,8 +108,8 @@ CLAIMS: dict[int, list[Need]] = {
     6: _panel("3A"),
     7: [
         *_panel("3B"),
-        *_hurst(_WIDE),
-        *_covers("p̂", (LOADS_3B[0], LOADS_3B[-1]), f"{_WIDE}/pressures"),
+        *_hurst(_WIDE_CELL),
+        *_covers("p̂", (LOADS_3B[0], LOADS_3B[-1]), f"{_WIDE_CELL}/pressures"),
     ],
     8: [*_panel("3C"), *_covers("ζ", ZETAS_OF_A_V, "theory/sweeps/fig3c/magnification")],
     9: [

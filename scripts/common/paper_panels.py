@@ -162,7 +162,8 @@ def look_up(config: Mapping[str, Any], path: str) -> Any:
     previous = ""
     for key in path.split("/"):
         if isinstance(value, str):
-            value = config[REFERENCES[previous]][value]
+            table = "cases" if previous in config["roles"] else REFERENCES[previous]
+            value = config[table][value]
         # A key that is left out, such as the loads of maps, has no values.
         value = value.get(key)
         if value is None:

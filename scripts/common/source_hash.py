@@ -15,6 +15,8 @@ from functools import cached_property
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[1]
+# What starts every script changes no result.
+NO_PART = {"common.job"}
 
 
 class SourceReader:
@@ -59,7 +61,8 @@ class SourceReader:
             path = queue.pop()
             if path not in digests:
                 digests[path], imported = self.read(path)
-                queue += [self.modules[name] for name in imported if name in self.modules]
+                names = self.modules.keys() & ({*imported} - NO_PART)
+                queue += [self.modules[name] for name in names]
                 table = path.with_suffix(".csv")
                 queue += [table] if table.exists() else []
         lines = sorted(f"{path.relative_to(self.scripts)}: {d}" for path, d in digests.items())

@@ -1,5 +1,7 @@
 """Figure 3: attractive area against range, and the prefactor a_V of its power law."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from common import paper_panels, plotting
@@ -17,6 +19,14 @@ WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
 THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
 
 
+class Surface(NamedTuple):
+    """Surface of a simulated case; figures list cases in the order of these parameters."""
+
+    hurst: float
+    window: float
+    magnification: float
+
+
 def main(job):
     sweeps = [datasets.read(path, ["attractive_area", "pressure"]) for path in job.input.sweeps]
     fits = [datasets.read(path, ["a_v", "window_low"]) for path in job.input.fits]
@@ -29,8 +39,9 @@ def main(job):
             datasets.read(lattice, ["a_v"]),
         )
         cases.append(case)
-    cases.sort(key=lambda case: case.order)
-    alike = [case for case in cases if case.order[0] == float(sweeps[0].hurst[0])]
+    cases.sort(key=lambda case: case.surface)
+    # The sweeps take their Hurst exponents from the surfaces of cases, so that these are equal.
+    alike = [case for case in cases if case.surface.hurst == float(sweeps[0].hurst[0])]
     with plotting.open_figure(job.output, "AB;CD", 6.1) as panels:
         draw_magnifications(panels["A"], sweeps[0], alike)
         draw_pressures(panels["B"], sweeps[1])
@@ -44,9 +55,8 @@ def join(areas, fit, lattice):
     fit = fit.assign(theory_a_v=theory).isel(window=0)
     case = areas.merge(fit, join="exact", combine_attrs="override")
     parameters = datasets.parameters(case)
-    window = parameters["window"]
-    order = (parameters["hurst"], window, parameters["magnification"])
-    return case.assign_attrs(order=order, label=name_case(case))
+    surface = Surface(*(parameters[name] for name in Surface._fields))
+    return case.assign_attrs(surface=surface, label=name_case(case))
 
 
 def draw_magnifications(ax, theory, cases):
@@ -99,19 +109,22 @@ def draw_a_v(ax, sweep, fit, cases):
     """a_V against magnification with Pastewka and Robbins' and simulation."""
     a_v = fit.a_v.isel(load=0)
     sweep = sweep.sel(variant=VARIANT).isel(load=0)
-    for index, hurst in enumerate(fit.hurst.values):
+    # Those of the theory first; a user's case may have another one.
+    hursts = dict.fromkeys([*fit.hurst.values, *(case.surface.hurst for case in cases)])
+    for index, hurst in enumerate(hursts):
         look = pick_look(index)
-        draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), look["color"])
-        moments = sweep.sel(hurst=hurst)
-        slope = moments.rms_slope.values
-        curvature = moments.rms_curvature.values
-        robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
-        ax.plot(fit.magnification, robbins, "--", color=look["color"], linewidth=0.9)
+        if hurst in fit.hurst:
+            draw_intervals(ax, fit.magnification, a_v.sel(hurst=hurst), look["color"])
+            moments = sweep.sel(hurst=hurst)
+            slope = moments.rms_slope.values
+            curvature = moments.rms_curvature.values
+            robbins = criteria.pastewka_robbins_a_v(1.0, 1.0, slope, curvature)
+            ax.plot(fit.magnification, robbins, "--", color=look["color"], linewidth=0.9)
         ax.plot([], [], label=state(hurst=hurst), **look)
         for case in cases:
-            if case.order[0] == hurst:
-                x = plotting.move_aside(case.order[2], 2 * (index - 1))
-                wide = {"marker": WIDE_MARKER} if case.order[1] > 1 else {}
+            if case.surface.hurst == hurst:
+                x = plotting.move_aside(case.surface.magnification, 2 * (index - 1))
+                wide = {"marker": WIDE_MARKER} if case.surface.window > 1 else {}
                 draw_case(ax, case, x, [LOAD], **look | wide)
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
     ax.set(xlabel=plotting.MAGNIFICATION, ylabel=r"$a_V$")

@@ -124,7 +124,7 @@ def test_further_hurst_exponents_do_not_change_the_value():
 
 def test_theory_of_another_hurst_exponent_is_not_compared_with_a_simulation():
     files = files_by_name()
-    files["fit_bem_128"] = fit(ensemble(128, hurst=0.6), 2.9, 3.0, 3.1)
+    files["fit_bem_broad_band"] = fit(ensemble(128, hurst=0.6), 2.9, 3.0, 3.1)
     (convergence,) = [claim for claim in CLAIMS if claim.number == 8]
     assert np.isnan(convergence(files).facts["continuous"])
 

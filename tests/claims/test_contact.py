@@ -12,14 +12,14 @@ from common.conventions import LOAD
 
 
 def test_kappa_is_that_of_the_load_and_not_of_the_fit(files):
-    files["kappa_128"] = kappa(128, fall=0.05, level=2.08)
+    files["kappa_broad_band"] = kappa(128, fall=0.05, level=2.08)
     claim = contact.area_slope(files)
     assert claim.value == pytest.approx(2.08)
     assert claim.uncertainty == pytest.approx(0.05 * 2.08)
     first = 2.08 * (1 - 0.05 * np.log(LOADS[0] / LOAD))
     assert claim.facts["simulations"][0]["ends"][0][1] == pytest.approx(first)
     assert claim.verdict == QUALIFIED
-    files["kappa_128"] = kappa(128, level=2.3)
+    files["kappa_broad_band"] = kappa(128, level=2.3)
     assert contact.area_slope(files).verdict == NOT
 
 
@@ -60,10 +60,10 @@ def test_the_integral_alone_can_fail_both(files):
 def test_separation_is_graded_on_simulation(files, theory, beyond, verdict):
     """Gaps `beyond` one are 0.46 smaller than the law has them."""
     files["fig3d"] = files["fig3d"].assign(mean_gap=files["fig3d"].mean_gap / theory)
-    bem = files["ensemble_wide"]
+    bem = files["ensemble_wide_cell"]
     made = bem.mean_gap_mean
     gap = made.where(made <= beyond, made - 0.46).assign_attrs(made.attrs)
-    files["ensemble_wide"] = bem.assign(mean_gap_mean=gap)
+    files["ensemble_wide_cell"] = bem.assign(mean_gap_mean=gap)
     found = contact.load_separation(files)
     assert found.verdict == verdict
     assert found.value == pytest.approx(np.exp(-2 * 0.46) if beyond < 9 else 1)
@@ -79,7 +79,7 @@ def test_separation_is_graded_on_simulation(files, theory, beyond, verdict):
 )
 def test_load_is_graded_on_theory_and_simulation(files, theory, simulation, verdict):
     files["fig3b"] = sweep(loads=(0.0065, 0.03, 0.13, 0.52), power=theory)
-    files["ensemble_wide"] = ensemble(32, power=simulation, window=4)
+    files["ensemble_wide_cell"] = ensemble(32, power=simulation, window=4)
     claim = contact.area_against_load(files)
     assert claim.value == pytest.approx(theory)
     assert np.isnan(claim.uncertainty)

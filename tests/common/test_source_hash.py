@@ -49,6 +49,13 @@ def test_a_change_of_code_that_runs_changes_the_hash(hash_now, name):
     assert hash_now(name, FILES[name]) == before
 
 
+def test_the_start_of_scripts_is_no_part_of_their_code(hash_now):
+    hash_now("common/job.py", "def start(names): ...\n")
+    script = "from common.job import start\n" + FILES["stage/rule.py"]
+    before = hash_now("stage/rule.py", script)
+    assert hash_now("common/job.py", "def start(names):\n    return 1\n") == before
+
+
 def test_a_table_beside_a_module_is_part_of_its_code(hash_now):
     before = hash_now()
     with_table = hash_now("part/used.csv", "a,b\n1,2\n")

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from helpers.copy_workflow import copy_code, copy_workflow
+from helpers.copy_workflow import ROOT, copy_code, copy_workflow
 from helpers.dry_runs import dry_run, jobs
 
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
@@ -42,6 +42,12 @@ class Workflow:
         run = self.start(*arguments)
         output, _ = run.communicate()
         return subprocess.CompletedProcess(run.args, run.returncode, output)
+
+    def python(self, *words):
+        """Run Python with the modules of this project."""
+        environment = os.environ | {"PYTHONPATH": str(ROOT / "scripts")}
+        options = {"cwd": self.folder, "env": environment, "capture_output": True, "text": True}
+        return subprocess.run([sys.executable, *words], **options, check=False)
 
     def dry_run(self, *arguments):
         return dry_run(self.folder, *arguments, *TINY)

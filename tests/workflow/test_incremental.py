@@ -163,5 +163,5 @@ def test_adhesion_is_solved_in_full_only_where_the_dmt_limit_is_not_good_enough(
         )
     done = fresh.dry_run(*(f"results/tiny/adhesion/full/{name}.nc" for name in models))
     assert done.returncode == 0, done.stdout
-    solved = re.findall(r"output: results/tiny/adhesion/full/(\w+)/seeds", done.stdout)
+    solved = re.findall(r"Solve contact with adhesion: (\w+), seeds", done.stdout)
     assert set(solved) == {"close", "full"}

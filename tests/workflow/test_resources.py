@@ -11,11 +11,19 @@ ROOT = Path(__file__).parents[2]
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encoding="utf-8"))
 
 
+ASKED = """
+from common.job import mock
+
+asked = mock({!r}, configfiles=["config/tiny.yaml"]).resources
+print(asked.mem_mb, asked.runtime)
+"""
+
+
 def ask(workflow, target):
     """Memory [MB] and time [min] that the job of a target asks for."""
-    listed = workflow.dry_run(target).stdout
-    resources = re.search(r"resources: (.*)", listed[listed.index(f"output: {target}") :])[1]
-    return tuple(int(re.search(rf"{name}=(\d+)", resources)[1]) for name in ("mem_mb", "runtime"))
+    done = workflow.python("-c", ASKED.format(target))
+    assert done.returncode == 0, done.stderr
+    return tuple(map(int, done.stdout.split()))
 
 
 @pytest.mark.workflow
@@ -61,9 +69,10 @@ def test_what_runs_once_for_each_case_or_surface_is_grouped():
 
 
 @pytest.mark.parametrize("file", sorted((ROOT / "rules").glob("*.smk")), ids=lambda path: path.stem)
-def test_rules_name_environment_log_and_the_hash_of_their_script(file):
+def test_rules_say_what_they_make_with_environment_log_and_hash_of_their_script(file):
     for rule in re.split(r"^ *(?=rule\b)", file.read_text(encoding="utf-8"), flags=re.M)[1:]:
         if script := re.search(r'"\.\./(scripts/.*\.py)"', rule):
+            assert re.search(r'message:\s+f?"[A-Z][^"]+"', rule)
             environment = re.search(r'conda:\s+"\.\./(.*)"', rule)[1]
             assert (ROOT / environment).is_file()
             assert re.search(r"log:\s+f\"\{\w+\}/logs/", rule)

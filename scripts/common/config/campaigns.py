@@ -138,13 +138,12 @@ class Tradeoff(Section):
 
     @model_validator(mode="after")
     def check_presets(self, info: ValidationInfo) -> Self:
-        """Check that the presets and their surface are in the configuration."""
+        """Check that the presets are in the configuration, and find the surface of their role."""
         config = info.context["config"]
-        surface = self.presets.surface
-        surfaces = config["model_surfaces"]
-        if surface not in surfaces:
-            text = f"unknown name; {suggest(surface, surfaces)}"
-            raise EntryError("presets.surface", surface, text)
+        role, roles = self.presets.surface, config["roles"]
+        if role not in roles:
+            raise EntryError("presets.surface", role, f"unknown role; {suggest(role, roles)}")
+        self.presets.surface = config["cases"][roles[role]]["surface"]
         for name in self.presets.accuracy:
             for table in (config["fidelities"], self.presets.adhesive.accuracy):
                 if name not in table:

@@ -1,7 +1,7 @@
 """Models of config/config.yaml and config/campaigns/paper.yaml, which are read as one."""
 
 from operator import attrgetter
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
@@ -13,9 +13,11 @@ from common.config.simulations import (
     Comparisons,
     Fidelity,
     Grid,
+    Hursts,
     Loop,
     Magnification,
     ModelSurface,
+    Roles,
     Sampling,
     Values,
 )
@@ -28,11 +30,19 @@ from stickiness.entries.surface_entry import Surfaces
 
 # What the figures and the claims read; may be edited but not removed.
 PAPER = {
-    "cases": ("H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"),
     "theory.sweeps": ("fig1a", "fig1b", "fig3a", "fig3b", "fig3c", "fig3d"),
-    "adhesion": ("fig2", "fig4b_rough", "fig4b_rough_near", "fig4b_smooth", "dmt_error"),
+    "adhesion": (
+        "fig2",
+        "fig4b_rough",
+        "fig4b_rough_near",
+        "fig4b_smooth",
+        "dmt_error",
+        "dmt_error_zeta128",
+    ),
     "loops": ("fig4a",),
 }
+# Roles whose cases these need with every quantity; of the others they need Hurst exponents alone.
+SIMULATED_ROLES = ("narrow_band", "middle_band", "broad_band", "wide_cell")
 # Keys of criteria, and axes of the table of a_V within which they must lie.
 WITHIN_TABLE = (
     ("a_v.pressure", "pressure"),
@@ -78,7 +88,7 @@ class Sweep(Section):
 
     one_of = (("pressure", "mean_gap"),)
 
-    hurst: f.Several[f.Hurst] = needed("Hurst exponents")
+    hurst: Hursts = needed("Hurst exponents, or roles that have them")
     magnification: f.Several[Magnification] = needed("magnifications q1/q0")
     pressure: Values = optional("mean pressures over E* q0 h_rms")
     mean_gap: Values = optional("mean gaps over h_rms, instead of pressures")
@@ -104,7 +114,7 @@ class FitIntervals(Section):
 class ReferenceCase(Section):
     """Where the a_V of the paper's criterion is simulated; theory extrapolates it."""
 
-    case: str = needed("name in cases")
+    case: str = needed("name in cases, or a role")
     pressure: f.Positive = needed("one of the pressures of that case, over E* q0 h_rms")
 
 
@@ -150,6 +160,7 @@ class Configuration(Section):
     gaps: Grid = needed("gaps over h_rms at which attractive areas and P(u) are evaluated")
     model_surfaces: f.Names[ModelSurface] = needed("random periodic surfaces, by name")
     cases: f.Names[Case] = needed("contact simulations by name")
+    roles: Roles = needed("cases of the paper's figures and claims, by what they are to these")
     materials: str = needed("file of the materials")
     surfaces: str = needed("file of the real surfaces")
     experiments: str = needed("file of the published experiments")
@@ -177,6 +188,27 @@ class Configuration(Section):
         return self
 
     @model_validator(mode="after")
+    def resolve_roles(self) -> Self:
+        """Put names of cases and surfaces in the place of roles, which no others may have."""
+        surfaces = {}
+        for role, case in self.roles:
+            if case not in self.cases:
+                raise EntryError(
+                    f"roles.{role}", case, f"unknown name; {suggest(case, self.cases)}"
+                )
+            surfaces[role] = self.cases[case].surface
+            for table, meant in (("cases", case), ("model_surfaces", surfaces[role])):
+                if role in getattr(self, table) and role != meant:
+                    text = f"has the name of a role, which is that of {meant}; choose another"
+                    raise EntryError(f"{table}.{role}", None, text)
+        cases = dict(self.roles)
+        for entry in (*self.adhesion.values(), self.criteria.a_v):
+            entry.case = cases.get(entry.case, entry.case)
+        for loop in self.loops.values():
+            loop.surface = surfaces.get(loop.surface, loop.surface)
+        return self
+
+    @model_validator(mode="after")
     def check_names(self) -> Self:
         """Check that every name of another entry exists, and that names are not taken twice."""
         for key, name, entries in self._references():
@@ -186,6 +218,21 @@ class Configuration(Section):
             if name in self.cases:
                 text = "is the name of a case; give the comparison another"
                 raise EntryError(f"comparisons.surfaces.{name}", None, text)
+        return self
+
+    @model_validator(mode="after")
+    def find_hurst_exponents(self) -> Self:
+        """Put Hurst exponents of surfaces in the place of roles, each of them once."""
+        exponents: dict[Any, float] = {
+            role: self.model_surfaces[self.cases[case].surface].hurst for role, case in self.roles
+        }
+        for key, sweep in self.theory.sweeps.items():
+            for index, hurst in enumerate(sweep.hurst):
+                if isinstance(hurst, str) and hurst not in exponents:
+                    text = f"must be a number or a role; {suggest(hurst, exponents)}"
+                    raise EntryError(f"theory.sweeps.{key}.hurst[{index}]", hurst, text)
+            found = (exponents.get(hurst, hurst) for hurst in sweep.hurst)
+            sweep.hurst = list(dict.fromkeys(found))
         return self
 
     @model_validator(mode="after")
@@ -207,7 +254,7 @@ class Configuration(Section):
     @model_validator(mode="after")
     def check_heights(self) -> Self:
         """Check that heights are Gaussian where theory stands for them."""
-        cases = [*PAPER["cases"], self.criteria.a_v.case]
+        cases = [*self._simulated_cases(), self.criteria.a_v.case]
         cases += [self.adhesion[name].case for name in PAPER["adhesion"]]
         for case in cases:
             surface = self.cases[case].surface
@@ -229,18 +276,25 @@ class Configuration(Section):
                 raise EntryError(key, value, text)
         return self
 
+    def _simulated_cases(self):
+        """List the cases that the paper's figures and claims need with every quantity."""
+        return [getattr(self.roles, role) for role in SIMULATED_ROLES]
+
     def _references(self):
         """Yield keys that name entries: key, name, and the entries that there are."""
         yield "fidelity", self.fidelity, self.fidelities
         for key, fidelity in self.fidelities.items():
             for name in fidelity.comparisons or []:
                 yield f"fidelities.{key}.comparisons", name, self.comparisons.surfaces
-        for table in ("cases", "loops"):
-            for key, entry in getattr(self, table).items():
-                yield f"{table}.{key}.surface", entry.surface, self.model_surfaces
+        for key, case in self.cases.items():
+            yield f"cases.{key}.surface", case.surface, self.model_surfaces
+        # Known roles were replaced by names; an unknown name may be meant for one.
+        roles = dict(self.roles)
+        for key, loop in self.loops.items():
+            yield f"loops.{key}.surface", loop.surface, self.model_surfaces | roles
         for key, adhesion in self.adhesion.items():
-            yield f"adhesion.{key}.case", adhesion.case, self.cases
-        yield "criteria.a_v.case", self.criteria.a_v.case, self.cases
+            yield f"adhesion.{key}.case", adhesion.case, self.cases | roles
+        yield "criteria.a_v.case", self.criteria.a_v.case, self.cases | roles
 
     def _uses(self):
         """Yield what needs every quantity of a case: who does, and key, case and loads."""
@@ -249,7 +303,7 @@ class Configuration(Section):
         for name, adhesion in reversed(self.adhesion.items()):
             user = f"adhesion.{name}"
             yield user, f"{user}.pressures", adhesion.case, adhesion.pressures
-        for case in PAPER["cases"]:
+        for case in self._simulated_cases():
             yield "the paper's figures and claims", "", case, []
 
     def _limits(self):

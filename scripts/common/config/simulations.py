@@ -13,6 +13,7 @@ from stickiness.entries.errors import EntryError
 from stickiness.entries.fields import Section, needed, optional
 
 Values = f.Several[f.Positive]
+Hursts = f.Several[f.Hurst | str]
 Loads = Annotated[Values, Field(description="mean pressures over E* q0 h_rms")]
 Magnification = Annotated[float, Field(gt=1, description="q1/q0, above 1")]
 Pixels = Annotated[int, Field(ge=4, multiple_of=2)]
@@ -156,6 +157,23 @@ class Case(Section):
         return self
 
 
+class Roles(Section):
+    """Cases by what they are to the paper's figures and claims, which know no other names.
+
+    A role may also stand for its case in `adhesion` and `criteria`, for the surface of this case in
+    `loops`, and for the Hurst exponent of this surface in `theory.sweeps`.
+    """
+
+    narrow_band: str = needed(
+        "case of the smallest magnification, a cell of one longest wavelength"
+    )
+    middle_band: str = needed("case of the middle magnification, likewise")
+    broad_band: str = needed("case of the largest magnification, likewise")
+    wide_cell: str = needed("case in a cell of several longest wavelengths a side")
+    low_hurst: str = needed("case of a smaller Hurst exponent, for Figure 3C")
+    high_hurst: str = needed("case of a larger Hurst exponent, for Figure 3C")
+
+
 class Comparison(Band):
     """A surface on which theory is compared with simulation."""
 
@@ -209,7 +227,7 @@ class AdhesionSet(Adhesive):
     takes dmt where its measured error is within the accuracy.
     """
 
-    case: str = needed("name in cases")
+    case: str = needed("name in cases, or a role")
     range_over_h_rms: Values = needed("ranges of attraction over h_rms")
     pressures: Values = needed("some of the case's pressures")
     model: Literal["auto", "dmt", "full"] = needed("how adhesion is computed")
@@ -241,6 +259,6 @@ class AdhesionSet(Adhesive):
 class Loop(Adhesive):
     """Approach and separation of one realisation."""
 
-    surface: str = needed("name in model_surfaces")
+    surface: str = needed("name in model_surfaces, or a role")
     range_over_h_rms: f.Positive = needed("range of attraction over h_rms")
     pressure: f.Positive = needed("largest mean pressure over E* q0 h_rms")

@@ -65,6 +65,8 @@ def test_one_line_names_the_wrong_key_and_its_value(check, file, wrong, key):
     [
         ({"fidelty": "draft"}, "did you mean 'fidelity'"),
         ({"cases/H0.8_zeta64/surface": "H0.8_zeta65"}, "did you mean 'H0.8_zeta64'"),
+        ({"roles/broad_band": "H0.8_zeta12"}, "did you mean 'H0.8_zeta128'"),
+        ({"adhesion/fig2/case": "middle"}, "did you mean 'middle_band'"),
         ({"cases/H0.8_zeta64/pressures": ["1e-2"]}, "write 1.0e-2 for 1e-2"),
         ({"cases/H0.8_zeta64/quantities": ["areas"]}, "'area'"),
     ],
