@@ -32,6 +32,7 @@ report: "report/workflow.rst"
 
 
 include: "rules/common.smk"
+include: "rules/store.smk"
 include: "rules/resources.smk"
 include: "rules/surfaces.smk"
 include: "rules/contact.smk"
@@ -59,7 +60,9 @@ TARGETS = {
     "report": rules.write_report.output,
     "findings": rules.write_findings.output,
     "surfaces": expand(rules.write_surface.output.page, real_surface=REAL_SURFACES),
-    "cases": expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES),
+    # With the means, without which Snakemake does not notice that theory is now to be simulated.
+    "cases": expand(f"{RESULTS}/cases/{{case}}.nc", case=CASES)
+    + expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=SIMULATED_CASES),
     "stability": rules.plot_stability.output.png,
     "dmt_error": rules.tabulate_dmt_error.output,
     "remaining_measured": rules.tabulate_remaining.output.table,

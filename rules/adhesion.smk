@@ -31,34 +31,23 @@ def seeds_in_full(adhesion):
     if not model_of(adhesion).full.any():
         return []
     entry = ADHESION[adhesion]
-    return seeds_of(entry["case"])[: entry["seeds"]]
+    return list(seeds_of(entry["case"])[: entry["seeds"]])
 
 
 def seeds_by_grids(wildcards):
     """Seeds of a file, by the steps on the grid of a surface at which their states are solved.
 
-    Half the grid is enough for half of them: grids differ by about as much on every surface.
+    Half the grid is enough for four of every eight: grids differ by about as much on every surface.
     """
-    seeds, count = plan.seeds_in(wildcards.part), plan.SEEDS_A_FILE // 2
-    return [[[2, 1], seeds[:count]], [[2], seeds[count:]]]
-
-
-def realisations_in_full(wildcards):
-    folder = f"{RESULTS}/adhesion/full/{wildcards.adhesion}"
-    parts = plan.seed_batches(len(seeds_in_full(wildcards.adhesion)))
-    return [f"{folder}/seeds{part}.nc" for part in parts]
-
-
-def same_without_adhesion(wildcards):
-    """Contact without adhesion of the realisations that are solved in full."""
-    case, count = case_of(wildcards), len(seeds_in_full(wildcards.adhesion))
-    parts = plan.batches_covering(count, among=len(seeds_of(case)))
-    return [f"{RESULTS}/contact/{case}/seeds{part}.nc" for part in parts]
+    on_both, on_half = [], []
+    for seed in held_in(wildcards).seeds:
+        (on_both if (seed - 1) % 8 < 4 else on_half).append(seed)
+    return [[[2, 1], on_both], [[2], on_half]]
 
 
 rule solve_adhesive:
     input:
-        surfaces=lambda wildcards: surfaces_of(case_of(wildcards), wildcards.part),
+        surfaces=lambda wildcards: surfaces_of(case_of(wildcards), held_in(wildcards).seeds),
     output:
         f"{RESULTS}/adhesion/full/{{adhesion}}/seeds{{part}}.nc",
     log:
@@ -70,7 +59,7 @@ rule solve_adhesive:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=memory(27 + plan.SEEDS_A_FILE, adhesion_size),
+        mem_mb=memory(27 + stored.SEEDS_A_FILE, adhesion_size),
         runtime=minutes(4.1, adhesion_size, adhesive_states),
     params:
         adhesion=parameters_in_full,
@@ -87,8 +76,11 @@ rule average_adhesive:
     input:
         laws=ERROR_MODELS,
         ensemble=lambda wildcards: f"{RESULTS}/contact/ensembles/{case_of(wildcards)}.nc",
-        realisations=realisations_in_full,
-        alone=same_without_adhesion,
+        realisations=lambda wildcards: states_of(wildcards.adhesion).find(
+            seeds_in_full(wildcards.adhesion)
+        ),
+        # Contact without adhesion of the same realisations.
+        alone=lambda wildcards: solutions_of(case_of(wildcards), seeds_in_full(wildcards.adhesion)),
     output:
         averages=f"{RESULTS}/adhesion/full/{{adhesion}}.nc",
         edges=f"{RESULTS}/adhesion/edges/{{adhesion}}.nc",
@@ -101,6 +93,8 @@ rule average_adhesive:
         "../envs/environment.yaml"
     params:
         adhesion=lambda wildcards: {**ADHESION[wildcards.adhesion], "maps": None},
+        seeds=lambda wildcards: seeds_in_full(wildcards.adhesion),
+        pressures=lambda wildcards: PLANS[case_of(wildcards)].pressures,
         full=points_in_full,
         dmt_error=lambda wildcards: model_of(wildcards.adhesion).dmt_error.tolist(),
         jtb=lambda wildcards: model_of(wildcards.adhesion).jtb.tolist(),
@@ -159,9 +153,9 @@ rule adhesive_maps:
 
 rule follow_loop:
     input:
-        surfaces=lambda wildcards: surfaces_on(
+        surfaces=lambda wildcards: surfaces_on_grid(
             LOOPS[wildcards.loop]["surface"], FIDELITY["pixels_per_wavelength"]
-        ),
+        ).find([1]),
     output:
         f"{RESULTS}/adhesion/loops/{{loop}}.nc",
     log:
@@ -171,7 +165,7 @@ rule follow_loop:
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=memory(36 + plan.SEEDS_A_FILE, loop_size),
+        mem_mb=memory(36 + stored.SEEDS_A_FILE, loop_size),
         runtime=60,
     params:
         loop=lambda wildcards: LOOPS[wildcards.loop],

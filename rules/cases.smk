@@ -2,12 +2,12 @@
 # against load, and a_V if it is wanted; or Persson's theory.
 
 SIMULATED_CASES = [case for case, planned in PLANS.items() if planned.simulated]
-WITH_A_V = [case for case in SIMULATED_CASES if "a_v" in PLANS[case].quantities]
 
 
 def describe_plan(wildcards):
     """What a case's answer needs to know of its plan."""
     case, planned = CASES[wildcards.case], PLANS[wildcards.case]
+    descriptors = config["sampling"]["descriptor_seeds"]
     return {
         "quantities": list(planned.quantities),
         "pressures": list(planned.pressures),
@@ -15,14 +15,17 @@ def describe_plan(wildcards):
         "settings": vars(planned.settings),
         "surface": model_surface_of(wildcards.case),
         "accuracy": case["accuracy"],
+        "descriptor_seeds": descriptors if planned.settings.coarse_seeds else 0,
     }
 
 
+# Every case has the file of a_V, which is empty if the case does not want it: Snakemake notices that a
+# case wants more only if all files of its job are there.
 rule answer_case:
     input:
         laws=ERROR_MODELS,
-        realisations=realisations,
-        coarse=coarse_solutions,
+        realisations=lambda wildcards: solutions_of(wildcards.case),
+        coarse=lambda wildcards: coarse_of(wildcards.case),
     output:
         means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
         kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
@@ -33,7 +36,7 @@ rule answer_case:
     benchmark:
         f"{RESULTS}/benchmarks/answer_case/cases/{{case}}.tsv"
     wildcard_constraints:
-        case=choices(WITH_A_V),
+        case=choices(SIMULATED_CASES),
     conda:
         "../envs/environment.yaml"
     resources:
@@ -46,21 +49,6 @@ rule answer_case:
         "Average realisations and fit kappa and a_V: {wildcards.case}"
     script:
         "../scripts/cases/answer_case.py"
-
-
-use rule answer_case as answer_areas with:
-    output:
-        means=f"{RESULTS}/contact/ensembles/{{case}}.nc",
-        kappa=f"{RESULTS}/fits/kappa/{{case}}.nc",
-        answer=f"{RESULTS}/cases/{{case}}.nc",
-    log:
-        f"{RESULTS}/logs/answer_areas/cases/{{case}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/answer_areas/cases/{{case}}.tsv"
-    wildcard_constraints:
-        case=choices(case for case in SIMULATED_CASES if case not in WITH_A_V),
-    message:
-        "Average realisations and fit kappa: {wildcards.case}"
 
 
 use rule answer_case as answer_by_theory with:

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 from snakemake.utils import update_config
 
+from common import stored
 from common.config.simulations import ModelSurface
 from common.source_hash import save_cache, source_hash
 from stickiness.accuracy import model_choice, plan
@@ -39,7 +40,6 @@ with one_line():
     checked = read_configuration()
     config = checked["config"]
     PLANS = plan.plans_of(config, read_models(ERROR_MODELS))
-    MOST_SEEDS = plan.most_seeds(PLANS)
     DMT_ERRORS = model_choice.read_table(DMT_ERROR_TABLE)
 
 MATERIALS = checked["materials"]["materials"]
@@ -90,8 +90,9 @@ def choices(names):
 
 wildcard_constraints:
     seed=r"\d+",
-    part=r"\d+-\d+",
-    grid=r"(@\d+)?",
+    part=stored.PATTERN,
+    pixels=r"\d+",
+    tolerance=r"[\d.e-]+",
     case=choices(CASES),
     comparison=choices(COMPARISONS),
     model_surface=choices(MODEL_SURFACES),
@@ -116,27 +117,6 @@ def pressures_of(name):
 def several(path, **names):
     """Files of results for every one of some names."""
     return expand(f"{RESULTS}/{path}", **names)
-
-
-def pixels_of_case(case):
-    return PLANS[case].settings.pixels_per_wavelength
-
-
-def seeds_of(case):
-    return list(range(1, PLANS[case].settings.seeds + 1))
-
-
-def surfaces_of(case, part="1-1"):
-    """Surfaces of a case on the grid that it is solved on: the file that holds a part's seeds."""
-    return surfaces_on(PLANS[case].surface, pixels_of_case(case), part)
-
-
-def surfaces_on(surface, pixels, part="1-1"):
-    """File of surfaces on a grid that holds a part's seeds: as many as any case wants of them."""
-    among = MOST_SEEDS.get((surface, pixels), 1)
-    held = plan.batches_covering(plan.seeds_in(part)[-1], among)[-1]
-    grid = "" if pixels == FIDELITY["pixels_per_wavelength"] else f"@{pixels}"
-    return f"{RESULTS}/surfaces/{surface}{grid}/seeds{held}.nc"
 
 
 def a_v_of_simulation(case):

@@ -1,35 +1,12 @@
-# Contact without adhesion, by boundary elements. A job walks the whole load path of a few seeds of a
-# case, others walk it for many more on a coarse grid; together they give the means and the slope of
-# area against load. A surface with which theory alone is compared takes one job.
+# Contact without adhesion, by boundary elements. A job walks a load path of a few seeds of a model
+# surface, others walk it for many more on a coarse grid; together they give the means and the slope
+# of area against load. A surface with which theory alone is compared takes one job.
 
 
-def realisations(wildcards):
-    """Fine solutions of a case, which an earlier case on the same surface may hold."""
-    solved_by = PLANS[wildcards.case].solved_by
-    parts = plan.batches_covering(len(seeds_of(wildcards.case)), among=len(seeds_of(solved_by)))
-    return [f"{RESULTS}/contact/{solved_by}/seeds{part}.nc" for part in parts]
-
-
-def coarse_solutions(wildcards):
-    """Coarse solutions behind a case's means, shared likewise; none for plain means."""
-    planned = PLANS[wildcards.case]
-    parts = plan.coarse_batches(planned.settings.coarse_seeds)
-    return [f"{RESULTS}/contact/{planned.solved_by}/coarse{part}.nc" for part in parts]
-
-
-def measured_of(wildcards):
-    """Quantities of single solutions that a case asks for beyond areas and mean gaps."""
-    return list(PLANS[wildcards.case].measured)
-
-
-def solutions(wildcards):
-    """Solutions in a file of fine or coarse seeds."""
-    return len(plan.seeds_in(wildcards.part)) * len(pressures_of(wildcards.case))
-
-
-def gaps_of(wildcards):
-    """Ranges at which a case's attractive areas are taken; none if it does not want any."""
-    return GAPS if PLANS[wildcards.case].gaps else None
+def surfaces_to_solve(wildcards):
+    """Surfaces of a file of solutions."""
+    surfaces = surfaces_on_grid(wildcards.model_surface, int(wildcards.pixels))
+    return surfaces.find(held_in(wildcards).seeds)
 
 
 def comparison_pixels(wildcards):
@@ -48,79 +25,75 @@ def comparison_solutions(wildcards):
 
 rule solve_repulsive:
     input:
-        surfaces=lambda wildcards: surfaces_of(wildcards.case, wildcards.part),
+        surfaces=surfaces_to_solve,
     output:
-        f"{RESULTS}/contact/{{case}}/seeds{{part}}.nc",
+        f"{RESULTS}/contact/{{model_surface}}@{{pixels}}_{{tolerance}}/seeds{{part}}.nc",
     log:
-        f"{RESULTS}/logs/solve_repulsive/contact/{{case}}/seeds{{part}}.log",
+        f"{RESULTS}/logs/solve_repulsive/contact/{{model_surface}}@{{pixels}}_{{tolerance}}/seeds{{part}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/solve_repulsive/contact/{{case}}/seeds{{part}}.tsv"
+        f"{RESULTS}/benchmarks/solve_repulsive/contact/{{model_surface}}@{{pixels}}_{{tolerance}}/seeds{{part}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=memory(17 + plan.SEEDS_A_FILE, case_size),
-        runtime=minutes(1.1, case_size, solutions),
+        mem_mb=memory(17 + stored.SEEDS_A_FILE, grid_size),
+        runtime=minutes(1.1, grid_size, size_of_part),
     params:
-        seeds=lambda wildcards: plan.seeds_in(wildcards.part),
-        pressures=lambda wildcards: pressures_of(wildcards.case),
-        tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
-        pixels_per_wavelength=lambda wildcards: pixels_of_case(wildcards.case),
-        gaps=gaps_of,
-        measured=measured_of,
+        seeds=lambda wildcards: held_in(wildcards).seeds,
+        pressures=lambda wildcards: held_in(wildcards).loads,
+        tolerance=lambda wildcards: float(wildcards.tolerance),
+        pixels_per_wavelength=lambda wildcards: int(wildcards.pixels),
+        gaps=GAPS,
         code=source_hash("contact/solve_repulsive.py"),
     message:
-        "Solve contact without adhesion: {wildcards.case}, seeds {wildcards.part}"
+        "Solve contact without adhesion: {wildcards.model_surface}, seeds and loads {wildcards.part}"
     script:
         "../scripts/contact/solve_repulsive.py"
 
 
 rule solve_coarse:
     output:
-        f"{RESULTS}/contact/{{case}}/coarse{{part}}.nc",
+        f"{RESULTS}/contact/{{model_surface}}@{COARSE}_{{tolerance}}/coarse{{part}}.nc",
     log:
-        f"{RESULTS}/logs/solve_coarse/contact/{{case}}/coarse{{part}}.log",
+        f"{RESULTS}/logs/solve_coarse/contact/{{model_surface}}@{COARSE}_{{tolerance}}/coarse{{part}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/solve_coarse/contact/{{case}}/coarse{{part}}.tsv"
+        f"{RESULTS}/benchmarks/solve_coarse/contact/{{model_surface}}@{COARSE}_{{tolerance}}/coarse{{part}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
         mem_mb=memory(4 * 14, coarse_size),
-        runtime=minutes(1.1, coarse_size, solutions),
+        runtime=minutes(1.1, coarse_size, size_of_part),
     params:
-        surface=lambda wildcards: model_surface_of(wildcards.case),
-        pressures=lambda wildcards: pressures_of(wildcards.case),
-        tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
-        gaps=gaps_of,
-        measured=measured_of,
-        after=lambda wildcards: plan.seeds_in(wildcards.part)[0] - 1,
-        seeds=lambda wildcards: plan.seeds_in(wildcards.part)[-1],
-        descriptor_seeds=config["sampling"]["descriptor_seeds"],
+        surface=lambda wildcards: MODEL_SURFACES[wildcards.model_surface],
+        seeds=lambda wildcards: held_in(wildcards).seeds,
+        pressures=lambda wildcards: held_in(wildcards).loads,
+        tolerance=lambda wildcards: float(wildcards.tolerance),
+        gaps=GAPS,
         code=source_hash("contact/solve_coarse.py"),
     message:
-        "Solve contact without adhesion on a coarse grid: {wildcards.case}, seeds {wildcards.part}"
+        "Solve contact on a coarse grid: {wildcards.model_surface}, seeds and loads {wildcards.part}"
     script:
         "../scripts/contact/solve_coarse.py"
 
 
 rule contact_maps:
     input:
-        surfaces=lambda wildcards: surfaces_of(wildcards.case),
+        surfaces=surfaces_to_solve,
     output:
-        f"{RESULTS}/contact/{{case}}/maps.nc",
+        f"{RESULTS}/contact/{{model_surface}}@{{pixels}}_{{tolerance}}/maps{{part}}.nc",
     log:
-        f"{RESULTS}/logs/contact_maps/contact/{{case}}/maps.log",
+        f"{RESULTS}/logs/contact_maps/contact/{{model_surface}}@{{pixels}}_{{tolerance}}/maps{{part}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/contact_maps/contact/{{case}}/maps.tsv"
+        f"{RESULTS}/benchmarks/contact_maps/contact/{{model_surface}}@{{pixels}}_{{tolerance}}/maps{{part}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
-        mem_mb=memory(22 + plan.SEEDS_A_FILE, case_size),
+        mem_mb=memory(22 + stored.SEEDS_A_FILE, grid_size),
     params:
-        pressures=lambda wildcards: CASES[wildcards.case]["maps"] or [],
-        tolerance=lambda wildcards: PLANS[wildcards.case].settings.tolerance,
+        pressures=lambda wildcards: held_in(wildcards).loads,
+        tolerance=lambda wildcards: float(wildcards.tolerance),
         code=source_hash("contact/contact_maps.py"),
     message:
-        "Map gaps and pressures of one realisation: {wildcards.case}"
+        "Map gaps and pressures of one realisation: {wildcards.model_surface}, loads {wildcards.part}"
     script:
         "../scripts/contact/contact_maps.py"
 

@@ -21,8 +21,8 @@ FIGURE_INPUTS = {
         "convergence": f"{RESULTS}/persson/sweeps/fig1b.nc",
     },
     "fig2": {
-        "surface": surfaces_of(FIG2_CASE),
-        "maps": f"{RESULTS}/contact/{FIG2_CASE}/maps.nc",
+        "surface": surfaces_of(FIG2_CASE)[0],
+        "maps": maps_of(FIG2_CASE),
         "adhesion": f"{RESULTS}/adhesion/dmt/fig2.nc",
         "adhesive": f"{RESULTS}/adhesion/full/fig2.nc",
         "adhesive_maps": f"{RESULTS}/adhesion/full/fig2/maps.nc",

@@ -27,16 +27,12 @@ def few_minutes(wildcards, attempt):
     return 3 * attempt
 
 
-def surface_size(wildcards):
-    return megapixels(MODEL_SURFACES[wildcards.model_surface], pixels_of(wildcards))
-
-
-def case_size(wildcards):
-    return megapixels(model_surface_of(wildcards.case), pixels_of_case(wildcards.case))
+def grid_size(wildcards):
+    return megapixels(MODEL_SURFACES[wildcards.model_surface], int(wildcards.pixels))
 
 
 def coarse_size(wildcards):
-    return megapixels(model_surface_of(wildcards.case), 2)
+    return megapixels(MODEL_SURFACES[wildcards.model_surface], COARSE)
 
 
 def comparison_size(wildcards):
@@ -46,7 +42,8 @@ def comparison_size(wildcards):
 def adhesion_size(wildcards):
     case = case_of(wildcards)
     refine = ADHESION[wildcards.adhesion]["refine"]
-    return megapixels(model_surface_of(case), pixels_of_case(case) * refine)
+    pixels = PLANS[case].settings.pixels_per_wavelength
+    return megapixels(model_surface_of(case), pixels * refine)
 
 
 def loop_size(wildcards):
@@ -58,4 +55,4 @@ def adhesive_states(wildcards):
     """Solutions in full of a file's seeds, and those without adhesion that they start from."""
     entry = ADHESION[wildcards.adhesion]
     laws = len(entry["range_over_h_rms"]) * len(entry["adhesion_length_over_range"])
-    return len(plan.seeds_in(wildcards.part)) * len(entry["pressures"]) * (1 + laws)
+    return size_of_part(wildcards) * len(entry["pressures"]) * (1 + laws)

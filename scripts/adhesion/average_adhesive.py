@@ -22,7 +22,7 @@ from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors, fine
 from common.error_budgets import SIMULATED
 from common.job import start
-from common.model_surfaces import cell_size, read_all
+from common.model_surfaces import cell_size, read_block
 from stickiness import datasets
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
@@ -90,9 +90,9 @@ def main(job):
     seeds = []
     states = None
     if job.input.realisations:
-        states = read_all(job.input.realisations, ["external_pressure"])
+        states = read_block(job.input.realisations, ["external_pressure"], job.params.seeds)
         origin = datasets.parameters(states)
-        seeds = states.seed.values.tolist()
+        seeds = job.params.seeds
         solved = average(states, full, ensemble, limit, origin)
         for name in dataset.keys() & solved.keys():
             chosen = full if "pressure" in dataset[name].dims else full.any("pressure")
@@ -113,7 +113,8 @@ def main(job):
     # The edges of contact, compared with the model that verdicts use.
     edges = xr.Dataset()
     if states:
-        alone = read_all(job.input.alone, ["pixel_area_fraction", "attractive_area"])
+        kept = ["pixel_area_fraction", "attractive_area"]
+        alone = read_block(job.input.alone, kept, seeds, job.params.pressures)
         edges = compare_edges.compare_seeds(states, alone, dataset, parameters)
     title = "attraction at equal area of contact, simulation and model of the edges"
     datasets.write(edges, job.output.edges, title=title, parameters=parameters)

@@ -16,7 +16,7 @@ import xarray as xr
 from common import adhesion_sets, conventions
 from common.adhesion_sets import AXES, LOOSEST, STATE, axes, scaled_law
 from common.job import start
-from common.model_surfaces import each_seed, pixels
+from common.model_surfaces import each_seed, pixels, read_first
 from stickiness import datasets, dmt
 from stickiness.adhesive import edge_zone
 from stickiness.repulsive import half_space, solver, subpixel
@@ -40,12 +40,12 @@ FINE = 8  # points per shortest wavelength of which half are enough for long ran
 
 
 def main(job):
-    surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
+    first = read_first(job.input.surfaces)
     adhesion = job.params.adhesion
-    length = float(surfaces.window_length)
+    length = float(first.window_length)
     refine = adhesion["refine"]
-    points = refine * surfaces.sizes["x"]
-    finest = refine * pixels(surfaces)
+    points = refine * first.sizes["x"]
+    finest = refine * pixels(first)
     ranges = axes(adhesion)[2].values
     half_from = np.inf if adhesion["half_from"] is None else adhesion["half_from"]
     wide = (ranges >= half_from) & (finest >= FINE)
@@ -53,8 +53,8 @@ def main(job):
     pixel = xr.DataArray(length / points * coarser, dims=AXES[2])
     chosen = combinations(adhesion, pixel, np.array(job.params.full))
 
-    def solve(steps, heights):
-        fine = resample(heights, points)
+    def solve(steps, surface):
+        fine = resample(surface.height.values, points)
         parts = []
         finenesses = [finest / step for step in steps]
         resolution = xr.DataArray(finenesses, dims="resolution", name="resolution")
@@ -67,14 +67,14 @@ def main(job):
         return xr.concat(parts, AXES[2], data_vars="all") if len(parts) > 1 else parts[0]
 
     by_grids = [
-        each_seed(partial(solve, steps), surfaces, seeds)
+        each_seed(partial(solve, steps), job.input.surfaces, seeds)
         for steps, seeds in job.params.grids
         if seeds
     ]
     dataset = xr.concat(by_grids, "seed", join="outer")
     title = "adhesive contact of realisations at given mean gaps"
     parameters = {
-        **datasets.parameters(surfaces),
+        **datasets.parameters(first),
         "seeds": dataset.seed.values.tolist(),
         "q0_h_rms": adhesion["q0_h_rms"],
         "law": adhesion["law"],

@@ -72,6 +72,9 @@ def answer_by_simulation(job, columns, models, settings):
     if "a_v" in plan["quantities"]:
         write_a_v(output.means, output.a_v, job.params.windows, job.input.laws)
         files["a_v"] = datasets.read(output.a_v, ["a_v_standard_error"])
+    else:
+        title = "a_V, which the case does not ask for"
+        datasets.write(xr.Dataset(), output.a_v, title=title, parameters=plan)
     parameters = plan["surface"] | plan["settings"] | {"seeds": range(settings.seeds)}
     simulation = Simulation(models, parameters)
     values = {}

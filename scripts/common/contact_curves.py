@@ -21,7 +21,7 @@ from stickiness.repulsive import solver, subpixel
 # First seeds of coarse solutions and of described waves; the configuration keeps these sets apart.
 SOLVED_FROM = 100_001
 DESCRIBED_FROM = 1_000_001
-# Quantities that a case may want beyond areas and mean gaps.
+# Quantities that are measured beyond areas and mean gaps.
 MEASURED_TEXTS = {name: ("1", COLUMNS[name].text, "no contact") for name in MEASURED}
 CONTACT_VARIABLES = MEASURED_TEXTS | {
     "rms_slope": RMS_SLOPE,
@@ -47,11 +47,12 @@ def load_curves(heights, length, steps, pressures, ranges, tolerance, names=()):
 
 
 def load_curve(heights, length, pressures, ranges, tolerance, names=()):
-    """Measure the contact at every pressure; `names` are further quantities that a case wants."""
+    """Measure the contact at every pressure; `names` are those of `MEASURED` to measure, too."""
+    measured = {name: MEASURED[name](heights, length) for name in names}
     rows = []
     for contact in solver.load_path(heights, length, pressures, tol=tolerance):
-        surface = {name: MEASURED[name](heights, contact.gap, length) for name in names}
-        rows.append(measure(contact, ranges).assign(surface))
+        more = {name: of_gap(contact.gap) for name, of_gap in measured.items()}
+        rows.append(measure(contact, ranges).assign(more))
         logging.info(
             f"n = {len(heights)}: load {len(rows)} of {len(pressures)}, area "
             f"{contact.area_fraction:.4f}, residual {contact.residual:.1e}, "
@@ -97,25 +98,35 @@ def solve_seeds(
     return dataset.assign_coords(resolution=n / waves_across(surface) / np.array(steps))
 
 
-def coarse_solutions(surface, which, others_count, pressures, ranges, tolerance, names=()):
-    """Solve surfaces, numbered from 0, on a coarse grid and describe the long waves of more.
+def coarse_seeds(numbers):
+    """Seeds of coarse solutions, which are numbered from 1."""
+    return SOLVED_FROM - 1 + np.array(numbers)
 
-    The file of the first solved surface also has the surfaces that are only described.
-    """
-    spectrum = model_spectrum(surface)
-    length = cell_size(surface)
-    seeds = SOLVED_FROM + np.array(which)
-    others = DESCRIBED_FROM + np.arange(others_count if which[0] == 0 else 0)
+
+def coarse_solutions(surface, numbers, pressures, ranges, tolerance, names=()):
+    """Solve surfaces, numbered from 1, on a coarse grid and describe their long waves."""
+    seeds = coarse_seeds(numbers)
     coarsely_solved = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
     kept = [*coarsely_solved, *names, *(["attractive_area"] if len(ranges) else [])]
     # On every second point: on two pixels a wave the slope of the shortest is not all there.
     dataset = solve_seeds(
         surface, seeds, 2 * COARSE, [2], pressures, ranges, tolerance, names
     ).isel(resolution=0, drop=True)
-    dataset = dataset[kept].assign_coords(descriptor=list(multilevel.DESCRIPTORS), other=others)
+    return dataset[kept].assign(long_waves=describe_waves(surface, dataset.seed))
+
+
+def describe_others(surface, count):
+    """Describe the long waves of so many further surfaces, which are not solved."""
+    return describe_waves(surface, xr.DataArray(DESCRIBED_FROM + np.arange(count), dims="other"))
+
+
+def describe_waves(surface, seeds):
+    """Describe the long waves of surfaces, by the seeds along a dimension of any name."""
     # Of skewed surfaces, too, the Gaussian long waves of a seed are described. They explain more of
     # the scatter of areas and gaps than long waves whose phases are turned.
-    for name, dim in (("long_waves", "seed"), ("other_long_waves", "other")):
-        rows = multilevel.descriptors(spectrum, length, dataset[dim].values, surface["amplitudes"])
-        dataset[name] = (dim, "descriptor"), rows
-    return dataset
+    spectrum = model_spectrum(surface)
+    length = cell_size(surface)
+    (dim,) = seeds.dims
+    rows = multilevel.descriptors(spectrum, length, seeds.values, surface["amplitudes"])
+    coords = {dim: seeds.values, "descriptor": list(multilevel.DESCRIPTORS)}
+    return xr.DataArray(rows, coords, (dim, "descriptor"))

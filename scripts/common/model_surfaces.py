@@ -1,5 +1,7 @@
 """Model surfaces of the configuration, in units of `conventions`, and files of realisations."""
 
+from itertools import compress, groupby
+
 import numpy as np
 import xarray as xr
 from scipy.fft import next_fast_len
@@ -71,21 +73,68 @@ def pixels(surface):
     return parameters["grid_points"] / waves_across(parameters)
 
 
-def each_seed(solve, surfaces, seeds):
-    """What `solve` makes of the heights of every seed, with the rms slope of the heights."""
-    solved = [solve(surfaces.height.sel(seed=seed).values) for seed in seeds]
-    dataset = xr.concat(solved, xr.DataArray(list(seeds), dims="seed", name="seed"))
-    dataset["rms_slope"] = surfaces.rms_slope.sel(source="heights", seed=list(seeds), drop=True)
-    return dataset
+def each_seed(solve, paths, seeds):
+    """What `solve` makes of the surface of every seed, with the rms slope of its heights.
+
+    The surfaces are in one file or several, of which one at a time is in memory. The attributes of
+    the result are theirs.
+    """
+    solved = {}
+    for path in paths:
+        surfaces = datasets.read(path, ["height", "window_length", "rms_slope"])
+        for seed in set(seeds) & set(surfaces.seed.values.tolist()):
+            surface = surfaces.sel(seed=seed, drop=True)
+            slope = surface.rms_slope.sel(source="heights", drop=True)
+            solved[seed] = solve(surface).assign(rms_slope=slope)
+    if missing := set(seeds) - solved.keys():
+        raise datasets.DatasetError(f"{' and '.join(paths)}: no surface of seed {min(missing)}")
+    rows = [solved[seed] for seed in seeds]
+    dataset = xr.concat(rows, xr.DataArray(list(seeds), dims="seed", name="seed"))
+    return dataset.assign_attrs(surfaces.attrs)
 
 
-def read_first(path):
-    return datasets.read(path, ["height", "window_length"]).isel(seed=0)
+def read_first(paths):
+    """The first surface of the first file."""
+    surfaces = datasets.read(paths[0], ["height", "window_length"])
+    return surfaces.isel(seed=0).copy(deep=True)  # frees the others
 
 
-def read_all(paths, variables):
-    """The realisations of all files, NaN where one lacks a grid; attributes of the first."""
-    return xr.concat([datasets.read(path, variables) for path in paths], "seed", join="outer")
+def read_block(paths, variables, seeds, pressures=None):
+    """Solutions of every seed, at every pressure if there are any, from the files that hold them.
+
+    A file may hold other seeds and pressures, too. Seeds are NaN on a grid that their file lacks.
+    Attributes are those of the first file.
+    """
+    files = [datasets.read(path, variables) for path in paths]
+    held = [set(file.seed.values.tolist()) for file in files]
+    rows = []
+    # Seeds that the same files hold are read from these together.
+    for holds, group in groupby(seeds, lambda seed: tuple(seed in each for each in held)):
+        members = list(group)
+        parts = [file.sel(seed=members) for file in compress(files, holds)]
+        if not parts:
+            raise datasets.DatasetError(f"{' and '.join(paths)}: no solution of seed {members[0]}")
+        if pressures is None:
+            rows.append(parts[0])
+        else:
+            rows.append(join_pressures(parts, pressures, f"seed {members[0]} in {paths}"))
+    return xr.concat(rows, "seed", join="outer")
+
+
+def join_pressures(parts, pressures, where):
+    """Join what solutions of the same seeds hold at each of some pressures."""
+    rows = []
+    left = list(pressures)
+    for part in parts:
+        held = set(part.pressure.values.tolist())
+        rows.append(part.sel(pressure=[pressure for pressure in left if pressure in held]))
+        left = [pressure for pressure in left if pressure not in held]
+    if left:
+        raise datasets.DatasetError(f"{where}: no solution at pressure {left[0]!r}")
+    rows = [row for row in rows if row.sizes["pressure"]]
+    # What does not depend on the pressure is the same in all.
+    joined = xr.concat(rows, "pressure", data_vars="minimal", coords="minimal", compat="override")
+    return joined.sel(pressure=list(pressures))
 
 
 def gather_fields(states, pressures, surface, tolerance, **texts):

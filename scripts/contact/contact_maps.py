@@ -18,7 +18,7 @@ def main(job):
     text = "contact pressure over E* q0 h_rms"
     dataset = gather_fields(list(contacts), pressures, surface, tolerance, contact_pressure=text)
     title = "gap and pressure fields of one realisation"
-    parameters = {**datasets.parameters(surface), "case": job.wildcards.case}
+    parameters = datasets.parameters(surface)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -9,19 +9,24 @@ from operator import itemgetter
 import xarray as xr
 
 from common import conventions, grid_limits
-from common.contact_curves import MEASURED_TEXTS
+from common.contact_curves import (
+    CONTACT_VARIABLES,
+    MEASURED_TEXTS,
+    coarse_seeds,
+    describe_others,
+)
 from common.derived_quantities import fit_kappa, gap_density
 from common.ensemble_means import PREFIX, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
 from common.grid_limits import EXTRAPOLATION
-from common.model_surfaces import read_all, skewness_of
+from common.model_surfaces import read_block, skewness_of
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
 from stickiness.accuracy.quantities import MEASURED, means_of
 from stickiness.error_budget import with_budget
 
 # Variables of realisations that an ensemble's file keeps seed by seed, all that are read of them,
-# and those of coarse solutions. OPTIONAL are there only if the case wants them.
+# and those of coarse solutions. OPTIONAL are kept only if the case wants them.
 KEPT = ("area_fraction", "mean_gap", "residual", "iterations", "rms_slope")
 COARSE = ("area_fraction", "mean_gap", "rms_slope")
 OPTIONAL = ("attractive_area", *MEASURED)
@@ -46,18 +51,20 @@ def average_case(case, plan, inputs, output):
     """Average the realisations of a case; write the means and the slope of area against load."""
     averaged = choose_means(plan["quantities"])
     optional = [name for name in OPTIONAL if name in averaged]
-    # The files may be those of another case with more seeds and loads.
-    loads = list(plan["pressures"])
+    loads = plan["pressures"]
     seeds = list(range(1, plan["settings"]["seeds"] + 1))
     needed = (*KEPT, "pixel_area_fraction", "edges", "edge_gap")
-    realisations = read_all(inputs.realisations, (*needed, *optional))
-    realisations = realisations.sel(seed=seeds, pressure=loads)
-    kept = (*COARSE, *optional)
-    others = [datasets.read(path, kept).sel(pressure=loads) for path in inputs.coarse]
+    realisations = read_block(inputs.realisations, (*needed, *optional), seeds, loads)
+    others = xr.Dataset()
+    if count := plan["settings"]["coarse_seeds"]:
+        kept = (*COARSE, *optional)
+        solved = read_block(inputs.coarse, kept, coarse_seeds(range(1, count + 1)).tolist(), loads)
+        described = describe_others(plan["surface"], plan["descriptor_seeds"])
+        others = name_coarse(solved, described, kept)
     parameters_of_means = datasets.parameters(realisations) | {"seeds": seeds, "case": case}
     write_means(
         realisations,
-        join_coarse(others, kept),
+        others,
         parameters_of_means,
         inputs.laws,
         output.means,
@@ -77,13 +84,10 @@ def choose_means(quantities):
     return {name: value for name, value in (AVERAGED | measured).items() if name in needed}
 
 
-def join_coarse(files, kept=(*COARSE, "attractive_area")):
-    """Coarse solutions of all files, renamed, and the seeds of the first that are not solved."""
-    if not files:
-        return xr.Dataset()
-    solved = xr.concat([file.drop_dims("other") for file in files], "seed", data_vars="minimal")
-    long_waves = ("long_waves", "other_long_waves")
-    solved = solved.merge(files[0][["other_long_waves"]])[[*kept, *long_waves]]
+def name_coarse(solved, other_long_waves, kept=(*COARSE, "attractive_area")):
+    """Coarse solutions under the names of an ensemble's file, and seeds that are not solved."""
+    solved = solved[[*kept, "long_waves"]].assign(other_long_waves=other_long_waves)
+    solved = conventions.annotate(solved, **CONTACT_VARIABLES)
     return solved.rename({name: f"{PREFIX}{name}" for name in (*kept, "seed")})
 
 

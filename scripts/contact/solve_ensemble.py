@@ -1,12 +1,19 @@
 """Make, press and average all realisations of a case that only theory is compared with."""
 
 import numpy as np
+import xarray as xr
 
-from common.contact_curves import CONTACT_VARIABLES, coarse_solutions, solve_seeds, steps_of
+from common.contact_curves import (
+    CONTACT_VARIABLES,
+    coarse_solutions,
+    describe_others,
+    solve_seeds,
+    steps_of,
+)
 from common.conventions import annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import grid_points
-from contact.ensembles import join_coarse, write_means
+from contact.ensembles import name_coarse, write_means
 
 
 def main(job):
@@ -20,17 +27,11 @@ def main(job):
         surface, seeds, pixels, steps_of(pixels), pressures, ranges, params.tolerance
     )
     fine = annotate(fine, **CONTACT_VARIABLES)
-    others = []
+    others = xr.Dataset()
     if params.coarse_seeds:
-        coarse = coarse_solutions(
-            surface,
-            range(params.coarse_seeds),
-            params.descriptor_seeds,
-            pressures,
-            ranges,
-            params.tolerance,
-        )
-        others.append(annotate(coarse, **CONTACT_VARIABLES))
+        numbers = range(1, params.coarse_seeds + 1)
+        coarse = coarse_solutions(surface, numbers, pressures, ranges, params.tolerance)
+        others = name_coarse(coarse, describe_others(surface, params.descriptor_seeds))
     parameters = {
         **surface,
         "case": job.wildcards.comparison,
@@ -39,7 +40,7 @@ def main(job):
         "pixels_per_wavelength": pixels,
         "grid_points": grid_points(surface, pixels),
     }
-    write_means(fine, join_coarse(others), parameters, job.input.laws, job.output[0])
+    write_means(fine, others, parameters, job.input.laws, job.output[0])
 
 
 if __name__ == "__main__":

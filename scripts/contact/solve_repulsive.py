@@ -12,35 +12,30 @@ from common.conventions import add_convergence, annotate, logarithmic_grid
 from common.job import start
 from common.model_surfaces import each_seed, pixels
 from stickiness import datasets
+from stickiness.accuracy.quantities import MEASURED
 
 
 def main(job):
-    surfaces = datasets.read(job.input.surfaces, ["height", "window_length", "rms_slope"])
-    length = float(surfaces.window_length)
-    steps = steps_of(job.params.pixels_per_wavelength)
-    ranges = logarithmic_grid(job.params.gaps)
+    params = job.params
+    steps = steps_of(params.pixels_per_wavelength)
+    ranges = logarithmic_grid(params.gaps)
 
-    def solve(heights):
-        return load_curves(
-            heights,
-            length,
-            steps,
-            job.params.pressures,
-            ranges,
-            job.params.tolerance,
-            job.params.measured,
+    def solve(surface):
+        heights = surface.height.values
+        length = float(surface.window_length)
+        curves = load_curves(
+            heights, length, steps, params.pressures, ranges, params.tolerance, MEASURED
         )
+        return curves.assign_coords(resolution=pixels(surface) / np.array(steps))
 
-    dataset = each_seed(solve, surfaces, job.params.seeds)
-    dataset = dataset.assign_coords(resolution=pixels(surfaces) / np.array(steps))
+    dataset = each_seed(solve, job.input.surfaces, params.seeds)
     title = "repulsive contact of realisations along their load path"
     parameters = {
-        **datasets.parameters(surfaces),
-        "seeds": list(job.params.seeds),
-        "case": job.wildcards.case,
-        "tolerance": job.params.tolerance,
+        **datasets.parameters(dataset),
+        "seeds": list(params.seeds),
+        "tolerance": params.tolerance,
     }
-    dataset = add_convergence(annotate(dataset, **CONTACT_VARIABLES), job.params.tolerance)
+    dataset = add_convergence(annotate(dataset, **CONTACT_VARIABLES), params.tolerance)
     datasets.write(dataset, job.output[0], title=title, parameters=parameters)
 
 

@@ -1,6 +1,7 @@
 """Figure 2: a surface, area and load with growing adhesion, and maps of contact."""
 
 import numpy as np
+import xarray as xr
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from scipy.ndimage import gaussian_filter
@@ -18,7 +19,7 @@ SIZE = 3.5  # of markers
 def main(job):
     read = datasets.read
     surface = read(job.input.surface, ["height", "window_length", "rms_slope"]).isel(seed=0)
-    maps = read(job.input.maps, ["gap"])
+    maps = xr.concat([read(path, ["gap"]) for path in job.input.maps], "pressure")
     limit = read(job.input.adhesion, ["inverse_kappa", "q0_h_rms"])
     adhesive = read(job.input.adhesive, ["inverse_kappa", "q0_h_rms"])
     adhesive_maps = read(job.input.adhesive_maps, ["zone", "repulsive_area", "pixels_in_zone"])

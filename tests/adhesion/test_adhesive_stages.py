@@ -100,10 +100,11 @@ def test_grids_of_seeds_and_ranges(tmp_path):
     """Half of the seeds are on half the grid alone, and long ranges on grids half as fine."""
     surface = model_surface(magnification=8)
     made = {"surface": surface, "pixels_per_wavelength": 8, "seeds": [1, 2]}
-    synthesise_surface.main(make_job(tmp_path / "surfaces.nc", made))
+    synthesised = make_job(tmp_path / "surfaces.nc", made)
+    synthesise_surface.main(synthesised)
     asked = ASKED | {"law": "exponential", "range_over_h_rms": [0.1, 0.5], "half_from": 0.3}
     params = {"adhesion": asked, "full": [[[True, True]]], "grids": [[[2, 1], [1]], [[2], [2]]]}
-    job = make_job(tmp_path / "solved.nc", params, surfaces=tmp_path / "surfaces.nc")
+    job = make_job(tmp_path / "solved.nc", params, surfaces=synthesised.output)
     solve_adhesive.main(job)
     found = datasets.read(tmp_path / "solved.nc").squeeze()
     missing = found.external_pressure.isnull().all("range_over_h_rms")
@@ -215,7 +216,7 @@ def test_maps_on_a_finer_grid_agree_with_the_areas_of_direct_solutions(tmp_path)
     shown |= {"adhesion_length_over_range": [0.1, 0.3]}
     adhesion = {"law": "exponential", "q0_h_rms": 0.1, "maps": shown}
     job = make_job(
-        tmp_path / "maps.nc", {"adhesion": adhesion, "points": 96}, surfaces=synthesised.output[0]
+        tmp_path / "maps.nc", {"adhesion": adhesion, "points": 96}, surfaces=synthesised.output
     )
     adhesive_maps.main(job)
     maps = datasets.read(job.output[0])

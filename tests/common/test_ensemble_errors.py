@@ -5,12 +5,8 @@ from operator import attrgetter, itemgetter
 import numpy as np
 import pytest
 import xarray as xr
-from helpers.entries import model_surface
 
-from common import contact_curves, ensemble_means
-from common.conventions import annotate
-from contact import ensembles
-from stickiness import datasets
+from common import ensemble_means
 from stickiness.accuracy import multilevel
 
 FINE, COARSE, DESCRIBED = 3, 40, 200
@@ -102,27 +98,6 @@ def test_entries_that_are_not_finite_everywhere_are_plain(ensemble):
     assert error[0] == ensemble_means.standard_error(ensemble.area)[0]
     assert np.isfinite(best).all()
     assert best[1] != plain[1]
-
-
-@pytest.mark.slow
-def test_coarse_solutions_in_parts_are_those_of_one_file(tmp_path):
-    """Parts are read back from files: those after the first describe no other seeds."""
-    asked = model_surface(magnification=4)
-    curves = [np.array([0.05, 0.1]), np.array([0.01, 0.1]), 1e-6]
-    parts = {"one": range(48), "first": range(32), "second": range(32, 48)}
-    files = {}
-    for name, which in parts.items():
-        solved = contact_curves.coarse_solutions(asked, which, 20, *curves)
-        path = tmp_path / f"{name}.nc"
-        datasets.write(
-            annotate(solved, **contact_curves.CONTACT_VARIABLES), path, title=name, parameters=asked
-        )
-        files[name] = datasets.read(path)
-    assert files["second"].sizes["other"] == 0
-    whole = ensembles.join_coarse([files["one"]])
-    both = ensembles.join_coarse([files["first"], files["second"]])
-    xr.testing.assert_equal(both, whole)
-    assert both.sizes["other"] == 20
 
 
 def test_seeds_on_half_the_grid_correct_a_mean_where_they_go_with_it():

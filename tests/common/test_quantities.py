@@ -1,4 +1,4 @@
-"""A quantity that is measured on solutions because a case asks for it: the slope in contact."""
+"""A quantity that is measured on solutions: the slope in contact."""
 
 from types import SimpleNamespace
 
@@ -17,12 +17,13 @@ from surfaces import synthesise_surface
 ASKED = model_surface(magnification=8)
 LOADS, WANTED = [0.02, 0.2], ["area", "contact_slope"]
 TABLE = "config/accuracy.csv"
+GAPS = {"minimum": 0.01, "maximum": 10, "per_decade": 2}
 
 
 def test_full_contact_has_the_slope_of_the_surface():
     band = spectrum.SelfAffine(hurst=0.8, q0=2.0, q1=16.0, h_rms=0.3)
     heights = surface.synthesise(band, 64, np.pi, seed=3)
-    found = slope_within_contact(heights, np.zeros_like(heights), np.pi)
+    found = slope_within_contact(heights, np.pi)(np.zeros_like(heights))
     assert found == pytest.approx(surface.moments(heights, np.pi).rms_slope, rel=1e-10)
 
 
@@ -38,10 +39,11 @@ def test_crests_of_a_wave_in_partial_contact(pressure):
     assert 0.1 < contact.area_fraction < 0.9
     want = 0.4 * q * np.sqrt(0.5 - np.sin(2 * half) / (4 * half))
     # The strip ends within a pixel, 1/128 of the wave.
-    found = slope_within_contact(heights, contact.gap, length)
+    measure = slope_within_contact(heights, length)
+    found = measure(contact.gap)
     assert found == pytest.approx(want, rel=0.02)
     assert found < surface.moments(heights, length).rms_slope
-    assert np.isnan(slope_within_contact(heights, contact.gap + 1, length))
+    assert np.isnan(measure(contact.gap + 1))
 
 
 def job(path, params, **inputs):
@@ -52,20 +54,20 @@ def job(path, params, **inputs):
 def folder(tmp_path_factory):
     """Files of a case from its surfaces to its answer."""
     folder, solved = tmp_path_factory.mktemp("slope"), []
-    solver = {"pressures": LOADS, "tolerance": 1e-6, "gaps": None, "measured": ["contact_slope"]}
+    solver = {"pressures": LOADS, "tolerance": 1e-6, "gaps": GAPS}
     for seeds in ([1, 2], [3]):
         path, made = folder / f"surfaces{seeds[0]}.nc", {"seeds": seeds, "pixels_per_wavelength": 4}
         synthesise_surface.main(job(path, made | {"surface": ASKED}))
         solved.append(folder / f"solved{seeds[0]}.nc")
-        solve_repulsive.main(job(solved[-1], solver | made, surfaces=path))
-    params = solver | {"surface": ASKED, "after": 0, "seeds": 40, "descriptor_seeds": 64}
+        solve_repulsive.main(job(solved[-1], solver | made, surfaces=[path]))
+    params = solver | {"surface": ASKED, "seeds": range(1, 41)}
     solve_coarse.main(job(folder / "coarse.nc", params))
     settings = {"pixels_per_wavelength": 4, "tolerance": 1e-6, "seeds": 3, "coarse_seeds": 40}
     plan = {"quantities": WANTED, "pressures": LOADS, "simulated": True, "settings": settings}
-    plan |= {"surface": ASKED, "accuracy": None}
+    plan |= {"surface": ASKED, "accuracy": None, "descriptor_seeds": 64}
     inputs = {"realisations": solved, "coarse": [folder / "coarse.nc"], "laws": TABLE}
     asked = job(folder / "answer.nc", {"plan": plan}, **inputs)
-    files = {name: str(folder / f"{name}.nc") for name in ("means", "kappa", "answer")}
+    files = {name: str(folder / f"{name}.nc") for name in ("means", "kappa", "a_v", "answer")}
     asked.output = SimpleNamespace(**files)
     answer_case.main(asked)
     return folder

@@ -33,12 +33,12 @@ def surface(tmp_path_factory):
 
 def job_of(path, surface, **params):
     asked = {"pressures": [0.5 * FULL, 2 * FULL], "tolerance": 1e-8} | params
-    return make_job(path, asked, {"case": "wave"}, surfaces=surface)
+    return make_job(path, asked, surfaces=[surface])
 
 
 def test_load_path_of_a_wave(tmp_path, surface):
     gaps = {"minimum": 0.01, "maximum": 10, "per_decade": 4}
-    asked = {"seeds": [2], "pixels_per_wavelength": 4, "gaps": gaps, "measured": []}
+    asked = {"seeds": [2], "pixels_per_wavelength": 4, "gaps": gaps}
     job = job_of(tmp_path / "solved.nc", surface, **asked)
     solve_repulsive.main(job)
     found = datasets.read(job.output[0])
@@ -59,3 +59,23 @@ def test_maps_are_of_the_loads_asked_for(tmp_path, surface):
     np.testing.assert_allclose(loads, [0.5 * FULL, 2 * FULL], rtol=1e-6)
     assert (found.gap >= 0).all()
     assert float((found.gap * found.contact_pressure).max()) == 0
+
+
+def test_surfaces_of_a_job_may_be_in_several_files_and_a_missing_one_is_named(tmp_path, surface):
+    gaps = {"minimum": 0.01, "maximum": 10, "per_decade": 4}
+    both = datasets.read(surface)
+    paths = [str(tmp_path / f"seeds{seed}-{seed}.nc") for seed in (1, 2)]
+    for seed, path in zip((1, 2), paths, strict=True):
+        one = both.sel(seed=[seed])
+        datasets.write(one, path, title="wave", parameters=datasets.parameters(both))
+    asked = {"seeds": [1, 2], "pixels_per_wavelength": 4, "gaps": gaps}
+    found = []
+    for name, inputs in (("one", [surface]), ("two", paths)):
+        job = job_of(tmp_path / f"{name}.nc", surface, **asked)
+        job.input.surfaces = inputs
+        solve_repulsive.main(job)
+        found.append(datasets.read(job.output[0]))
+    assert found[0].equals(found[1])
+    job.input.surfaces = paths[1:]
+    with pytest.raises(datasets.DatasetError, match=r"seeds2-2\.nc: no surface of seed 1"):
+        solve_repulsive.main(job)

@@ -288,7 +288,7 @@ def make_files():
     fig3a = sweep(broad)
     fig3d = sweep(loads=(0.001, 0.01, LOAD, 0.1, 0.5))
     return {
-        "kappa_middle_band": kappa(64),
+        "kappa_middle_band": kappa(64, seeds=[1, 2, 3]),
         "kappa_broad_band": kappa(128),
         "kappa_wide_cell": kappa(32, window=4),
         "ensemble_wide_cell": wide,

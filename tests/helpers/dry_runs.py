@@ -33,6 +33,18 @@ def dry_run(folder, *arguments):
         return subprocess.CompletedProcess(command, code, output.read())
 
 
+def outputs(done):
+    """Files by rule that a dry-run lists in full, below the folder of a fidelity."""
+    assert done.returncode == 0, done.stdout
+    found = {}
+    for rule, paths in re.findall(
+        r"^(?:local)?rule (\w+):\n(?:    \w+: .*\n)*?    output: (.*)$", done.stdout, re.M
+    ):
+        names = [path.split("/", 2)[2] for path in paths.split(", ")]
+        found.setdefault(rule, set()).update(names)
+    return found
+
+
 def jobs(done):
     """Jobs by rule in the table of a dry-run."""
     assert done.returncode == 0, done.stdout

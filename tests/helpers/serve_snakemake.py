@@ -14,6 +14,7 @@ import pint  # noqa: F401
 import pydantic  # noqa: F401
 import scipy.optimize  # noqa: F401
 from snakemake.cli import get_argument_parser
+from snakemake.jobs import Job
 
 LONGEST = 600  # seconds
 
@@ -21,6 +22,7 @@ LONGEST = 600  # seconds
 def serve():
     """Answer every line with the exit code of its command, once it has ended."""
     get_argument_parser()  # imports the plugins
+    Job.message = None  # in its place, a dry-run lists the files of a job, which tests read
     for line in sys.stdin:
         child = os.fork()
         if child == 0:

@@ -8,7 +8,7 @@ import pytest
 from stickiness.adhesive import preconditioner as smoother
 from stickiness.adhesive import problem, softening_descent, solver
 from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, half_space, preconditioner
+from stickiness.repulsive import convolution, half_space, preconditioner, subpixel
 
 SIZE = 60
 RNG = np.random.default_rng(1)
@@ -24,6 +24,7 @@ LOOPS = [
         convolution,
         half_space,
         preconditioner,
+        subpixel,
     )
     for function in vars(module).values()
     if inspect.isfunction(function)
@@ -48,6 +49,7 @@ def transposed():
 
 
 GROUP = np.array([1, 3, 6, 8])
+HEIGHTS, LEVELS = RNG.random((6, 10)), np.linspace(0, 1, 8)
 # Arguments of loops over grids of more than one dimension.
 ON_GRIDS = {
     smoother._add_around: (single(6, 10), single(3, 5), single(10)),
@@ -61,6 +63,10 @@ ON_GRIDS = {
     ),
     preconditioner._interpolate_at: (
         *(np.array([0, 7, 59]), single(3, 2), *interpolation(), single(3)),
+    ),
+    subpixel._add_intervals: (
+        *(HEIGHTS, RNG.random((6, 10)) < 0.3, np.searchsorted(LEVELS, HEIGHTS)),
+        *(1, *np.zeros((3, LEVELS.size + 1))),
     ),
 }
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from helpers.copy_workflow import ROOT, copy_code, copy_workflow
-from helpers.dry_runs import dry_run, jobs
+from helpers.dry_runs import dry_run, jobs, outputs
 
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
@@ -56,6 +56,10 @@ class Workflow:
         """Number of jobs by rule that a dry-run lists, without the target rules."""
         listed = jobs(self.dry_run(*arguments, "--quiet", "host", "rules", "reason"))
         return {rule: count for rule, count in listed.items() if rule not in ("all", *arguments)}
+
+    def outputs(self, *arguments):
+        """Files by rule that a dry-run lists."""
+        return outputs(self.dry_run(*arguments))
 
     def edit(self, path, old, new):
         """Replace a text, which must be there, in a file of this copy."""

@@ -5,7 +5,6 @@ import re
 import pytest
 
 from stickiness import datasets
-from stickiness.accuracy import plan
 
 pytestmark = pytest.mark.workflow
 
@@ -25,7 +24,7 @@ def answer(workflow):
     """Run, and return what was printed, the answer, and when each file of seeds was written."""
     done = workflow.snakemake(ANSWER)
     assert done.returncode == 0, done.stdout
-    files = (workflow / "results/tiny/contact/mine").glob("*.nc")
+    files = (workflow / "results/tiny/contact").glob("*/seeds*.nc")
     times = {path.name: path.stat().st_mtime_ns for path in files}
     return done.stdout, datasets.read(workflow / ANSWER), times
 
@@ -33,14 +32,17 @@ def answer(workflow):
 def test_accuracy_missed_and_reached(fresh):
     ask(fresh, "accuracy: 0.15, at_most: 2, sampling: plain")
     said, few, solved = answer(fresh)
-    assert set(solved) == {"seeds1-2.nc"}
+    assert set(solved) == {"seeds1-2_p0.05.nc"}
     assert few.attrs["missed"].startswith("mine: error 0.")
     assert few.attrs["missed"] in said
     enough = int(re.search(r"set cases\.mine\.seeds to (\d+)", few.attrs["missed"])[1])
 
     ask(fresh, f"accuracy: 0.15, seeds: {enough}, sampling: plain")
     _, many, more = answer(fresh)
-    assert set(more) == {*solved, *(f"seeds{part}.nc" for part in plan.seed_batches(enough))}
+    firsts = [3, *range(9, enough + 1, 8)]
+    lasts = [*(first - 1 for first in firsts[1:]), enough]
+    new = [f"seeds{first}-{last}_p0.05.nc" for first, last in zip(firsts, lasts, strict=True)]
+    assert set(more) == {*solved, *new}
     assert {name: more[name] for name in solved} == solved
     error = many.value_total_error / many.value
     assert (error < few.value_total_error / few.value).all()

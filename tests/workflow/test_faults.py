@@ -12,8 +12,8 @@ from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 
-SURFACE = "results/tiny/surfaces/H0.9_zeta64/seeds1-2.nc"
-SOLVED = "results/tiny/contact/H0.9_zeta64/seeds1-2.nc"
+SURFACE = "results/tiny/surfaces/H0.9_zeta64@4/seeds1-2.nc"
+SOLVED = "results/tiny/contact/H0.9_zeta64@4_1e-06/seeds1-2_p0.0065_0.03_0.065_0.13_0.3.nc"
 
 
 def wait_for(find, run):

@@ -9,6 +9,14 @@ from helpers.copy_workflow import copy_code
 pytestmark = pytest.mark.workflow
 
 SOLUTIONS = {"synthesise_surface", "solve_repulsive", "solve_coarse"}
+# All rules that solve for contact or loading of model surfaces, and those that answer cases.
+SOLVING = SOLUTIONS | {"contact_maps", "solve_ensemble", "solve_adhesive", "adhesive_maps"}
+SOLVING |= {"follow_loop"}
+ANSWERING = {"answer_case", "answer_by_theory"}
+# What shows answers of cases, and the theory that goes with a case.
+SHOWING = {"persson_lattice", "compare_theory", "tabulate_a_v", "average_adhesive", "map_criterion"}
+SHOWING |= {"compare_criteria", "check_claims", "write_report", "write_findings"}
+SHOWING |= {f"plot_fig{number}" for number in range(1, 14)}
 
 
 def test_a_complete_run_has_no_warnings_and_leaves_nothing_to_do(finished):
@@ -86,8 +94,8 @@ def test_a_change_reruns_what_uses_it(copy_of_finished, path, texts, reruns, lea
 
 
 def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finished):
-    """Loads of one case, a seed for one, plain means for one; then a seed for all."""
-    copy_of_finished.add("cases:\n  H0.8_zeta32_wide: {pressures: [0.03, 0.065]}\n")
+    """Other loads of one case, a seed for one, plain means for one."""
+    copy_of_finished.add("cases:\n  H0.8_zeta32_wide: {pressures: [0.03, 0.065, 0.07]}\n")
     planned = copy_of_finished.planned("fig5")
     assert planned["solve_repulsive"] == 1
     assert {"answer_case", "map_criterion"} <= planned.keys()
@@ -95,7 +103,7 @@ def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finis
 
     copy_of_finished.edit(
         "config/tiny.yaml",
-        "H0.8_zeta32_wide: {pressures: [0.03, 0.065]}",
+        "H0.8_zeta32_wide: {pressures: [0.03, 0.065, 0.07]}",
         "H0.9_zeta64: {seeds: 3}",
     )
     planned = copy_of_finished.planned()
@@ -108,12 +116,161 @@ def test_changes_of_cases_rerun_those_cases_and_what_averages_them(copy_of_finis
     assert SOLUTIONS.isdisjoint(planned)
 
 
+def plan_changes(workflow):
+    """What a change solves by rule, and the cases that it answers; the rest shows these."""
+    planned = workflow.outputs("all", "cases")
+    solved = {rule: files for rule, files in planned.items() if rule in SOLVING}
+    answered = {
+        file.removeprefix("cases/").removesuffix(".nc")
+        for rule, files in planned.items()
+        if rule in ANSWERING
+        for file in files
+        if file.startswith("cases/")
+    }
+    assert planned.keys() - SOLVING - ANSWERING <= SHOWING
+    return solved, answered
+
+
+SURFACE = "{surface: H0.7_zeta64, pressures: "
+SHORT = "[0.0065, 0.03, 0.065, 0.13, 0.3"  # loads of the case on this surface
+ALL_CASES = {"H0.8_zeta32", "H0.8_zeta64", "H0.8_zeta128", "H0.8_zeta32_wide"}
+ALL_CASES |= {"H0.7_zeta64", "H0.9_zeta64"}
+FINE, COARSE = "contact/H0.7_zeta64@4_1e-06/seeds", "contact/H0.7_zeta64@2_1e-06/coarse"
+SURFACES = "surfaces/H0.7_zeta64@4/seeds"
+MORE_SEEDS = {
+    "synthesise_surface": {f"{SURFACES}3-4.nc"},
+    "solve_repulsive": {f"{FINE}3-4_p0.03.nc"},
+}
+
+# Additions to a finished run: lines of cases, what is solved for them, and what is answered.
+ADDITIONS = {
+    "case of fewer seeds": (f"  mine: {SURFACE}[0.03], seeds: 1}}", {}, {"mine"}),
+    "case of more seeds": (f"  mine: {SURFACE}[0.03], seeds: 4}}", MORE_SEEDS, {"mine"}),
+    "case with a load of its own": (
+        f"  mine: {SURFACE}[0.03, 0.05], seeds: 1}}",
+        {
+            "solve_repulsive": {f"{FINE}1-1_p0.05.nc"},
+            "solve_coarse": {f"{COARSE}1-32_p0.05.nc"},
+        },
+        {"mine"},
+    ),
+    "case of theory": (f"  mine: {SURFACE}[0.03], model: theory}}", {}, {"mine"}),
+    "seeds of a case": (
+        "  H0.7_zeta64: {seeds: 4}",
+        {
+            "synthesise_surface": {f"{SURFACES}3-4.nc"},
+            "solve_repulsive": {f"{FINE}3-4_p0.0065_0.03_0.065_0.13_0.3.nc"},
+        },
+        {"H0.7_zeta64"},
+    ),
+    "load of a case": (
+        f"  H0.7_zeta64: {{pressures: {SHORT}, 0.05]}}",
+        {
+            "solve_repulsive": {f"{FINE}1-2_p0.05.nc"},
+            "solve_coarse": {f"{COARSE}1-32_p0.05.nc"},
+        },
+        {"H0.7_zeta64"},
+    ),
+    "fewer loads of a case": ("  H0.7_zeta64: {pressures: [0.03, 0.065]}", {}, {"H0.7_zeta64"}),
+    "quantity of a case": (
+        "  H0.7_zeta64: {quantities: [a_v, contact_slope]}",
+        {},
+        {"H0.7_zeta64"},
+    ),
+}
+
+
+@pytest.mark.parametrize(("case", "solved", "answered"), ADDITIONS.values(), ids=ADDITIONS)
+def test_only_what_is_new_is_solved(copy_of_finished, case, solved, answered):
+    copy_of_finished.add(f"cases:\n{case}\n")
+    assert plan_changes(copy_of_finished) == (solved, answered)
+
+
 def test_a_new_case_leaves_the_figures_of_other_cases(copy_of_finished):
     copy_of_finished.add("cases:\n  mine: {surface: H0.7_zeta64, pressures: [0.05]}\n")
     assert copy_of_finished.planned("fig1", "fig2", "fig4") == {}
     assert copy_of_finished.planned("results/tiny/persson/lattice/mine.nc") == {
         "persson_lattice": 1
     }
+
+
+def test_a_new_surface_a_material_and_a_case_that_goes_solve_nothing_else(copy_of_finished):
+    copy_of_finished.add("cases:\n  mine: {surface: new, pressures: [0.05]}\n")
+    config = "config/tiny.yaml"
+    new = "model_surfaces:\n  new: {hurst: 0.6, magnification: 8}\n"
+    copy_of_finished.edit(config, "model_surfaces:\n", new)
+    solved = {
+        "synthesise_surface": {"surfaces/new@4/seeds1-2.nc"},
+        "solve_repulsive": {"contact/new@4_1e-06/seeds1-2_p0.05.nc"},
+        "solve_coarse": {"contact/new@2_1e-06/coarse1-32_p0.05.nc"},
+    }
+    assert plan_changes(copy_of_finished) == (solved, {"mine"})
+    copy_of_finished.edit(config, "cases:\n  mine: {surface: new, pressures: [0.05]}\n", "")
+    assert copy_of_finished.planned() == {}
+
+    # A case of the configuration that every run includes.
+    text = "  H0.9_zeta64:\n    surface: H0.9_zeta64\n    pressures: *short\n"
+    copy_of_finished.edit("config/config.yaml", text, "")
+    assert plan_changes(copy_of_finished) == ({}, set())
+    copy_of_finished.edit(
+        "config/config.yaml", "  H0.7_zeta64:\n    surface", "  renamed:\n    surface"
+    )
+    assert plan_changes(copy_of_finished) == ({}, {"renamed"})
+
+    before = copy_of_finished.outputs()
+    copy_of_finished.add("  mine: {common: pdms}\n", "config/materials.yaml")
+    after = copy_of_finished.outputs()
+    assert before.keys() & (SOLVING | ANSWERING) == after.keys() & (SOLVING | ANSWERING)
+    assert {"judge", "write_surface"} <= after.keys() - before.keys()
+
+
+def test_what_was_solved_for_a_case_outlives_it(copy_of_finished):
+    """More seeds and loads are solved; then the case changes in every way, and goes."""
+    workflow, config = copy_of_finished, "config/tiny.yaml"
+    case = f"  mine: {SURFACE}[0.03, 0.05], seeds: 4, quantities: [area]}}\n"
+    workflow.add(f"cases:\n  H0.9_zeta64: {{seeds: 3}}\n{case}")
+    cases = ["results/tiny/cases/mine.nc", "results/tiny/cases/H0.9_zeta64.nc"]
+    done = workflow.snakemake(*cases)
+    assert done.returncode == 0, done.stdout
+    assert workflow.planned(*cases) == {}
+
+    def change(old, new):
+        workflow.edit(config, old, new)
+        solved, answered = plan_changes(workflow)
+        assert solved == {}
+        return answered - {"H0.9_zeta64"}
+
+    # The other case shares a file with this one, and does not notice.
+    assert change("seeds: 3}", "seeds: 3}  # nothing") == set()
+    assert change("seeds: 4, quantities", "seeds: 2, quantities") == {"mine"}
+    assert change("[0.03, 0.05], seeds: 2", "[0.03], seeds: 2") == {"mine"}
+    assert change("quantities: [area]", "quantities: [area, a_v, contact_slope]") == {"mine"}
+    assert change("  mine:", "  yours:") == {"yours"}
+    assert change("  H0.9_zeta64: {seeds: 3}", "  H0.9_zeta64: {seeds: 2}") == {"yours"}
+    assert plan_changes(workflow) == ({}, {"yours", "H0.9_zeta64"})
+    text = (workflow / config).read_text(encoding="utf-8")
+    (workflow / config).write_text(text[: text.index("cases:\n")], encoding="utf-8")
+    assert plan_changes(workflow) == ({}, {"H0.9_zeta64"})
+
+
+def test_another_fidelity_or_preset_and_back_solves_nothing(copy_of_finished):
+    workflow, config = copy_of_finished, "config/tiny.yaml"
+    answers = ["results/tiny/cases/H0.7_zeta64.nc"]
+    workflow.edit(config, "tiny: {pixels_per_wavelength: 4", "tiny: {pixels_per_wavelength: 6")
+    done = workflow.snakemake(*answers)
+    assert done.returncode == 0, done.stdout
+    for name in ("surfaces/H0.7_zeta64@6", "contact/H0.7_zeta64@6_1e-06"):
+        assert list((workflow / "results/tiny" / name).glob("seeds1-2*.nc"))
+    # The coarse grid is the same.
+    assert len(list((workflow / "results/tiny/contact/H0.7_zeta64@2_1e-06").iterdir())) == 1
+    workflow.edit(config, "tiny: {pixels_per_wavelength: 6", "tiny: {pixels_per_wavelength: 4")
+    assert plan_changes(workflow) == ({}, {"H0.7_zeta64"})
+
+    workflow.edit(config, "fidelity: tiny", "fidelity: draft")
+    planned = workflow.planned("cases")
+    assert planned["solve_repulsive"] == 6
+    workflow.edit(config, "fidelity: draft", "fidelity: tiny")
+    assert plan_changes(workflow) == ({}, {"H0.7_zeta64"})
 
 
 def test_comments_docstrings_and_times_of_change_rerun_nothing(copy_of_finished):
@@ -163,5 +320,5 @@ def test_adhesion_is_solved_in_full_only_where_the_dmt_limit_is_not_good_enough(
         )
     done = fresh.dry_run(*(f"results/tiny/adhesion/full/{name}.nc" for name in models))
     assert done.returncode == 0, done.stdout
-    solved = re.findall(r"Solve contact with adhesion: (\w+), seeds", done.stdout)
+    solved = re.findall(r"output: results/tiny/adhesion/full/(\w+)/seeds", done.stdout)
     assert set(solved) == {"close", "full"}

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from helpers.copy_workflow import PARTS, ROOT
-from helpers.dry_runs import dry_run, jobs
+from helpers.dry_runs import dry_run, jobs, outputs
 
 pytestmark = pytest.mark.workflow
 
@@ -73,6 +73,20 @@ def test_a_prefix_holds_for_results_alone(folder):
     (folder / "data/wall.txt").write_text("not read in a dry-run", encoding="utf-8")
     rules = ("analyse_surface", "judge_surface", "picture_contact", "write_surface")
     assert jobs(dry_run(folder, f"deep/{PAGE}")) == {f"stickiness_{rule}": 1 for rule in rules}
+
+
+def test_what_is_solved_is_found_below_a_prefix(folder):
+    text = (EXAMPLE / "Snakefile").read_text(encoding="utf-8")
+    text = text.replace('"../../Snakefile"', f'"{ROOT}/Snakefile"\n    prefix:\n        "deep"')
+    (folder / "Snakefile").write_text(text, encoding="utf-8")
+    surfaces = folder / "deep/results/stickiness/draft/surfaces/H0.7_zeta64@4"
+    surfaces.mkdir(parents=True)
+    (surfaces / "seeds1-1.nc").touch()  # a dry-run does not read it
+    answer = "deep/results/stickiness/draft/cases/H0.7_zeta64.nc"
+    planned = outputs(dry_run(folder, answer))
+    assert planned["stickiness_synthesise_surface"] == {
+        "stickiness/draft/surfaces/H0.7_zeta64@4/seeds2-3.nc"
+    }
 
 
 def test_claims_say_which_surface_they_lack(folder):

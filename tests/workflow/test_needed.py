@@ -30,7 +30,7 @@ def test_a_verdict_needs_no_simulation_and_a_page_no_other_surface(fresh):
     ("keys", "jobs"),
     [
         ("model: theory", {"persson_lattice": 1, "answer_by_theory": 1}),
-        ("quantities: [area]", SIMULATION | {"answer_areas": 1}),
+        ("quantities: [area]", SIMULATION | {"answer_case": 1}),
         ("quantities: [a_v, kappa]", SIMULATION | {"answer_case": 1}),
     ],
 )

@@ -11,24 +11,16 @@ ROOT = Path(__file__).parents[2]
 PROFILE = yaml.safe_load((ROOT / "profiles/slurm/config.yaml").read_text(encoding="utf-8"))
 
 
-ASKED = """
-from common.job import mock
-
-asked = mock({!r}, configfiles=["config/tiny.yaml"]).resources
-print(asked.mem_mb, asked.runtime)
-"""
-
-
 def ask(workflow, target):
     """Memory [MB] and time [min] that the job of a target asks for."""
-    done = workflow.python("-c", ASKED.format(target))
-    assert done.returncode == 0, done.stderr
-    return tuple(map(int, done.stdout.split()))
+    listed = workflow.dry_run(target).stdout
+    resources = re.search(r"resources: (.*)", listed[listed.index(f"output: {target}") :])[1]
+    return tuple(int(re.search(rf"{name}=(\d+)", resources)[1]) for name in ("mem_mb", "runtime"))
 
 
 @pytest.mark.workflow
 def test_a_larger_grid_asks_for_more(fresh):
-    target = "results/tiny/contact/H0.7_zeta64/seeds1-2.nc"
+    target = "results/tiny/contact/H0.7_zeta64@4_1e-06/seeds1-2_p0.0065_0.03_0.065_0.13_0.3.nc"
     small = ask(fresh, target)
     fresh.edit(
         "config/tiny.yaml", "hurst: 0.7, magnification: 8", "hurst: 0.7, magnification: 1024"

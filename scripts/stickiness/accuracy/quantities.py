@@ -27,28 +27,31 @@ class Column:
     #: where along `range` or `gap`, over h_rms
     at: Mapping[str, float] = field(default_factory=dict)
     file: str = "ensemble"  #: or the fit ``a_v`` or ``kappa``
-    #: Measures it on one solution, from heights (n, n) over h_rms, gaps (n, n) over h_rms and
-    #: the side of the cell over 1/q0. Solvers call it if a case asks for the quantity. Theory does
-    #: not give such a quantity, and its errors have no model.
-    measure: Callable[[NDArray, NDArray, float], float] | None = None
+    #: Takes heights (n, n) over h_rms and the side of the cell over 1/q0, and returns what measures
+    #: the quantity on a solution, from its gaps (n, n) over h_rms. Solvers call it for every
+    #: solution, which may thus serve any case. Theory does not give such a quantity, and its errors
+    #: have no model.
+    measure: Callable[[NDArray, float], Callable[[NDArray], float]] | None = None
 
 
-def slope_within_contact(heights: NDArray, gap: NDArray, length: float) -> float:
-    """Return the rms gradient of heights (n, n) over the points in contact; NaN without contact.
+def slope_within_contact(heights: NDArray, length: float) -> Callable[[NDArray], float]:
+    """Return what gives, from gaps, the rms gradient of heights (n, n) over the points in contact.
 
-    Gaps are 0 in contact; `length` is the side of the cell in the unit of the heights. Derivatives
-    are taken in Fourier space, as in `surface.moments`, so that full contact has the rms slope of
-    the surface.
+    Gaps are 0 in contact; without contact the result is NaN. `length` is the side of the cell in
+    the unit of the heights. Derivatives are taken in Fourier space, as in `surface.moments`, so
+    that full contact has the rms slope of the surface.
     """
-    touching = gap == 0
-    if not touching.any():
-        return np.nan
     n = heights.shape[0]
     waves = np.fft.rfft2(heights)
     kx = 2 * np.pi / length * np.fft.fftfreq(n, 1 / n)[:, None]
     ky = 2 * np.pi / length * np.fft.rfftfreq(n, 1 / n)[None, :]
     square = sum(np.fft.irfft2(1j * k * waves, s=heights.shape) ** 2 for k in (kx, ky))
-    return float(np.sqrt(square[touching].mean()))
+
+    def measure(gap: NDArray) -> float:
+        touching = gap == 0
+        return float(np.sqrt(square[touching].mean())) if touching.any() else np.nan
+
+    return measure
 
 
 def _attractive_area(range: float) -> Column:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive
+from stickiness.compiled import compiled
 
 #: Width by which contact is too large, in pixels per pixel side of boundary (Yastrebov, Anciaux &
 #: Molinari, Tribol. Int. 114, 161, 2017, arXiv:1701.02727, with 0.118 from geometry). Measured, it
@@ -34,7 +35,6 @@ _DISTANCE = np.array(
 )
 _MEAN_DISTANCE = 0.5 + 2 * STRIP_WIDTH  # of first open points, along grid lines
 _LOW = 0.1  # ratio below which the first point has hardly opened
-_BLOCK = 1 << 18  # points treated at a time
 _LEVEL = 1e-6  # relative difference of s below which neighbours count as equal
 
 
@@ -102,14 +102,9 @@ def attractive_area(
         # gap: it gets the one that the edge law has there.
         for at_edges in edges_by_axis:
             np.maximum.at(s, at_edges.index, at_edges.lifted)
+        node = np.searchsorted(levels, s)  # first level that s is within
         for axis, weight in enumerate(weights):
-            # Intervals between open neighbours, block by block of lines along the axis.
-            rows = s if axis == 1 else s.T
-            mask = touching if axis == 1 else touching.T
-            step = max(1, _BLOCK // rows.shape[1])
-            for start in range(0, rows.shape[0], step):
-                block = slice(start, start + step)
-                length += weight * _between_open_points(rows[block], mask[block], levels)
+            length += weight * _between_open_points(s, touching, node, levels, axis)
             # Intervals between an edge and the first open point, of all grids together below.
             at_edges = edges_by_axis[axis]
             first = s[at_edges.index]
@@ -158,37 +153,43 @@ def _sides(contact: ArrayLike) -> NDArray:
     )
 
 
-def _between_open_points(s: NDArray, contact: NDArray, levels: NDArray) -> NDArray:
-    """Length up to every level of the intervals between open neighbours, along the last axis."""
-    end = levels.size
-    node = np.searchsorted(levels, s.ravel()).reshape(s.shape)  # first level that s is within
-    both_open = ~(contact | np.roll(contact, -1, axis=1))
-    left_node = node[both_open]
-    right_node = np.roll(node, -1, axis=1)[both_open]
-    # Both ends are within the level: the interval counts as a whole.
-    upper_node = np.maximum(left_node, right_node)
-    whole = np.bincount(upper_node, minlength=end + 1)[:end].cumsum().astype(float)
-    # Levels between the ends: a part of it does.
-    crossed = left_node != right_node
-    left = s[both_open][crossed]
-    right = np.roll(s, -1, axis=1)[both_open][crossed]
-    low = np.minimum(left, right)
-    high = np.maximum(left, right)
-    # A step of rounding size has no length below its top that could matter.
-    steep = high - low > _LEVEL * high
-    rate = 1 / (high - low)[steep]
-    low = low[steep]
-    first = np.minimum(left_node, right_node)[crossed][steep]
-    last = upper_node[crossed][steep]
+def _between_open_points(
+    s: NDArray, contact: NDArray, node: NDArray, levels: NDArray, axis: int
+) -> NDArray:
+    """Length up to every level of the intervals between open neighbours along an axis."""
+    whole, rates, parts = np.zeros((3, levels.size + 1))
+    _add_intervals(s, contact, node, axis, whole, rates, parts)
+    crossed = levels * rates[:-1].cumsum() - parts[:-1].cumsum()
+    return whole[:-1].cumsum() + crossed
 
-    def sum_up(weights):
-        """Sum of weights, for every level, over the intervals that it crosses."""
-        begun = np.bincount(first, weights=weights, minlength=end + 1)
-        ended = np.bincount(last, weights=weights, minlength=end + 1)
-        return (begun - ended)[:end].cumsum()
 
-    # Between `first` and `last` an interval holds (level - low) rate.
-    return whole + levels * sum_up(rate) - sum_up(low * rate)
+@compiled
+def _add_intervals(s, contact, node, axis, whole, rates, parts):
+    """Add every interval where it changes the sums over those up to a level, and over those across.
+
+    From its first level on, an interval holds (level - low) rate, and from its last one on all of
+    it. `node` gives the first level that a point is within.
+    """
+    rows, columns = s.shape
+    for i in range(rows):
+        below = (i + 1 - axis) % rows
+        for j in range(columns):
+            beside = (j + axis) % columns
+            if contact[i, j] or contact[below, beside]:
+                continue
+            first = min(node[i, j], node[below, beside])
+            last = max(node[i, j], node[below, beside])
+            whole[last] += 1
+            if first < last:
+                low = min(s[i, j], s[below, beside])
+                high = max(s[i, j], s[below, beside])
+                # A step of rounding size has no length below its top that could matter.
+                if high - low > _LEVEL * high:
+                    rate = 1 / (high - low)
+                    rates[first] += rate
+                    rates[last] -= rate
+                    parts[first] += low * rate
+                    parts[last] -= low * rate
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What cases are solved with, and which of them share solutions."""
+"""What cases are solved with."""
 
 import math
 from dataclasses import replace
@@ -68,7 +68,6 @@ def test_accuracy_has_the_cheapest_settings_and_seeds_enough_to_show_it():
     assert stated_error(of_case, settings) <= 0.05
     if settings.seeds > chosen.seeds:
         assert stated_error(of_case, replace(settings, seeds=settings.seeds - 1)) > 0.05
-    assert not plans["a"].gaps
     assert not plans["a"].complete
 
 
@@ -79,15 +78,6 @@ def test_seeds_of_a_case_stand_above_its_accuracy_and_a_cap_holds_for_what_is_ch
     given["sampling"]["at_most"] = 3
     plans = plan.plans_of(given, made_up())
     assert [plans[name].settings.seeds for name in cases] == [3, 5, 100]
-    assert {one.solved_by for one in plans.values()} == {"a"}  # more seeds keep what is solved
-
-
-@pytest.mark.parametrize(("count", "more"), [(0, 1), (32, 64), (64, 65), (96, 128), (320, 1024)])
-def test_files_of_coarse_seeds_hold_each_once_and_more_seeds_keep_all_but_the_last(count, more):
-    few, many = plan.coarse_batches(count), plan.coarse_batches(more)
-    seeds = [seed for part in few for seed in plan.seeds_in(part)]
-    assert seeds == list(range(1, count + 1))
-    assert few[:-1] == many[: max(len(few) - 1, 0)]
 
 
 @pytest.mark.parametrize(
@@ -102,48 +92,8 @@ def test_quantities_that_nothing_knows_are_refused_at_start(case, message):
         plan.plans_of(config(a={"quantities": ["contact_slope"], **case}), made_up())
 
 
-@pytest.mark.parametrize(
-    ("first", "needed"),
-    [({}, ["area", "contact_slope"]), ({"quantities": ["area"]}, ["area", "attractive_area"])],
-)
-def test_solutions_that_lack_a_quantity_are_not_shared_with_what_needs_it(first, needed):
-    cases = config(first=first, later={"quantities": needed}, last={"quantities": needed})
-    plans = plan.plans_of(cases, made_up())
-    assert [one.solved_by for one in plans.values()] == ["first", "later", "later"]
-    assert set(plans["later"].measured) == set(needed) & {"contact_slope"}
-
-
 def test_accuracy_out_of_reach_names_the_case():
     with pytest.raises(
         UnreachableError, match=r"cases\.a\.accuracy = 0\.0001 is out of reach: the best"
     ):
         plan.plans_of(config(a={"accuracy": 1e-4}), made_up())
-
-
-@pytest.mark.parametrize(
-    ("later", "reuses"),
-    [
-        ({"pressures": [0.1]}, True),
-        ({"quantities": ["area"]}, True),
-        ({"seeds": 9}, True),  # other realisations of the same solutions
-        ({"pressures": [0.1, 0.2]}, False),
-        ({"surface": "other"}, False),
-        ({"accuracy": 0.3}, False),  # another grid
-        ({"model": "theory"}, False),
-    ],
-)
-def test_which_solutions_are_reused(later, reuses):
-    plans = plan.plans_of(config(first={}, later=later), made_up())
-    assert plans["later"].solved_by == ("first" if reuses else "later")
-
-
-def test_cases_are_compared_only_with_those_on_their_surface(monkeypatch):
-    compared = []
-    can_reuse = plan.can_reuse
-    monkeypatch.setattr(
-        plan, "can_reuse", lambda *plans: compared.append(plans) or can_reuse(*plans)
-    )
-    pairs = {f"{name}{i}": {"surface": f"surface{i}"} for i in range(50) for name in "ab"}
-    plans = plan.plans_of(config(**pairs), made_up())
-    assert len(compared) == 50
-    assert plans["b7"].solved_by == "a7"
