@@ -10,7 +10,7 @@ A_V_FILES = {
 
 # What pages are made of, here and in report.smk.
 PAGE_PARTS = [
-    project_file(f"report/{part}")
+    project_file(f"scripts/stickiness/pages/templates/{part}")
     for part in ("macros.html.j2", "left_out.j2", "page.css", "page.js")
 ]
 
@@ -49,7 +49,6 @@ MATERIAL_SURFACES = several("real_surfaces/{surface}.nc", surface=material_surfa
 JUDGED = {
     "material_surfaces": material_surfaces(),
     "materials": MATERIALS,
-    "frequencies": config["criteria"]["frequencies"],
 }
 
 
@@ -68,9 +67,7 @@ rule judge_surface:
         "../envs/environment.yaml"
     params:
         **JUDGED,
-        labels=lambda wildcards: {
-            name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
-        },
+        label=lambda wildcards: LABELS[wildcards.real_surface],
         code=source_hash("criteria/judge_surface.py"),
     message:
         "Judge all materials on a surface: {wildcards.real_surface}"

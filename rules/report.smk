@@ -20,14 +20,12 @@ def figure_sources(wildcards, output):
 def contact_of_surface(wildcards):
     """Simulated contact of measured heights that the page of a surface shows, if there is any."""
     name = wildcards.real_surface
-    found = {}
-    if name in MEASURED_SURFACES and REAL_SURFACES[name]["bem"]:
-        found["measured_contact"] = f"{RESULTS}/real_surfaces/contact/{name}.nc"
-    if name in MEASURED_SURFACES:
-        found["contact"] = f"{RESULTS}/real_surfaces/pictures/{name}.nc"
-        found["pull_off"] = f"{RESULTS}/real_surfaces/pull_off/{name}.nc"
-        found["contact_figure"] = f"{RESULTS}/figures/surfaces/{name}_contact.png"
-    return found
+    if name not in MEASURED_SURFACES:
+        return {}
+    return {
+        "contact": f"{RESULTS}/real_surfaces/pictures/{name}.nc",
+        "pull_off": f"{RESULTS}/real_surfaces/pull_off/{name}.nc",
+    }
 
 
 rule write_report:
@@ -86,34 +84,29 @@ rule write_report:
 rule write_surface:
     input:
         unpack(contact_of_surface),
-        template=project_file("report/surface.html.j2"),
         parts=[
             *PAGE_PARTS,
-            project_file("report/thresholds.html.j2"),
-            project_file("report/reasons.html.j2"),
+            *(
+                project_file(f"scripts/stickiness/pages/templates/{part}.html.j2")
+                for part in ("surface", "thresholds", "reasons")
+            ),
         ],
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
     output:
-        figure=f"{RESULTS}/figures/surfaces/{{real_surface}}.png",
-        curves=f"{RESULTS}/figures/surfaces/{{real_surface}}_curves.png",
         page=report(
             f"{RESULTS}/report/surfaces/{{real_surface}}.html",
             category="Surfaces",
             caption="../report/surface.rst",
         ),
     log:
-        f"{RESULTS}/logs/write_surface/figures/surfaces/{{real_surface}}.log",
+        f"{RESULTS}/logs/write_surface/report/surfaces/{{real_surface}}.log",
     benchmark:
-        f"{RESULTS}/benchmarks/write_surface/figures/surfaces/{{real_surface}}.tsv"
+        f"{RESULTS}/benchmarks/write_surface/report/surfaces/{{real_surface}}.tsv"
     conda:
         "../envs/environment.yaml"
     params:
-        materials=MATERIALS,
         surface=lambda wildcards: REAL_SURFACES[wildcards.real_surface],
-        labels=lambda wildcards: {
-            name: LABELS[name] for name in [wildcards.real_surface, *material_surfaces()]
-        },
         code=source_hash("report/write_surface.py"),
     message:
         "Write the page of a surface: {wildcards.real_surface}"
@@ -125,8 +118,9 @@ rule write_findings:
     input:
         template=project_file("report/findings.md.j2"),
         parts=[
-            project_file(f"report/{part}")
-            for part in ("left_out.j2", "panels.j2", "claim_verdicts.j2")
+            project_file("scripts/stickiness/pages/templates/left_out.j2"),
+            project_file("report/panels.j2"),
+            project_file("report/claim_verdicts.j2"),
         ],
         adhesive_maps=f"{RESULTS}/adhesion/full/fig2/maps.nc",
         claims=f"{RESULTS}/claims/claims.nc",

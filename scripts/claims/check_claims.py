@@ -9,8 +9,8 @@ from claims import adhesion_claims, contact_claims, criterion_claims, errata
 from claims.ledger import DIFFERS, collect
 from common import remaining_table
 from common.job import start
-from common.templates import make_environment, write_page
 from stickiness import datasets, error_budget
+from stickiness.pages.rendering import make_environment, write_page
 
 CLAIMS = collect(contact_claims, adhesion_claims, criterion_claims)
 PROSE = ("statement", "quantity", "remark", "comment", "difference")

@@ -7,30 +7,30 @@ import pandas as pd
 import xarray as xr
 
 from common.job import start
-from common.materials import find_doubts
-from common.table_rows import arrange_pairs
-from common.templates import write_page
-from common.verdict_texts import KPA, MPA, SHARES
+from common.pairs import SHARES, arrange_pairs, list_doubts
 from stickiness import datasets
 from stickiness.criteria.a_v_table import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import percent
+from stickiness.pages.rendering import write_page
 from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.limits import read_limited
 
+KPA = 1e3  # [Pa]
+MPA = 1e6
 # Head, unit and its size of the quantities that are tabulated with their limits.
 TABULATED = {
     "remaining": ("remains", "%", 0.01),
     "pull_off": ("pull-off", "kPa", KPA),
-    "modulus_threshold": ("E* threshold", "MPa", MPA),
+    "modulus_threshold": ("threshold of E", "MPa", MPA),
+    "plane_strain_modulus_threshold": ("threshold of E*", "MPa", MPA),
 }
 COLUMN_WIDTH = 26  # in characters
 
 
 def main(job):
-    materials = job.params.materials
     labels = job.params.labels
     output = job.output
     dataset = join_surfaces([datasets.read(path) for path in job.input.verdicts])
@@ -38,9 +38,9 @@ def main(job):
         dataset,
         output.dataset,
         title="verdicts of the stickiness criteria",
-        parameters={"materials": materials, "labels": labels},
+        parameters={"materials": job.params.materials, "labels": labels},
     )
-    shown = describe_page(dataset, materials, labels)
+    shown = describe_page(dataset, labels)
     write_page(job.input.template, output.table, **shown)
     write_page(job.input.page, output.page, files=dict(output.items()), **shown)
     frame = tabulate_pairs(shown["pairs"])
@@ -71,16 +71,16 @@ def join_surfaces(verdicts):
     return joined
 
 
-def describe_page(dataset, materials, labels):
+def describe_page(dataset, labels):
     """What the pages show; `labels` are those of the surfaces."""
     others = [c for c in CRITERIA.values() if c.has_length and c.name != REMAINING]
-    rows = arrange_pairs(dataset, materials, labels)
+    rows = arrange_pairs(dataset, labels)
     rows.sort(key=lambda row: (not row["mine"], -row["sort"]["energy_ratio"]))
     return {
         "wanted": DEFAULT_SHARE,
         "full": FULL_SHARE,
         "theory_error": THEORY_ERROR,
-        "doubts": [doubt for entry in materials.values() for doubt in find_doubts(entry)],
+        "doubts": list_doubts(dataset),
         "shares": SHARES,
         "pairs": [row | {"keeps": list_kept(row["pair"])} for row in rows],
         "criteria": CRITERIA,
@@ -113,6 +113,7 @@ def tabulate_pairs(rows):
             "entry": "yours" if row["mine"] else "other",
             "verdict": row["word"],
             "judged": row["moment"],
+            "E [MPa]": float(pair.modulus_given) / MPA,
             "E* [MPa]": float(pair.modulus_quoted) / MPA,
             "w/U_full": float(pair.energy_ratio.sel(end="rough")),
         }

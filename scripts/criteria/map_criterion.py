@@ -12,7 +12,7 @@ from scipy.optimize import elementwise
 
 from common.conventions import logarithmic_grid
 from common.job import start
-from common.verdict_texts import SHARES
+from common.pairs import SHARES
 from criteria.compare_criteria import write_comparison
 from criteria.simulated_a_v import measure_a_v
 from stickiness import criteria, datasets, remaining

@@ -3,10 +3,10 @@
 import numpy as np
 from matplotlib.colors import ListedColormap
 
-from common import plotting
 from common.experiment_outcomes import COMPATIBLE, MARKS, SILENT
-from common.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLUE, GREEN, GREY, ORANGE, RED, make_dot, make_key
 
 FOLLOWED = "fuller_tabor"  # experiment whose pull-off is drawn against roughness
 OBSERVED = ("observed_low", "observed_high")

@@ -16,13 +16,13 @@ from common import experiment_outcomes as outcomes
 from common.config.conditions import conditions_of
 from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOMES, SILENT, SOME
 from common.job import start
-from common.templates import write_page
 from experiments import plot_experiments
 from stickiness import datasets
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
+from stickiness.pages.rendering import write_page
 from stickiness.remaining import sphere
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.roughness import Roughness

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from common import plotting
 from common.conventions import VARIANT
 from common.job import start
-from common.plotting import COLOURS, GREY, interpolate, make_key, state
 from common.theory_variants import between_corrections
 from figures.theory_curves import DENSITY, VARIANT_KEYS, draw_variants, dress_density
 from stickiness import datasets
+from stickiness.pages import plotting
+from stickiness.pages.plotting import COLOURS, GREY, interpolate, make_key, state
 
 GAPS = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0]  # over h_rms, of panel B
 

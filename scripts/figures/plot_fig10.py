@@ -5,11 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
-from common import plotting
 from common.conventions import LOAD
 from common.edge_points import COLUMNS, select_certain
 from common.job import start
-from common.plotting import BLACK, COLOURS, GREY, make_dot, make_key, pick_look, state
 from figures.theory_curves import (
     draw_theory,
     draw_variants,
@@ -19,6 +17,8 @@ from figures.theory_curves import (
 from stickiness import datasets
 from stickiness.criteria import equivalent_sphere
 from stickiness.formatting import number
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, COLOURS, GREY, make_dot, make_key, pick_look, state
 
 LOADS = [0.0065, 0.065, 0.26]  # over E* q0 h_rms, of panel C
 EXPONENT = 2 / 3

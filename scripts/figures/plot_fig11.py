@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from common import plotting, remaining_table
+from common import remaining_table
 from common.job import start
-from common.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.roughness import SHORT_RANGE, Roughness

@@ -3,11 +3,11 @@
 import numpy as np
 from scipy import stats
 
-from common import plotting
 from common.job import start
-from common.plotting import BLACK, BLUE, GREY, ORANGE, RED
 from stickiness import datasets
 from stickiness.formatting import number
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, BLUE, GREY, ORANGE, RED
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 VARIABLES = ("height", "height_skewness", "theory", "bound", "states", "simulated")

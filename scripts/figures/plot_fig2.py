@@ -6,10 +6,10 @@ from matplotlib.colors import to_rgb
 from matplotlib.patches import Rectangle
 from scipy.ndimage import gaussian_filter
 
-from common import plotting
 from common.job import start
-from common.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, state
 from stickiness import datasets
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, BLUE, GREY, make_dot, make_key, pick_look, state
 
 DETAIL = 0.13  # side of the detail in panels G to I, in window sides
 ZONES = {1: "#FF2A00", 2: plotting.ORANGE, 3: BLACK}  # colours by the codes of `zone`

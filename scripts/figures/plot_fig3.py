@@ -4,13 +4,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from common import paper_panels, plotting
+from common import paper_panels
 from common.conventions import LOAD, VARIANT
 from common.job import start
-from common.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
 from figures.theory_curves import draw_theory, name_case
 from stickiness import criteria, datasets
 from stickiness.formatting import number
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, GREY, MARKERS, make_dot, make_key, pick_look, state
 
 EXPONENT = 2 / 3
 SIMULATED_RANGES = slice(3e-3, 0.3)  # over h_rms, of the points of panel A

@@ -3,13 +3,13 @@
 import numpy as np
 import xarray as xr
 
-from common import plotting
 from common.adhesion_sets import scaled_law
 from common.conventions import VARIANT
 from common.job import start
 from common.paper_panels import A_V_FIG4B
-from common.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state
 from stickiness import criteria, datasets, dmt
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state
 
 SMALL = 3  # size of open markers
 

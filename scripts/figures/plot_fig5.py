@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from common import plotting
 from common.job import start
 from common.paper_panels import A_V, CRYSTAL, H_RMS_LIMITS
-from common.plotting import BLACK, BLUE, COLOURS, GREEN, GREY, RED, interpolate, state
 from stickiness import criteria, datasets
 from stickiness.formatting import number
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, BLUE, COLOURS, GREEN, GREY, RED, interpolate, state
 from stickiness.verdicts.limits import LIMITS
 
 LENGTH = "adhesion_length_over_range"

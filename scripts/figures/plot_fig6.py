@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from common import plotting
 from common.job import start
 from common.paper_panels import C0_LINES, HURST
-from common.plotting import BLACK, COLOURS, GREY, state
 from stickiness import datasets
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, COLOURS, GREY, state
 
 WAVE_NUMBERS = (1e2, 1e10)  # 1/m
 

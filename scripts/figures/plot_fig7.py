@@ -3,12 +3,12 @@
 import matplotlib as mpl
 import numpy as np
 
-from common import plotting
 from common.conventions import middles
 from common.job import start
-from common.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, GREY, make_dot, make_key, pick_look, state
 
 
 def main(job):

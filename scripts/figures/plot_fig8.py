@@ -4,12 +4,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from common import plotting
 from common.conventions import LINEAR_UP_TO, LOAD, VARIANT
 from common.job import start
-from common.plotting import BLACK, BLUE, GREY, RED, make_dot, make_key, pick_look, state
 from stickiness import datasets
 from stickiness.formatting import interval
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, BLUE, GREY, RED, make_dot, make_key, pick_look, state
 
 CORRECTIONS = {"yang2008": "Yang & Persson", "wang2017": "Wang & Müser", "xu2024": "Xu et al."}
 SYMBOLS = {

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from common import plotting
 from common.job import start
-from common.plotting import GREY, RED, make_key
 from stickiness import datasets
 from stickiness.criteria.registry import CRITERIA, EDGES, FULL_CONTACT, REMAINING
 from stickiness.formatting import number
+from stickiness.pages import plotting
+from stickiness.pages.plotting import GREY, RED, make_key
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,11 @@
 """Curves of Persson's theory that several figures draw, and names of the cases beside them."""
 
-from common import plotting
 from common.conventions import VARIANT
-from common.plotting import make_key, state
 from common.theory_variants import between_corrections
 from stickiness import datasets
 from stickiness.formatting import number
+from stickiness.pages import plotting
+from stickiness.pages.plotting import make_key, state
 
 DENSITY = r"probability density $h_\mathrm{rms}P(u)$"
 VARIANT_KEYS = [

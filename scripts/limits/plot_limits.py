@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from common import plotting
 from common.job import start
-from common.plotting import BLUE, GREY, RED
 from stickiness import datasets
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLUE, GREY, RED
 
 LABELS = {
     "spectrum": "spectrum",

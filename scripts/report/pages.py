@@ -1,8 +1,6 @@
 """Pictures and captions inside a page of HTML."""
 
-import base64
 import re
-import struct
 from pathlib import Path
 
 from docutils.core import publish_parts
@@ -10,6 +8,7 @@ from docutils.writers.html5_polyglot import Writer
 from markupsafe import Markup
 
 from stickiness import datasets
+from stickiness.pages.rendering import embed_png
 
 RST = {
     "raw_enabled": False,
@@ -18,16 +17,6 @@ RST = {
     "report_level": 5,
     "_disable_config": True,
 }
-
-
-def embed_png(path):
-    """A PNG as base64 text, with its name and size in pixels; ValueError if it is none."""
-    content = Path(path).read_bytes()
-    if not content.startswith(b"\x89PNG\r\n\x1a\n"):
-        raise ValueError(f"{path}: not a PNG file; delete it and re-run")
-    width, height = struct.unpack(">II", content[16:24])
-    data = base64.b64encode(content).decode("ascii")
-    return {"name": Path(path).stem, "data": data, "width": width, "height": height}
 
 
 def embed_figure(path, caption):

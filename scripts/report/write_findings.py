@@ -8,12 +8,12 @@ from common.conventions import VARIANT, at_load
 from common.edge_points import select_certain
 from common.experiment_outcomes import OUTCOMES, describe
 from common.job import start
-from common.templates import write_page
-from common.verdict_texts import count_pairs
+from common.pairs import count_pairs
 from report.pages import find_pixels
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere
 from stickiness.criteria.pair import WORDS
+from stickiness.pages.rendering import write_page
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 WELL_KNOWN = 0.25  # relative error of a predicted work that counts as met

@@ -10,10 +10,8 @@ from common import experiment_outcomes as experiments
 from common import heights_table, remaining_models
 from common.conventions import at_load
 from common.job import start
-from common.table_rows import TONES, arrange_pairs, describe_surface
-from common.templates import write_page
-from common.verdict_texts import count_pairs
-from report import interactive, pages
+from common.pairs import arrange_pairs, count_pairs
+from report import pages
 from report.pages import find_pixels
 from stickiness import datasets, error_budget
 from stickiness.accuracy import plan
@@ -22,6 +20,9 @@ from stickiness.accuracy.quantities import COLUMNS, MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, predicted_cost, worst_error
 from stickiness.criteria.pair import FULL_SHARE, NOT_JUDGED, TOUCHES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.pages import interactive
+from stickiness.pages.rendering import write_page
+from stickiness.pages.rows import TONES, describe_surface
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 CLAIM_TONES = {
@@ -51,7 +52,7 @@ def main(job):
     )
     materials = params.materials
     labels = {name: entry["label"] for name, entry in params.surfaces.items()}
-    pairs = arrange_pairs(verdicts, materials, labels)
+    pairs = arrange_pairs(verdicts, labels)
     embed = pages.embed_figure
     write_page(
         inputs.template,
@@ -72,8 +73,7 @@ def main(job):
         words=count((pair["word"] for pair in pairs), WORD_TONES),
         local_word=WORDS[TOUCHES],
         pairs=pairs,
-        labels=labels,
-        materials=[materials[key] for key in dict.fromkeys(pair["key"] for pair in pairs)],
+        materials=list({pair["key"]: pair | materials[pair["key"]] for pair in pairs}.values()),
         library=interactive.library(),
         every_pair=interactive.embed(interactive.draw_pairs(pairs)),
         disagreements=find_disagreements(verdicts),

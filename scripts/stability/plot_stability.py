@@ -7,9 +7,9 @@ from matplotlib.colors import ListedColormap
 from matplotlib.patches import Patch
 
 from common.job import start
-from common.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 from stickiness import datasets
 from stickiness.formatting import number
+from stickiness.pages.plotting import BLACK, BLUE, ORANGE, YELLOW, open_figure
 
 COLOURS = (BLUE, YELLOW, ORANGE, BLACK)  # of the outcomes, in order
 

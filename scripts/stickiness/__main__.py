@@ -1,31 +1,26 @@
 """Say whether a material sticks to a measured surface, and make a page with the reasons."""
 
 import argparse
-import errno
 import fcntl
 import json
+import logging
 import os
 import platform
 import re
 import shlex
-import subprocess
 import sys
-import tempfile
 import tomllib
-import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from importlib.metadata import version
-from importlib.util import find_spec
+from itertools import count
 from pathlib import Path
 from typing import Any, NoReturn
 
 from stickiness import __version__
 
-PROJECT = Path(__file__).resolve().parents[2]
-#: First line of the files that this command writes, and may replace.
-MARK = "# Written by python -m stickiness, which writes it anew: to edit it, copy the folder.\n"
+SURFACE = "surface"  #: name of the one that is judged, in files
 TEXTS = tomllib.loads(Path(__file__).with_name("command.toml").read_text(encoding="utf-8"))
 #: Options by the keys of the configuration, for which they stand.
 OPTIONS = {
@@ -49,7 +44,7 @@ def main() -> None:
 
 
 def answer() -> None:
-    """Print the verdict, then make the page and print where it is."""
+    """Analyse the heights, judge the materials on them, print the verdicts, and make the page."""
     arguments = sys.argv[1:]
     if "--materials" in arguments:
         print_materials()
@@ -65,26 +60,20 @@ def answer() -> None:
     for path in filter(None, [options.file, options.tape]):
         if not path.is_file():
             fail(f"{path}: {'a folder; give a file' if path.is_dir() else 'no such file'}")
-    material_texts, surface_texts = describe_pair(options)
     if not options.no_page:
         check_output(options.output)
     radius = None if options.radius is None else read_radius(options.radius)
-    verdicts = judge_entries(options, material_texts, surface_texts)
-    balls = find_balls(verdicts, radius)
-    if options.json:
-        print_json(verdicts, balls)
-    else:
-        for verdict, ball in zip(verdicts, balls, strict=True):
-            label = verdict.material.label
-            print(f"{label[0].upper()}{label[1:]}: {verdict}")
-            if ball:
-                print(ball)
-        for choice in verdicts[0].surface.choices:
+    materials = read_materials(options)
+    surface, entry = analyse(options)
+    verdicts = judge(materials, surface, with_page=not options.no_page)
+    balls = find_balls(surface, materials, radius)
+    print_verdicts(verdicts, balls, as_json=options.json)
+    if not options.json:
+        for choice in surface.choices:
             source, others = choice.split(" | ")
             print(f"This is {source}; the file also holds {others} (--channel, --variable)")
     if not options.no_page:
-        # All verdicts are on one surface.
-        page = make_page(options, material_texts, surface_texts, verdicts[0].surface)
+        page = make_page(options, surface, entry, materials, verdicts)
         print(f"Page: {page}", file=progress)
 
 
@@ -154,7 +143,7 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
         type=Path,
         default=Path("stickiness-results"),
         metavar="DIR",
-        help="for the page and its results (default: stickiness-results)",
+        help="for the page and its data (default: stickiness-results)",
     )
     for title in ("material", "surface"):
         group = parser.add_argument_group(title)
@@ -205,51 +194,62 @@ def choose_given(options: argparse.Namespace, group: str) -> dict[str, Any]:
     return {key: values[key] for key in TEXTS[group] if values[key] is not None}
 
 
-def describe_pair(options: argparse.Namespace) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return the material and the surface as entries of the configuration, values as given."""
-    material: dict[str, Any] = {}
-    if options.common is None:
-        material = {
-            "label": "the material",
-            "source": "command line",
-            "poisson_ratio": 0.5,
-            "range": "0.3 nm",
-        }
-    surface = {
-        "label": options.file.stem,
-        "source": options.file.name,
-        "kind": "measured",
-        "file": str(options.file),
-    }
-    return material | choose_given(options, "material"), surface | choose_given(options, "surface")
-
-
-def judge_entries(
-    options: argparse.Namespace, material_texts: dict[str, Any], surface_texts: dict[str, Any]
-) -> list:
-    """Return a `StickinessVerdict` for every material; end the command where values are wrong."""
-    from stickiness import Material, Surface, verdict
-    from stickiness.entries import EntryError, check_material, check_surface, read_materials
+@contextmanager
+def one_line() -> Iterator[None]:
+    """End the command with one line, in the words of its options, where values are wrong."""
+    from stickiness.entries import EntryError
     from stickiness.measured.topography import UntoldError
-    from stickiness.plausibility import PlausibilityWarning
 
     try:
-        if options.tape:
-            entries = read_materials(options.tape)
-        else:
-            entries = {"material": check_material(material_texts, numbers=False)}
-        surface = Surface.from_entry(check_surface(surface_texts, numbers=False))
-        materials = [Material.from_entry(entry) for entry in entries.values()]
+        yield
     except EntryError as error:
         fail(tell_entry_error(error))
     except UntoldError as error:
         fail(error.tell(OPTIONS))
     except (ValueError, OSError) as error:
         fail(" ".join(str(error).split()))
-    with warnings.catch_warnings():
-        # Every verdict has the doubts about its pair.
-        warnings.simplefilter("ignore", PlausibilityWarning)
-        return [verdict(surface, material) for material in materials]
+
+
+def read_materials(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the materials of the options or of the tape, by name."""
+    from stickiness import Material, entries
+
+    defaults: dict[str, Any] = {}
+    if options.common is None:
+        defaults = {"poisson_ratio": 0.5, "range": "0.3 nm"}
+    with one_line():
+        if options.tape:
+            checked = entries.read_materials(options.tape)
+        else:
+            given = defaults | choose_given(options, "material")
+            checked = {"material": entries.check_material(given, numbers=False)}
+        return {name: Material.from_entry(entry) for name, entry in checked.items()}
+
+
+def analyse(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
+    """Return the `Surface` of the file, and its entry as the configuration would have it."""
+    from stickiness import Surface, entries
+
+    # Texts name the file, and should not tell of the machine.
+    file = os.path.relpath(options.file) if options.file.is_absolute() else options.file
+    described = {
+        "label": options.file.stem,
+        "source": options.file.name,
+        "kind": "measured",
+        "file": str(file),
+    }
+    with one_line():
+        given = described | choose_given(options, "surface")
+        entry = entries.check_surface(given, numbers=False)
+        return Surface.from_entry(entry), entry
+
+
+def judge(materials: dict[str, Any], surface: Any, with_page: bool) -> Any:
+    """Return what `stickiness.judge` says of all materials; a page shows more of it."""
+    import stickiness
+
+    more = {"curves": with_page, "thresholds": with_page}
+    return stickiness.judge(materials, {SURFACE: surface}, **more)
 
 
 def tell_entry_error(error: Any) -> str:
@@ -258,183 +258,129 @@ def tell_entry_error(error: Any) -> str:
     return str(error) if option is None else f"{option} {error.value!r}: {error.message}"
 
 
-def find_balls(verdicts: list, radius: float | None) -> list:
-    """Return the pull-off of a ball for every verdict; None without a radius."""
+def find_balls(surface: Any, materials: dict[str, Any], radius: float | None) -> list:
+    """Return the pull-off of a ball for every material; None without a radius."""
     from stickiness.verdicts.rough_ball import pull_off_of_ball
 
     if radius is None:
-        return [None] * len(verdicts)
+        return [None] * len(materials)
     try:
-        return [pull_off_of_ball(each.surface, each.material, radius) for each in verdicts]
+        return [pull_off_of_ball(surface, material, radius) for material in materials.values()]
     except ValueError as error:
         fail(f"--{error}")
 
 
-def print_json(verdicts: list, balls: list) -> None:
-    """Print the numbers of one verdict, or of several as a list with the names of materials."""
+def print_verdicts(verdicts: Any, balls: list, as_json: bool) -> None:
+    """Print the verdict on every material, for readers or as JSON.
+
+    Several are a list in JSON, with the names of their materials.
+    """
+    from stickiness.verdicts.verdict import StickinessVerdict
+
     listed = []
-    for verdict, ball in zip(verdicts, balls, strict=True):
-        name = {"material": verdict.material.label} if len(verdicts) > 1 else {}
+    for index, ball in enumerate(balls):
+        cell = verdicts.isel(material=index, surface=0)
+        verdict = StickinessVerdict(cell)
+        label = cell.material_label.item()
+        if not as_json:
+            print(f"{label[0].upper()}{label[1:]}: {verdict}")
+            if ball:
+                print(ball)
+        name = {"material": label} if len(balls) > 1 else {}
         listed.append(name | verdict.to_dict() | ({"ball": ball.to_dict()} if ball else {}))
-    contents: Any = listed if len(listed) > 1 else listed[0]
-    print(json.dumps(contents, indent=1, ensure_ascii=False, allow_nan=False))
+    if as_json:
+        contents: Any = listed if len(listed) > 1 else listed[0]
+        print(json.dumps(contents, indent=1, ensure_ascii=False, allow_nan=False))
 
 
 def make_page(
     options: argparse.Namespace,
-    material_texts: dict[str, Any],
-    surface_texts: dict[str, Any],
     surface: Any,
+    entry: dict[str, Any],
+    materials: dict[str, Any],
+    verdicts: Any,
 ) -> Path:
-    """Run the workflow in the folder for results, and return the path of the page."""
-    if not (PROJECT / "Snakefile").is_file() or find_spec("snakemake") is None:
-        fail(
-            "no page, for this is the library without the workflow: give --no-page, or run make "
-            "install in the folder of the project and this command with its .venv/bin/python"
-        )
-    name = re.sub("[^A-Za-z0-9-]+", "_", options.file.stem).strip("_-") or "surface"
-    # The page shows the path, and should not tell of the machine.
-    file = os.path.relpath(options.file.resolve(), options.output.resolve())
-    surface_texts = surface_texts | {"file": file}
-    target = f"results/draft/report/surfaces/{name}.html"
-    command = [
-        *(sys.executable, "-m", "snakemake", "--snakefile", f"{PROJECT}/Snakefile"),
-        *("--cores=1", "--nolock", "--quiet", "host", "progress", "rules", "reason"),
-        *("--", target),  # one job after another
-    ]
-    with hold_folder(options.output) as descriptor:
-        fill_folder(options, name, material_texts, surface_texts, surface)
+    """Simulate a picture of contact, write page and data, and return the path of the page."""
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # no word where it cannot keep fonts
+    from stickiness import datasets
+    from stickiness.entries import without_texts
+    from stickiness.pages.surface_page import write_surface_page
+    from stickiness.solids import HALF_SPACE
+    from stickiness.verdicts.pressed_heights import picture_contact
+
+    # The first deep material is pulled off, or else the first.
+    pulled = min(materials.values(), key=lambda material: material.solid != HALF_SPACE)
+    picture = picture_contact(surface, pulled)
+    source = os.path.relpath(options.file.resolve(), options.output.resolve())
+    parameters = without_texts(entry) | {"file": source}
+    contents = {
+        "surface": surface.data,
+        "verdicts": verdicts,
+        "contact": picture.contact,
+        "pull_off": picture.pull_off,
+    }
+    with hold_folder(options.output):
         try:
-            run = subprocess.run(
-                command,
-                cwd=options.output,
-                env=os.environ | find_cache(options.output),
-                pass_fds=[descriptor],  # the folder is held as long as the workflow runs
-                capture_output=True,
-                encoding="utf-8",
+            name = find_name(options.output, options.file.stem, source)
+            files = {each: options.output / name / f"{each}.nc" for each in contents}
+            for each, path in files.items():
+                title = f"{each.replace('_', ' ')} of {name}"
+                datasets.write(contents[each], path, title=title, parameters=parameters)
+            page = options.output / f"{name}.html"
+            write_surface_page(
+                page,
+                entry=entry,
+                surface=surface.data,
+                verdicts=verdicts,
+                picture=picture,
+                files=files,
             )
-        except KeyboardInterrupt:
-            fail("stopped; the same command goes on")
-    if run.returncode:
-        fail(f"no page: {find_reason(run.stdout + run.stderr, options.output)}")
-    return options.output / target
+        except OSError as error:
+            fail(f"no page: --output {options.output}: {error}")
+    return page
+
+
+def find_name(folder: Path, stem: str, source: str) -> str:
+    """Return the name of a page: that of the file, with a number if another file has it.
+
+    `source` is the path of the file from the folder, which the data of a page record.
+    """
+    from stickiness import datasets
+
+    for number in count(1):
+        name = stem if number == 1 else f"{stem}-{number}"
+        if not (folder / name).exists() and not (folder / f"{name}.html").exists():
+            return name
+        with suppress(datasets.DatasetError):
+            data = datasets.read(folder / name / "surface.nc")
+            if datasets.parameters(data).get("file") == source:
+                return name
+    raise AssertionError("numbers do not end")
 
 
 @contextmanager
-def hold_folder(folder: Path) -> Iterator[int]:
-    """Keep other runs of the command out of a folder, also after this one was killed.
-
-    The lock of Snakemake would remain of a run that was killed, and does not cover the
-    configuration. Yields the descriptor of the folder.
-    """
+def hold_folder(folder: Path) -> Iterator[None]:
+    """Let one run of the command at a time write to a folder, where the file system has locks."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         descriptor = os.open(folder, os.O_RDONLY)
     except OSError as error:
         fail(f"--output {folder} cannot be written ({error.strerror}); give another folder")
     try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        yield descriptor
-    except BlockingIOError:
-        fail(
-            f"no page: another run of this command holds --output {folder}: wait until it ends, "
-            "or give another folder"
-        )
+        with suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
     finally:
         os.close(descriptor)
 
 
-def find_cache(folder: Path) -> dict[str, str]:
-    """Return where Snakemake keeps sources, if it cannot in the user's cache."""
-    cache = Path(os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache"))
-    try:
-        cache.mkdir(parents=True, exist_ok=True)
-        tempfile.TemporaryFile(dir=cache).close()
-    except OSError:
-        return {"XDG_CACHE_HOME": str(folder.absolute() / ".snakemake/cache")}
-    return {}
-
-
-def find_reason(output: str, folder: Path) -> str:
-    """Return why the workflow failed, in one line."""
-    if os.strerror(errno.ENOSPC) in output:
-        return f"the disk of --output {folder} is full: make room and run the same command again"
-    lines = [line.strip() for line in output.splitlines() if line.strip()]
-    # The workflow repeats the errors of its jobs at its end, and every line is indented by a word.
-    failed = [line.removeprefix("failed").strip() for line in lines if line.startswith("failed  ")]
-    return (failed or lines or ["the workflow failed"])[-1]
-
-
 def check_output(folder: Path) -> None:
-    """End the command if the folder for the page holds something else or cannot be written."""
-    config = folder / "config/config.yaml"
-    is_ours = config.is_file() and config.read_text(encoding="utf-8").startswith(MARK)
-    if folder.is_file() or (not is_ours and folder.is_dir() and any(folder.iterdir())):
-        fail(f"--output {folder} holds something else; give a new folder")
+    """End the command if the folder for the page cannot be written."""
+    if folder.is_file():
+        fail(f"--output {folder} is a file; give a folder")
     existing = next(path for path in (folder, *folder.absolute().parents) if path.is_dir())
     if not os.access(existing, os.W_OK):
         fail(f"--output {folder} cannot be written; give another folder")
-
-
-def fill_folder(
-    options: argparse.Namespace,
-    name: str,
-    material_texts: dict[str, Any],
-    surface_texts: dict[str, Any],
-    surface: Any,
-) -> None:
-    """Write what the workflow starts from; end the command where that cannot be written."""
-    try:
-        write_configuration(options, name, material_texts, surface_texts)
-        keep_analysis(options, name, surface_texts, surface)
-    except OSError as error:
-        fail(f"no page: --output {options.output}: {error}")
-
-
-def write_configuration(
-    options: argparse.Namespace,
-    name: str,
-    material_texts: dict[str, Any],
-    surface_texts: dict[str, Any],
-) -> None:
-    """Write the files of the configuration."""
-    tape = str(options.tape.absolute()) if options.tape else "config/materials.yaml"
-    files = {
-        "config": {"fidelity": "draft", "materials": tape, "surfaces": "config/surfaces.yaml"},
-        "materials": {"materials": {"material": material_texts}},
-        "surfaces": {"surfaces": {name: surface_texts}},
-    }
-    from stickiness.datasets import whole_file
-
-    for table, content in files.items():  # YAML includes JSON
-        text = MARK + json.dumps(content, ensure_ascii=False, indent=2)
-        with whole_file(options.output / f"config/{table}.yaml") as file:
-            file.write_text(text, encoding="utf-8")
-
-
-def keep_analysis(
-    options: argparse.Namespace, name: str, surface_texts: dict[str, Any], surface: Any
-) -> None:
-    """Write the surface as it was judged where the workflow expects it.
-
-    So the workflow does not analyse it again. An equal file stays, so that nothing is repeated.
-    """
-    from stickiness import datasets
-    from stickiness.entries import check_surface, without_texts
-    from stickiness.verdicts.rough_surface import Surface, describe_file
-
-    # The page names the file as the configuration does, in remarks and doubts, too.
-    given = re.compile(rf"(?<!\S){re.escape(str(options.file))}(?=[:;]| \||$)", re.MULTILINE)
-    texts = {
-        key: given.sub(lambda _: surface_texts["file"], text)
-        for key, text in surface.data.attrs.items()
-    }
-    named = Surface(surface.data.assign_attrs(texts))
-    entry = without_texts(check_surface(surface_texts, numbers=False))
-    contents = describe_file(name, entry)
-    path = options.output / f"results/draft/real_surfaces/{name}.nc"
-    if not datasets.holds(path, named.data, contents["parameters"]):
-        named.write(path, **contents)
 
 
 if __name__ == "__main__":

@@ -146,17 +146,6 @@ def parameters(dataset: xr.Dataset) -> dict[str, Any]:
     return json.loads(dataset.attrs["parameters"])
 
 
-def holds(path: str | Path, dataset: xr.Dataset, parameters: Mapping[str, Any]) -> bool:
-    """Whether a file has what `write` would write, apart from the versions of codes."""
-    try:
-        kept = read(path)
-    except DatasetError:
-        return False
-    told = json.dumps(write_quantities(parameters), sort_keys=True)
-    has_texts = all(kept.attrs.get(name) == text for name, text in dataset.attrs.items())
-    return kept.attrs["parameters"] == told and has_texts and kept.equals(dataset)
-
-
 @contextmanager
 def whole_file(path: str | Path) -> Iterator[Path]:
     """Give a temporary path that replaces `path` on success and vanishes on failure."""

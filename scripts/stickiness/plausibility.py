@@ -7,6 +7,7 @@ all such units, and catch gross mistakes only: pascals for units of E*, micromet
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from typing import NamedTuple
 
 _MOST_PRESSURE = 1000.0  # over the rms slope; half of that slope is what flattens a surface
@@ -72,11 +73,10 @@ def warn_of_heights(rms_height: float, length: float) -> None:
         warnings.warn(text + "length must have the same unit", PlausibilityWarning, stacklevel=3)
 
 
-def warn_of_si(**values: float) -> None:
-    """Warn of a value, by its name in `LIMITS`, that hardly any real pair has in SI units."""
+def find_doubts(**values: float) -> Iterator[str]:
+    """Sentences about values, by their name in `LIMITS`, that hardly any real pair has in SI."""
     for name, value in values.items():
         low, high, _, reason, unit = LIMITS[name]
         if not low <= value <= high:
             text = f"{name} = {value:.3g} is outside {low:g} to {high:g}: {reason}"
-            text += f"; give it in {unit}" if unit else ""
-            warnings.warn(text, PlausibilityWarning, stacklevel=2)
+            yield text + (f"; give it in {unit}" if unit else "")

@@ -5,13 +5,13 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from common import plotting
 from common import tradeoff_table as summary
 from common.job import start
-from common.plotting import make_key, pick_look, write_ticks
 from stickiness.accuracy import plan
 from stickiness.accuracy.error_models import Surface, read_models
 from stickiness.accuracy.settings import Problem, predicted_cost, predicted_error
+from stickiness.pages import plotting
+from stickiness.pages.plotting import make_key, pick_look, write_ticks
 from tradeoff.presets import adhesive_cost, adhesive_error
 
 CONTACT = {

@@ -10,11 +10,11 @@ from common import heights_table, remaining_models
 from common import tradeoff_table as summary
 from common.conventions import annotate
 from common.job import start
-from common.templates import write_page
 from stickiness import datasets
 from stickiness.accuracy.error_models import FULL, Surface, read_models, single_error, write_models
 from stickiness.accuracy.quantities import MODELLED, columns_of
 from stickiness.accuracy.settings import Problem, UnreachableError, cheapest
+from stickiness.pages.rendering import write_page
 from tradeoff.adhesion_table import tabulate_adhesion
 from tradeoff.contact_table import DESCRIBED_SEEDS, make_pool, tabulate_contact
 from tradeoff.fit_models import Records, fit_models

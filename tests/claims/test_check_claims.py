@@ -7,9 +7,9 @@ from helpers.claim_files import files_by_name
 from claims import check_claims, errata
 from claims.check_claims import CLAIMS, PROSE
 from claims.ledger import OPEN, REPRODUCED, VERDICTS
-from common.templates import write_page
 from stickiness import datasets
 from stickiness.error_budget import SOURCES
+from stickiness.pages.rendering import write_page
 
 TEXTS = "report/claims.j2"
 

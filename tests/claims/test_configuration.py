@@ -13,8 +13,8 @@ from claims.check_claims import CLAIMS
 from claims.ledger import DIFFERS, VERDICTS
 from common import conventions, paper_panels
 from common.paper_claims import find_differences
-from common.templates import make_environment, write_page
 from report.write_report import CLAIM_TONES
+from stickiness.pages.rendering import make_environment, write_page
 
 
 @pytest.fixture

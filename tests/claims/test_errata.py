@@ -5,8 +5,8 @@ import pytest
 import sympy as sp
 
 from claims import errata
-from common.templates import make_environment
 from stickiness import criteria
+from stickiness.pages.rendering import make_environment
 
 NUMBERS = {int(number): found for number, found in errata.recompute().items()}
 

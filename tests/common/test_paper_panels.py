@@ -4,7 +4,7 @@ import pytest
 from helpers.committed import ROOT, read_committed
 
 from common.paper_panels import PANELS, compare_panels
-from common.templates import make_environment
+from stickiness.pages.rendering import make_environment
 
 
 @pytest.fixture

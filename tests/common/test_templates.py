@@ -3,7 +3,7 @@
 import pytest
 from markupsafe import Markup
 
-from common.templates import make_environment, typeset
+from stickiness.pages.rendering import make_environment, typeset
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,6 @@ from helpers.entries import model_surface
 from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.colors import same_color
 
-from common import plotting
 from common.edge_points import select_certain
 from figures import (
     plot_fig1,
@@ -30,6 +29,7 @@ from figures import (
 from stability import plot_stability
 from stickiness import error_budget as budget
 from stickiness.criteria import equivalent_sphere
+from stickiness.pages import plotting
 from stickiness.remaining import predict
 from stickiness.spectrum import SelfAffine
 from tradeoff import plot_tradeoff

@@ -14,9 +14,9 @@ import openpyxl
 import pytest
 import xarray as xr
 
-from common.templates import make_environment
 from stickiness import Surface, surface
 from stickiness.measured import topography
+from stickiness.pages.rendering import make_environment
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.rough_surface import NEEDED

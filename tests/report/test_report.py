@@ -14,17 +14,20 @@ from helpers.pages import Page, make_job
 from matplotlib.figure import Figure
 
 from common import heights_table, remaining_models
-from common import verdict_texts as texts
-from common.table_rows import arrange_pairs, describe_surface
-from report import interactive, pages, write_report
-from stickiness import datasets
+from common.pairs import arrange_pairs
+from report import pages, write_report
+from stickiness import Material, datasets
 from stickiness import error_budget as budget
 from stickiness.criteria.pair import DEPENDS, NOT_STICKY, STICKY, TOUCHES, WORDS
 from stickiness.criteria.registry import EDGES, REMAINING
 from stickiness.entries import check_material, check_surface
 from stickiness.formatting import number, percent
+from stickiness.pages import interactive, rendering
+from stickiness.pages.rows import describe_surface
 from stickiness.remaining.prediction import predict
+from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.wording import describe_material, tell_threshold
 
 NASTY = '<script>alert("1 & 2")</script>'
 GRADES = (
@@ -110,11 +113,15 @@ def verdicts():
     onset = [[[9.0, 8.0], [2.0, 0.5]], [[5.0, 4.0], [0.1, 0.1]]]
     remaining = np.array([[[0.7, 0.5], [0.3, 0.02]], [[0.01, 0.01], [0.0, 0.0]]])
     dims, ones = ("material", "surface", "end"), np.ones((2, 2, 2))
+    solids = list(map(Material.from_entry, MATERIALS.values()))
+    thresholds = np.full((2, 2, 3), [1.6e6, 2.4e6, 4.8e6])  # of E*
+    youngs = np.array([0.75, 1.0])[:, None, None]  # over E*; iron has no Poisson's ratio
     smooth, rough = np.moveaxis(remaining, -1, 0)
     limits = {
         "remaining": np.stack([0.8 * rough, rough, 1.2 * smooth], axis=-1),
         "pull_off": 1e4 * np.stack([0.5 * rough, rough, 2 * smooth], axis=-1),
-        "modulus_threshold": np.full((2, 2, 3), [1.5e6, 2.5e6, 4.5e6]),
+        "modulus_threshold": youngs * thresholds,
+        "plane_strain_modulus_threshold": thresholds,
         "pair_a_v": np.full((2, 2, 3), [2.1, 3.0, 3.9]),
         "margin": np.full((2, 2, 3), [0.5, 1.0, 2.0]),
         "rate_threshold": np.full((2, 2, 3), np.nan),
@@ -124,9 +131,19 @@ def verdicts():
         {
             **{name: ((*dims[:2], "limit"), values) for name, values in limits.items()},
             "margin_by_criterion": ((*dims, "criterion"), by_criterion),
+            "wanted_share": DEFAULT_SHARE,
+            "material_label": ("material", [solid.label for solid in solids]),
+            "material_doubts": ("material", ["", ""]),
+            "properties": ("material", list(map(describe_material, solids))),
+            "modulus_given": ("material", [1e3, 2e9]),
             "modulus_quoted": ("material", [4e3 / 3, 2e9]),
+            "poisson_ratio": ("material", [0.5, np.nan]),
+            "work_of_adhesion": ("material", [0.05, 0.05]),
+            "work_on_smooth": ("material", [0, 0]),
+            "range": ("material", [1e-9, 1e-9]),
             "depends_on_rate": ("material", [1, 0]),
             "dwell": ("material", [np.nan, np.nan]),
+            "pair_rms_slope": (dims, 0.2 * ones),
             "stiffening": (dims, ones),
             "layer_strain": (dims, 0 * ones),
             "energy_ratio": (dims, np.array(derived) / 2),
@@ -290,7 +307,7 @@ def page(claims, verdicts, surfaces, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def pairs(verdicts):
-    return arrange_pairs(verdicts, MATERIALS, LABELS)
+    return arrange_pairs(verdicts, LABELS)
 
 
 @pytest.mark.slow
@@ -336,17 +353,20 @@ def test_rows_of_pairs(pairs, verdicts):
     assert [pair["word"] for pair in pairs] == [WORDS[c] for c in (STICKY, DEPENDS, TOUCHES, 0)]
     glass, sand, iron = jelly_glass["text"], jelly_sand["text"], iron_sand["text"]
     assert glass["remaining"] == "50 % (40 to 84 %)"
-    assert glass["pull_off"] == "at least 2.5"  # near full contact, not simulated
+    assert glass["pull_off"] == "at least 2.5 kPa"  # near full contact, not simulated
     assert (sand["margin"], sand["energy_ratio"]) == ("0.5 to 2", "0.25 … 1")
-    assert sand["threshold"] == "2.5 (1.5 to 4.5)"
-    assert (glass["modulus"], iron["modulus"]) == ("0.0013", "2000")
-    assert (iron["remaining"], iron["pull_off"]) == ("0 %", "0")
+    # Moduli as they were given.
+    assert sand["threshold"] == "E = 1.8 MPa (1.2 to 3.6 MPa)"
+    assert iron["threshold"] == "E* = 2.4 MPa (1.6 to 4.8 MPa)"
+    assert (glass["modulus"], iron["modulus"]) == ("E = 1 kPa", "E* = 2 GPa")
+    assert (iron["remaining"], iron["pull_off"]) == ("0 %", "0 Pa")
     # Probabilities are known where spectra were drawn.
     assert glass["probability"] == glass["errors"] == "–"
     assert (sand["probability"], iron["probability"]) == ("42 %", "0 %")
-    assert (jelly_sand["sticks_below"], jelly_sand["fails_above"]) == ("E = 1.1 MPa", "E = 3.4 MPa")
-    assert (iron_sand["sticks_below"], iron_sand["unknown"]) == ("E* = 1.5 MPa", "")
-    assert jelly_sand["unknown"] == "model"
+    assert jelly_sand["change"] == "sticks below E = 1.8 MPa (1.2 to 3.6 MPa); it is 1 kPa"
+    assert iron_sand["change"] == "sticks below E* = 2.4 MPa (1.6 to 4.8 MPa); it is 2 GPa"
+    assert (jelly_sand["unknown"], iron_sand["unknown"]) == ("model", "")
+    assert (jelly_sand["moment"], iron_sand["moment"]) == ("at 1 Hz", "")
     assert sand["errors"] == "spectrum 30 %, model 40 %"
     assert jelly_sand["sort"]["errors"] == pytest.approx(0.5)
     assert all(pair["mine"] for pair in pairs)
@@ -355,18 +375,18 @@ def test_rows_of_pairs(pairs, verdicts):
 @pytest.mark.parametrize(
     ("value", "limits", "text"),
     [
-        (3.5e6, (0.79e6, 30e6), "3.5 (0.79 to 30)"),
-        (3e6, (0.0, 4e6), "3 (0 to 4)"),
-        (0.2, (0.0, 0.9), "0"),
-        (1e20, (1.5e11, 1e21), "at least 1.5 × 10⁵"),
-        (0.0, (0.0, 2.15e9), "below 2200"),
+        (3.5e6, (0.79e6, 30e6), "E = 3.5 MPa (0.79 to 30 MPa)"),
+        (3e6, (0.0, 4e6), "E = 3 MPa (0 to 4 MPa)"),
+        (0.2, (0.0, 0.9), "none"),
+        (1e20, (1.5e11, 1e21), "E = 150 GPa at least, probably any"),
+        (0.0, (0.0, 2.15e9), "none, or E = 2.15 GPa at most"),
     ],
 )
 def test_thresholds_have_one_unit_and_all_limits(verdicts, value, limits, text):
     pair = verdicts.sel(material="jelly", surface="sand")
     low, high = limits
     found = pair.assign(modulus_threshold=("limit", [low, value, high]))
-    assert texts.describe_quantity(found, "modulus_threshold") == text
+    assert tell_threshold(found) == text
 
 
 def test_every_judged_pair_is_on_one_axis(pairs):
@@ -420,7 +440,7 @@ def test_not_a_png_is_refused(tmp_path):
     path = tmp_path / "fig1.png"
     path.write_text("no picture")
     with pytest.raises(ValueError, match="fig1.png: not a PNG"):
-        pages.embed_png(path)
+        rendering.embed_png(path)
 
 
 def test_caption_cannot_smuggle_html():

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 import xarray as xr
 from helpers.pages import Page, make_job
+from real_surfaces.measured_maps import MeasuredMap
 
 from common import contact_picture, conventions
-from common.table_rows import describe_pair, list_rates
 from criteria import judge_surface
 from real_surfaces import contact_measured, picture_contact
-from real_surfaces.measured_maps import MeasuredMap
 from report import surface_figures, write_surface
 from stickiness import Material, Surface, datasets, judge, surface
 from stickiness.criteria.pair import NOT_JUDGED, STICKY, TOUCHES
 from stickiness.entries import check_material, check_surface
 from stickiness.formatting import in_unit, limited, number, with_error
 from stickiness.measured import topography
+from stickiness.pages.rows import describe_pair, list_rates
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.limits import read_limited

@@ -16,7 +16,7 @@ from urllib.parse import unquote
 
 import pytest
 
-from common import plotting
+from stickiness.pages import plotting
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 CHROMIUM = next(filter(None, map(shutil.which, NAMES)), None)

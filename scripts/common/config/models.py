@@ -144,7 +144,6 @@ class Criteria(Section):
     """Criteria of stickiness."""
 
     a_v: ReferenceCase = needed("where the a_V of the paper's criterion is simulated")
-    frequencies: Grid = needed("frequencies [Hz] at which pairs are judged, beside 1 Hz")
     map: CriterionMap = needed("map of the paper's criterion, Figure 5")
     compared: Compared = needed("adhesion that each criterion requires, Figure 9")
 

@@ -9,7 +9,7 @@ from typing import Any
 
 from common.config.load import TABLES
 from common.config.models import MODELS
-from common.templates import make_environment
+from stickiness.pages.rendering import make_environment
 
 PROJECT = Path(__file__).parents[3]
 PAGE = PROJECT / "docs/configuration.md"

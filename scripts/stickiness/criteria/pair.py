@@ -32,7 +32,14 @@ LIMITED = {
     "remaining": ("1", "share of the work of adhesion that remains"),
     "pull_off": ("Pa", "largest mean tension on separation"),
     "margin": ("1", "adhesion length over the one at which the wanted share remains"),
-    "modulus_threshold": ("Pa", "plane-strain modulus below which the wanted share remains"),
+    "modulus_threshold": (
+        "Pa",
+        "Young's modulus below which the wanted share remains; E* without a Poisson's ratio",
+    ),
+    "plane_strain_modulus_threshold": (
+        "Pa",
+        "plane-strain modulus E* below which the wanted share remains",
+    ),
 }
 #: Units and descriptions of the others, which are known at both ends of what a surface may be
 QUANTITIES = {

@@ -16,6 +16,8 @@ from stickiness.verdicts.pair_roughness import PairRoughness
 # Factors on E*, on heights at an unchanged shape of the spectrum, and on the dwell, 1 among them.
 MODULUS_FACTORS = 10.0 ** (np.arange(-60, 41) / 10)
 ROUGHNESS_FACTORS = 10.0 ** (np.arange(-16, 17) / 16)
+#: Frequencies of loading [Hz], for moduli that depend on it.
+FREQUENCIES = 10.0 ** (np.arange(-8, 13) / 2)
 DWELL_FACTORS = 10.0 ** (np.arange(-16, 17) / 4)
 
 

@@ -7,18 +7,20 @@ add; and the limits, from which the verdict follows. Results are codes and numbe
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness import datasets
 from stickiness.arguments import number
 from stickiness.criteria.pair import (
+    DEPENDS,
     LIMITED,
+    MOST_STRAIN,
     NOT_JUDGED,
     QUANTITIES,
     REGIMES,
@@ -29,9 +31,16 @@ from stickiness.criteria.pair import (
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.limited import Limited
+from stickiness.remaining.roughness import LEAST_LENGTH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
-from stickiness.solids.moduli import REFERENCE_FREQUENCY
-from stickiness.verdicts.curves import AXES, find_axes, find_rate_moduli, follow_remaining
+from stickiness.solids import HALF_SPACE
+from stickiness.verdicts.curves import (
+    AXES,
+    FREQUENCIES,
+    find_axes,
+    find_rate_moduli,
+    follow_remaining,
+)
 from stickiness.verdicts.limits import HIGH, LIMIT_TEXT, LIMITS, LOW, VALUE
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
@@ -45,6 +54,7 @@ from stickiness.verdicts.thresholds import (
     THRESHOLDS,
     find_thresholds,
 )
+from stickiness.verdicts.wording import describe_material
 
 #: What decides a verdict, by code: theory of the spectrum, alone or with the skewness of the
 #: heights, or contact simulated on the heights.
@@ -55,7 +65,9 @@ DECIDED_BY = (
     "simulated contact with adhesion",
 )
 BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
-LARGER = ("remaining", "modulus_threshold")  #: judged for a larger contact, too, with limits
+#: Judged for a larger contact, too, with limits.
+LARGER = ("remaining", "modulus_threshold", "plane_strain_modulus_threshold")
+LEAST_MODULUS = 1e-3  #: [Pa]; a threshold below is none: nothing is softer
 PER_PAIR = ("material", "surface")  #: dimensions of what has one value for every pair
 #: Dimensions of what has more, after those of the pair.
 DIMENSIONS = {
@@ -74,7 +86,7 @@ def judge(
     materials: Mapping[str, Material] | Sequence[Material],
     surfaces: Mapping[str, Surface] | Sequence[Surface],
     *,
-    frequencies: ArrayLike = (REFERENCE_FREQUENCY,),
+    frequencies: ArrayLike = FREQUENCIES,
     wanted_share: float = DEFAULT_SHARE,
     contact_area: float = CONTACT_AREA,
     curves: bool = True,
@@ -136,16 +148,20 @@ def judge(
         for surface in surfaces.values():
             rough = combine_roughness(material, surface)
             pair = rough.meet(material, wanted_share)
-            cell = _judge_pair(rough, pair)
+            cell = _judge_pair(rough, pair, material)
             if curves:
                 cell |= follow_remaining(pair, rough, material, axes)
             if thresholds:
-                threshold = Limited(*cell["modulus_threshold"][[VALUE, LOW, HIGH]])
-                found = find_thresholds(material, rough, pair, threshold, contact_area)
+                moduli = Limited(*cell["plane_strain_modulus_threshold"][[VALUE, LOW, HIGH]])
+                # Of two rough solids no one knows the rms height, but that of the pair.
+                known = surface.rms_height if material.surface is None else None
+                found = find_thresholds(material, rough, pair, moduli, contact_area, known)
                 for name, limited in found.items():
                     cell[name] = [limited.low, limited.value, limited.high]
-            cells.append(cell | _judge_larger(material, surface, wanted_share))
-    dataset = _arrange(cells, materials, surfaces)
+            cell |= _judge_larger(material, surface, wanted_share)
+            cell["doubts"] = "\n".join(_list_doubts(material, surface, cell))
+            cells.append(cell)
+    dataset = _arrange(cells, materials, surfaces).assign(wanted_share=wanted_share)
     rate_moduli = [find_rate_moduli(material, axes) for material in materials.values()]
     dataset["modulus"] = ("material", "frequency"), rate_moduli
     along = {name: points for name, points in axes.items() if name in dataset.dims}
@@ -173,7 +189,7 @@ def _name(argument: str, items: Mapping | Sequence, kind: type) -> dict:
     return named
 
 
-def _judge_pair(rough: PairRoughness, pair: Pair) -> dict[str, Any]:
+def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[str, Any]:
     """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
     # What has limits, in the rows of what the surface may be.
     threshold = pair.remaining_threshold
@@ -182,7 +198,7 @@ def _judge_pair(rough: PairRoughness, pair: Pair) -> dict[str, Any]:
         "remaining": pair.remaining,
         "pull_off": pair.pull_off,
         "margin": margins,
-        "modulus_threshold": pair.work_of_adhesion / threshold,
+        "plane_strain_modulus_threshold": pair.work_of_adhesion / threshold,
     }
     cell: dict[str, Any] = {name: rough.limit(values, pair) for name, values in in_rows.items()}
     cell |= describe_draws(rough.scenarios, pair)
@@ -190,6 +206,16 @@ def _judge_pair(rough: PairRoughness, pair: Pair) -> dict[str, Any]:
     # What the criteria say at both ends, the smooth one and the rough one.
     ends = rough.take_ends(pair)
     cell |= find_quantities(ends)
+
+    # Thresholds of the modulus, of E* and of the modulus as it was given.
+    moduli = cell["plane_strain_modulus_threshold"]
+    # An adhesion length that keeps the wanted share at the rough end, however stiff the solid is.
+    full_contact_energy = pair.work_of_adhesion / cell["energy_ratio"][-1]
+    any_modulus = 0.99 * pair.modulus * pair.work_of_adhesion / (LEAST_LENGTH * full_contact_energy)
+    moduli = np.where(moduli < any_modulus, moduli, np.inf)
+    moduli = np.where(moduli < LEAST_MODULUS, 0.0, moduli)
+    cell["plane_strain_modulus_threshold"] = moduli
+    cell["modulus_threshold"] = moduli * material.quoted_modulus / material.plane_strain_modulus
     by_criterion = {
         name: np.broadcast_to(criterion.margin(ends), len(ENDS))
         for name, criterion in CRITERIA.items()
@@ -256,10 +282,33 @@ def _judge_larger(material: Material, surface: Surface, wanted_share: float) -> 
     # A material that is rough itself meets the same contact.
     material = material.on_contact(larger.contact)
     rough = combine_roughness(material, larger)
-    cell = _judge_pair(rough, rough.meet(material, wanted_share))
+    cell = _judge_pair(rough, rough.meet(material, wanted_share), material)
     if rough.not_judged:
         cell |= dict.fromkeys(LARGER, np.full(3, np.nan)) | {"verdict": NOT_JUDGED}
     return {f"larger_{name}": cell[name] for name in ("verdict", *LARGER)}
+
+
+def _list_doubts(material: Material, surface: Surface, cell: Mapping[str, Any]) -> Iterator[str]:
+    """Sentences about a pair: improbable values, remarks on the data, why it is not judged."""
+    yield from find_pair_doubts(material, surface)
+    reasons = cell["not_judged"].splitlines()
+    remarks = list(surface.remarks)
+    if cell["larger_verdict"] == DEPENDS:
+        remarks += [text for text in surface.larger.remarks if text not in remarks]
+    yield from (text for text in remarks if text not in reasons)
+    strain = float(np.max(cell["layer_strain"]))
+    if strain > MOST_STRAIN:
+        yield (
+            f"to conform, the layer would have to strain by about {strain:.2g}, beyond linear "
+            "elasticity: all adhesion may be lost"
+        )
+    yield from reasons
+
+
+def find_pair_doubts(material: Material, surface: Surface) -> tuple[str, ...]:
+    """Sentences about values of a material and of both rough solids that hardly any pair has."""
+    rough = [each.doubts for each in (surface, material.surface) if each is not None]
+    return (*material.doubts, *(doubt for doubts in rough for doubt in doubts))
 
 
 def _arrange(
@@ -277,32 +326,51 @@ def _arrange(
         }
     )
     for name in cells[0]:
-        values = np.array([cell[name] for cell in cells])
-        if values.dtype.kind in "ib":
-            values = values.astype("i1")
-        if values.dtype.kind == "U":
-            values = values.astype("O")
+        values = _as_array([cell[name] for cell in cells])
         dimensions = (*PER_PAIR, *DIMENSIONS.get(name, ()))
         dataset[name] = dimensions, values.reshape(*shape, *values.shape[1:])
 
     # Properties of the materials, as they are judged, and of the surfaces.
     by_material = {
         "work_of_adhesion": [material.work_of_adhesion for material in materials.values()],
+        "material_label": [material.label for material in materials.values()],
+        "material_doubts": ["\n".join(material.doubts) for material in materials.values()],
+        "properties": [describe_material(material) for material in materials.values()],
+        "law": [material.law for material in materials.values()],
+        "range": [material.range for material in materials.values()],
+        "work_on_smooth": [int(material.work_on_smooth) for material in materials.values()],
+        "half_space": [
+            int(material.solid == HALF_SPACE and material.surface is None)
+            for material in materials.values()
+        ],
+        "modulus_given": [material.quoted_modulus for material in materials.values()],
         "modulus_quoted": [material.plane_strain_modulus for material in materials.values()],
+        "poisson_ratio": [
+            np.nan if material.poisson is None else material.poisson
+            for material in materials.values()
+        ],
         "dwell": [material.dwell or np.nan for material in materials.values()],
         "instant_ratio": [material.instant_ratio for material in materials.values()],
         "depends_on_rate": [int(material.depends_on_rate) for material in materials.values()],
     }
     by_surface = {
+        "rms_height": [surface.rms_height for surface in surfaces.values()],
+        "scan": [surface.scan for surface in surfaces.values()],
         "contact": [surface.contact for surface in surfaces.values()],
         "larger_contact": [
             surface.larger.contact if surface.larger else np.nan for surface in surfaces.values()
         ],
     }
     return dataset.assign(
-        {name: ("material", values) for name, values in by_material.items()}
+        {name: ("material", _as_array(values)) for name, values in by_material.items()}
         | {name: ("surface", values) for name, values in by_surface.items()}
     )
+
+
+def _as_array(values: list[Any]) -> NDArray:
+    """Array of numbers, codes or texts, of the types that files have."""
+    array = np.array(values)
+    return array.astype({"i": "i1", "b": "i1", "U": "O"}.get(array.dtype.kind, array.dtype))
 
 
 def _describe(dataset: xr.Dataset) -> xr.Dataset:
@@ -346,10 +414,20 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
             "plane-strain modulus below which a criterion says sticky",
         ),
         "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
+        "wanted_share": ("1", "share of the work of adhesion that must remain to stick"),
+        "material_label": ("1", "name of the material for readers"),
+        "material_doubts": ("1", "those of them that are about the material"),
+        "properties": ("1", "properties of the material for readers"),
+        "law": ("1", "traction law"),
+        "range": ("m", "range of the attraction"),
         "work_of_adhesion": ("J/m^2", "work of adhesion"),
+        "work_on_smooth": ("1", "1 where the work of adhesion was measured on smooth surfaces"),
+        "half_space": ("1", "1 of a material that is deep, without a skin, and smooth itself"),
         "stiffening": ("1", "energy of full contact over that of a half-space"),
         "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
         "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
+        "modulus_given": ("Pa", "the same as it was given: Young's, or E* without Poisson's ratio"),
+        "poisson_ratio": ("1", "Poisson's ratio", "E* is given"),
         "dwell": ("s", "time for which contact is made", "judged at one frequency"),
         "instant_ratio": ("1", "instantaneous modulus over that after the dwell, 1 without one"),
         "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
@@ -360,6 +438,12 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         ),
         "disagrees": ("1", "1 where a criterion says the opposite of the verdict"),
         "not_judged": ("1", "why a pair is not judged, a line each; empty if it is"),
+        "doubts": ("1", "why the answer is probably to another question, a line each"),
+        "rms_height": (
+            "m",
+            "rms height: as levelled, of several scans by their spectrum, or of the rough end",
+        ),
+        "scan": ("m", "side of the largest scan", unmeasured),
         "contact": ("m", "side of the contact that is judged", unmeasured),
         "larger_contact": ("m", "side of a larger contact that is judged, too", no_longer),
         "larger_verdict": ("1", "verdict for the larger contact"),

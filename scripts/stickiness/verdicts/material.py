@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stickiness.arguments import number
-from stickiness.plausibility import LIMITS, warn_of_si
+from stickiness.plausibility import LIMITS, find_doubts
 from stickiness.solids import HALF_SPACE, Film, HalfSpace, Layer, Skin, Solid, check_solid
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Constant, Modulus, Prony, Table
 from stickiness.traction_laws import EXPONENTIAL, PREDICTED
@@ -196,20 +196,26 @@ class Material:
             return self
         return replace(self, surface=self.surface.on_contact(contact))
 
-    def warn(self) -> None:
-        """Warn of values that hardly any real pair has, with a `PlausibilityWarning`."""
-        warn_of_si(
-            modulus=self.plane_strain_modulus * (1 - (self.poisson or 0.0) ** 2),
-            range=self.range,
-        )
+    @property
+    def quoted_modulus(self) -> float:
+        """Modulus [Pa] of the verdict as it was given: Young's, or E* if `poisson` is None."""
+        if not self.depends_on_rate:
+            return float(self.modulus)
+        return self.plane_strain_modulus * (1 - (self.poisson or 0.0) ** 2)
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Sentences about values that hardly any real pair has."""
+        values = {"modulus": self.quoted_modulus, "range": self.range}
         if self.poisson is not None:
-            warn_of_si(poisson=self.poisson)
+            values["poisson"] = self.poisson
         if not self.work_on_smooth:
-            warn_of_si(work_of_adhesion=self.work_of_adhesion)
+            values["work_of_adhesion"] = self.work_of_adhesion
         if isinstance(self.solid, Skin):
-            warn_of_si(skin_thickness=self.solid.thickness)
+            values["skin_thickness"] = self.solid.thickness
         elif not isinstance(self.solid, HalfSpace):
-            warn_of_si(thickness=self.solid.thickness)
+            values["thickness"] = self.solid.thickness
+        return tuple(find_doubts(**values))
 
 
 def _check_size(name: str, value: float) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from inspect import signature
 from typing import Any
 
+from stickiness.entries import list_measurements
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
 from stickiness.measured.psd import Taper
@@ -77,6 +78,11 @@ class Measurement:
                 f"{FEWEST_POINTS[1]}"
             )
         return doubt
+
+
+def read_measurements(entry: Mapping[str, Any]) -> tuple[Measurement, ...]:
+    """Read every measurement of a checked entry of a measured surface."""
+    return tuple(Measurement.from_entry(each) for each in list_measurements(entry))
 
 
 def find_spectra(measurements: Sequence[Measurement]) -> list[tuple[MeasuredSpectrum, str]]:

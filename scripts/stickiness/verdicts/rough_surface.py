@@ -9,11 +9,11 @@ contain waves that the instrument does not resolve. Verdicts rest on the draws w
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -24,7 +24,7 @@ from stickiness.arguments import check_length, positive, side, with_gaps
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
-from stickiness.plausibility import PlausibilityWarning, warn_of_si
+from stickiness.plausibility import PlausibilityWarning, find_doubts
 from stickiness.remaining.roughness import Roughness, find_anisotropy_error_factor
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.solids import Solid
@@ -40,6 +40,9 @@ from stickiness.verdicts.simulated_surface import (
     read_simulated,
     simulate_on,
 )
+
+if TYPE_CHECKING:
+    from stickiness.verdicts.measured_surface import Measurement
 
 #: What a verdict needs of the file of a surface.
 NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
@@ -69,6 +72,8 @@ class Surface:
         what the workflow stores in ``real_surfaces/<surface>.nc``.
     shells : Spectrum, optional
         Spectrum of a periodic cell, whose waves are discrete and have no density to tabulate.
+    measurements : tuple of Measurement
+        Levelled heights that were analysed, for a picture of their contact. Files do not keep them.
 
     See Also
     --------
@@ -85,6 +90,7 @@ class Surface:
 
     data: xr.Dataset
     shells: Spectrum | None = None
+    measurements: tuple[Measurement, ...] = ()
 
     @classmethod
     def from_spectrum(cls, spectrum: Spectrum, rough: Spectrum | None = None) -> Surface:
@@ -148,12 +154,10 @@ class Surface:
                 f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
             )
         sides = check_length(length, heights.shape)
-        for one_side in dict.fromkeys(sides):
-            warn_of_si(length=one_side)
         steps = tuple(a / n for a, n in zip(sides, heights.shape, strict=True))
-        for doubt in doubt_pixels("heights", heights.shape, steps):
-            warnings.warn(doubt, PlausibilityWarning, stacklevel=2)
-        return cls._from_array(heights, steps, options)
+        doubts = [doubt for each in dict.fromkeys(sides) for doubt in find_doubts(length=each)]
+        doubts += doubt_pixels("heights", heights.shape, steps)
+        return cls._from_array(heights, steps, options, doubts)
 
     @classmethod
     def from_profile(cls, heights: ArrayLike, length: float, **options: Any) -> Surface:
@@ -176,14 +180,18 @@ class Surface:
         if heights.size < 16:
             raise ValueError(f"a profile must have at least 16 points, got {heights.size}")
         length = side("length", length)
-        warn_of_si(length=length)
-        return cls._from_array(heights, length / heights.size, options)
+        doubts = find_doubts(length=length)
+        return cls._from_array(heights, length / heights.size, options, doubts)
 
     @classmethod
     def _from_array(
-        cls, heights: np.ndarray, steps: float | tuple[float, ...], options: Mapping[str, Any]
+        cls,
+        heights: np.ndarray,
+        steps: float | tuple[float, ...],
+        options: Mapping[str, Any],
+        doubts: Iterable[str],
     ) -> Surface:
-        """Analyse heights on a grid of these steps [m]."""
+        """Analyse heights on a grid of these steps [m]; warn of `doubts` and keep them."""
         from stickiness.measured import topography
         from stickiness.measured.instrument_spectrum import Limits
         from stickiness.verdicts.analysis import analyse
@@ -201,7 +209,12 @@ class Surface:
         detrend = options.pop("detrend", "detect")
         levelled = topography.from_array(heights, steps, **options).detrended(detrend)
         measurement = Measurement(levelled, window=window, limits=limits)
-        return cls(analyse([measurement], ignore_doubts=ignore_doubts, **waves))
+        data = analyse([measurement], ignore_doubts=ignore_doubts, **waves)
+        doubts = list(doubts)
+        for doubt in doubts:
+            warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
+        data.attrs["remarks"] = "\n".join(filter(None, [*doubts, data.attrs["remarks"]]))
+        return cls(data, measurements=(measurement,))
 
     @classmethod
     def from_drawing(
@@ -272,19 +285,17 @@ class Surface:
             return cls(parametric.read_self_affine(entry))
         if entry["kind"] == "surface_texture":
             return cls(parametric.read_drawing(entry))
-        from stickiness.entries import list_measurements
         from stickiness.verdicts.analysis import analyse
-        from stickiness.verdicts.measured_surface import Measurement
+        from stickiness.verdicts.measured_surface import read_measurements
 
-        measurements = [Measurement.from_entry(each) for each in list_measurements(entry)]
-        return cls(
-            analyse(
-                measurements,
-                extend_to=entry["extend_to"],
-                contact=entry["contact"],
-                ignore_doubts=entry["plausibility"] == "ignore",
-            )
+        measurements = read_measurements(entry)
+        data = analyse(
+            measurements,
+            extend_to=entry["extend_to"],
+            contact=entry["contact"],
+            ignore_doubts=entry["plausibility"] == "ignore",
         )
+        return cls(data, measurements=measurements)
 
     @classmethod
     def open(cls, path: str | Path) -> Surface:
@@ -303,9 +314,14 @@ class Surface:
         return float(self.data.get("contact", np.nan))
 
     @property
+    def scan(self) -> float:
+        """Side of the largest scan [m]; NaN of a surface that was not measured."""
+        return float(self.data.get("scan", np.nan))
+
+    @property
     def is_larger(self) -> bool:
         """Whether the contact is larger than the scan."""
-        return "scan" in self.data and self.contact > float(self.data.scan) * (1 + 1e-9)
+        return self.contact > self.scan * (1 + 1e-9)
 
     @cached_property
     def larger(self) -> Surface | None:
@@ -349,7 +365,12 @@ class Surface:
 
     @property
     def rms_height(self) -> float:
-        """Rms height [m], of measured heights as they are levelled, else of the rough end."""
+        """Rms height [m]: of one scan as it is levelled, of several by their spectrum.
+
+        Of a surface that was not measured it is that of its rough end.
+        """
+        if "measurement" in self.data.dims:  # no single scan holds all waves
+            return float(np.sqrt(self.data.h_rms.prod()))
         return float(self.data.get("h_rms_measured", self.data.h_rms[-1]))
 
     @property
@@ -472,19 +493,23 @@ class Surface:
         It is that of the rough end if the fitted law goes on to 0.3 nm; 0 of a surface that was not
         measured.
         """
-        return float(self.data["unresolved_energy"].max()) if self.draw_count else 0.0
+        return (
+            float(self.data["unresolved_energy"].max()) if "unresolved_energy" in self.data else 0.0
+        )
 
-    def warn(self) -> None:
-        """Warn of heights and slopes that are improbable, and of unresolved waves that decide."""
-        warn_of_si(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Sentences about improbable heights and slopes, and unresolved waves that decide."""
+        doubts = [
+            *find_doubts(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
+        ]
         if self.unresolved_energy > MOST_UNRESOLVED and not self.not_judged:
-            warnings.warn(
+            doubts.append(
                 "waves that the instrument does not resolve decide: if the fitted law goes on to "
                 f"0.3 nm, full contact takes {1 + self.unresolved_energy:.2g} times the energy. "
-                "The limits include that; a finer measurement narrows them",
-                PlausibilityWarning,
-                stacklevel=2,
+                "The limits include that; a finer measurement narrows them"
             )
+        return tuple(doubts)
 
 
 def _describe_shells(spectrum: Spectrum) -> xr.Dataset:

@@ -59,29 +59,34 @@ def find_thresholds(
     material: Material,
     rough: PairRoughness,
     pair: Pair,
-    modulus_threshold: Limited,
+    moduli: Limited,
     contact_area: float,
+    rms_height: float | None = None,
 ) -> dict[str, Limited]:
-    """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply."""
+    """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply.
+
+    `moduli` is the threshold of E* [Pa]. `rms_height` [m] is the one that readers know, if it is
+    not that of the spectrum: thresholds are in proportion.
+    """
     if rough.not_judged:
         return dict.fromkeys(THRESHOLDS, UNKNOWN)
     return {
-        "rms_height_threshold": find_rms_height(pair, rough),
+        "rms_height_threshold": find_rms_height(pair, rough, rms_height),
         "thickness_threshold": find_thickness(pair, rough, material.solid),
-        "rate_threshold": _find_rate_of(material, modulus_threshold),
+        "rate_threshold": _find_rate_of(material, moduli),
         "contact_pressure": find_pressure(pair, rough, material.solid, contact_area),
     }
 
 
-def _find_rate_of(material: Material, modulus_threshold: Limited) -> Limited:
+def _find_rate_of(material: Material, moduli: Limited) -> Limited:
     """Frequency below which a material sticks; NaN of an elastic solid, and after a dwell."""
     if not material.depends_on_rate or material.dwell is not None:
         return UNKNOWN
-    return find_rate(material.plane_strain, modulus_threshold)
+    return find_rate(material.plane_strain, moduli)
 
 
-def find_rms_height(pair: Pair, rough: PairRoughness) -> Limited:
-    """Find the rms height [m] below which the wanted share remains."""
+def find_rms_height(pair: Pair, rough: PairRoughness, rms_height: float | None = None) -> Limited:
+    """Find the rms height [m] below which the wanted share remains; see `find_thresholds`."""
     # Of draws it is that between both ends.
     h_rms = float(rough.limit(rough.scenarios.between(pair.h_rms[ENDS]), pair)[VALUE])
 
@@ -89,12 +94,14 @@ def find_rms_height(pair: Pair, rough: PairRoughness) -> Limited:
         scaled = pair.scaled(height[:, None] / h_rms)
         return rough.limit(scaled.remaining, scaled)
 
-    return find_threshold(
+    found = find_threshold(
         remain,
         start=pair.range / RANGES[-1],
         stop=ROUGHEST * h_rms,
         wanted=pair.wanted_share,
     )
+    scale = 1.0 if rms_height is None else rms_height / h_rms
+    return Limited(*(scale * height for height in found))
 
 
 def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited:

@@ -12,23 +12,20 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from stickiness import __version__
-from stickiness.criteria.pair import DEPENDS, MOST_STRAIN, NOT_JUDGED, REGIMES, WORDS
+from stickiness.criteria.pair import NOT_JUDGED, REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
-from stickiness.formatting import amount, in_percent, in_unit, in_units_of, limited, number
+from stickiness.formatting import amount
 from stickiness.limited import Limited
-from stickiness.plausibility import LIMITS, PlausibilityWarning
-from stickiness.remaining.roughness import LEAST_LENGTH, PULL_OFF_UNKNOWN
+from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.interface import Spectrum
-from stickiness.verdicts.judgement import DECIDED_BY, LARGER, judge
+from stickiness.verdicts import wording
+from stickiness.verdicts.judgement import DECIDED_BY, LARGER, find_pair_doubts, judge
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
-
-LEAST_STRESS = 1.0  #: [Pa]; beyond these two nobody can use a stress or a modulus
-MOST_STRESS = 1e13
-LEAST_SHOWN = 1e-3  #: share of the work of adhesion below which texts say 0 %
+from stickiness.verdicts.wording import MOST_STRESS
 
 
 class LargerContact(NamedTuple):
@@ -37,161 +34,242 @@ class LargerContact(NamedTuple):
     contact: float  #: side of the contact [m]
     word: str  #: verdict
     remaining: Limited  #: share of the work of adhesion
-    modulus_threshold: Limited  #: plane-strain modulus below which the wanted share remains [Pa]
+    modulus_threshold: Limited  #: as of `StickinessVerdict` [Pa]
+    plane_strain_modulus_threshold: Limited  #: [Pa]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StickinessVerdict:
-    """Answer for one material on one surface; every pair of limits is (low, high).
+    """Answer for one material on one surface: a view of one cell of what `judge` returns.
 
-    Numbers are NaN if the pair is not judged.
+    Numbers are NaN if the pair is not judged; every pair of limits is (low, high).
     """
 
-    #: One of `WORDS`: "depends" if the wanted share lies within the limits of what remains,
-    #: "adheres locally, does not hold" if contact grows by itself at the finest wave but less than
-    #: the wanted share remains, "sticks fully" if at least `pair.FULL_SHARE` does, "not judged" if
-    #: the data are implausible.
-    word: str
-    remaining: float  #: share of the work of adhesion that remains on the rough surface
-    remaining_limits: tuple[float, float]
-    pull_off: float  #: largest mean tension on separation [Pa]
-    pull_off_limits: tuple[float, float]
-    #: Adhesion length over the one at which the wanted share remains; sticks above 1.
-    margin: float
-    margin_limits: tuple[float, float]
-    modulus_threshold: float  #: plane-strain modulus below which the wanted share remains [Pa]
-    modulus_threshold_limits: tuple[float, float]
-    regime: str  #: one of `REGIMES`, by the Tabor parameter of the contact edges
-    simulated: bool  #: whether full simulation covers the state of the edges
-    a_v: float  #: a_V of the pair
-    a_v_limits: tuple[float, float]
-    margins: dict[str, float]  #: by every criterion of `registry.CRITERIA`; sticky above 1
-    energy_ratio: float  #: work of adhesion over the elastic energy of full contact
-    wanted_share: float  #: of the work of adhesion, that must remain to stick
-    decided_by: str  #: one of `DECIDED_BY`: theory, or contact simulated on the heights
-    #: Side of the contact [m] that the answer is for: that of the scan, unless a larger one was
-    #: given; NaN of a surface that was not measured.
-    contact: float
-    larger: LargerContact | None  #: answer for a larger contact; None where nothing would change
-    material: Material = field(repr=False)  #: that was judged
-    surface: Surface = field(repr=False)  #: on which it was judged
-    doubts: tuple[str, ...]  #: why the answer is probably to another question
-    not_judged: tuple[str, ...] = ()  #: why there is no answer; they are doubts, too
+    cell: xr.Dataset = field(repr=False)  #: of `judge`, at one material and one surface
+
+    @property
+    def word(self) -> str:
+        """Verdict, one of `WORDS`.
+
+        "depends" if the wanted share lies within the limits of what remains, "adheres locally, does
+        not hold" if contact grows by itself at the finest wave but less than the wanted share
+        remains, "sticks fully" if at least `pair.FULL_SHARE` does, "not judged" if the data are
+        implausible.
+        """
+        return WORDS[int(self.cell.verdict)]
+
+    @property
+    def remaining(self) -> float:
+        """Share of the work of adhesion that remains on the rough surface."""
+        return self._value("remaining")
+
+    @property
+    def remaining_limits(self) -> tuple[float, float]:
+        """Limits of the share."""
+        return self._limits("remaining")
+
+    @property
+    def wanted_share(self) -> float:
+        """Share of the work of adhesion that must remain to stick."""
+        return float(self.cell.wanted_share)
+
+    @property
+    def pull_off(self) -> float:
+        """Largest mean tension on separation [Pa]."""
+        return self._value("pull_off")
+
+    @property
+    def pull_off_limits(self) -> tuple[float, float]:
+        """Limits of the pull-off [Pa]."""
+        return self._limits("pull_off")
+
+    @property
+    def margin(self) -> float:
+        """Adhesion length over the one at which the wanted share remains; sticks above 1."""
+        return self._value("margin")
+
+    @property
+    def margin_limits(self) -> tuple[float, float]:
+        """Limits of the margin."""
+        return self._limits("margin")
+
+    @property
+    def modulus_threshold(self) -> float:
+        """Young's modulus [Pa] below which the wanted share remains.
+
+        Of a material that was given by its plane-strain modulus alone it is that of E*.
+        """
+        return self._value("modulus_threshold")
+
+    @property
+    def modulus_threshold_limits(self) -> tuple[float, float]:
+        """Limits of the threshold [Pa]."""
+        return self._limits("modulus_threshold")
+
+    @property
+    def plane_strain_modulus_threshold(self) -> float:
+        """Plane-strain modulus E* [Pa] below which the wanted share remains."""
+        return self._value("plane_strain_modulus_threshold")
+
+    @property
+    def regime(self) -> str:
+        """One of `REGIMES`, by the Tabor parameter of the contact edges."""
+        return REGIMES[int(self.cell.regime.sel(end="rough"))]
+
+    @property
+    def simulated(self) -> bool:
+        """Whether full simulation covers the state of the edges."""
+        return bool(self.cell.simulated.all())
+
+    @property
+    def a_v(self) -> float:
+        """a_V of the pair."""
+        return self._value("pair_a_v")
+
+    @property
+    def a_v_limits(self) -> tuple[float, float]:
+        """Limits of a_V."""
+        return self._limits("pair_a_v")
+
+    @property
+    def margins(self) -> dict[str, float]:
+        """Margin by every criterion of `registry.CRITERIA`, at the rough end; sticky above 1.
+
+        That of what remains is the `margin`.
+        """
+        at_rough_end = self.cell.margin_by_criterion.sel(end="rough")
+        margins = {name: float(at_rough_end.sel(criterion=name)) for name in CRITERIA}
+        return margins | {REMAINING: self.margin}
+
+    @property
+    def energy_ratio(self) -> float:
+        """Work of adhesion over the elastic energy of full contact."""
+        return float(self.cell.energy_ratio.max())
+
+    @property
+    def decided_by(self) -> str:
+        """One of `DECIDED_BY`: theory, or contact simulated on the heights."""
+        return DECIDED_BY[int(self.cell.decided_by)]
+
+    @property
+    def contact(self) -> float:
+        """Side of the contact [m] that the answer is for; NaN of a surface that was not measured.
+
+        It is that of the scan, unless a larger one was given.
+        """
+        return float(self.cell.contact)
+
+    @property
+    def larger(self) -> LargerContact | None:
+        """Answer for a larger contact; None where nothing would change."""
+        if np.isnan(self.cell.larger_contact):
+            return None
+        return LargerContact(
+            contact=float(self.cell.larger_contact),
+            word=WORDS[int(self.cell.larger_verdict)],
+            **{name: read_limited(self.cell[f"larger_{name}"]) for name in LARGER},
+        )
+
+    @property
+    def doubts(self) -> tuple[str, ...]:
+        """Why the answer is probably to another question."""
+        return tuple(self.cell.doubts.item().splitlines())
+
+    @property
+    def not_judged(self) -> tuple[str, ...]:
+        """Why there is no answer; they are doubts, too."""
+        return tuple(self.cell.not_judged.item().splitlines())
+
+    def _value(self, name: str) -> float:
+        return float(self.cell[name].sel(limit="value"))
+
+    def _limits(self, name: str) -> tuple[float, float]:
+        return float(self.cell[name].sel(limit="low")), float(self.cell[name].sel(limit="high"))
 
     def to_dict(self) -> dict[str, Any]:
-        """Return verdict, threshold and the effective attraction for DEM and FE models.
+        """Return verdict, thresholds and the effective attraction for DEM and FE models.
 
-        Values are in SI units and ready for JSON; what is not known is left out. `warnings` has the
-        doubts about the pair.
+        Values are in SI units and ready for JSON; what is not known is left out: all but the low
+        limit of the pull-off where contact is nearly full, and moduli that no material reaches.
+        Moduli say whether they are Young's modulus E or the plane-strain modulus E*. `warnings` has
+        the doubts about the pair.
         """
-        contact_law = describe_contact_law(
-            word=self.word,
-            material=self.material,
-            remaining=Limited(self.remaining, *self.remaining_limits),
-            pull_off=Limited(self.pull_off, *self.pull_off_limits),
-            modulus_threshold=Limited(self.modulus_threshold, *self.modulus_threshold_limits),
-            energy_ratio=self.energy_ratio,
-            decided_by=self.decided_by,
-            contact=self.contact,
-            larger=self.larger,
-        )
-        return {"version": __version__, **contact_law, "warnings": list(self.doubts)}
+        cell = self.cell
+        work = float(cell.work_of_adhesion)
+        pull_off = read_limited(cell.pull_off)
+        if not wording.is_pull_off_known(cell):
+            pull_off = pull_off._replace(value=np.nan, high=np.nan)
+        contents = {
+            "version": __version__,
+            "verdict": self.word,
+            "decided_by": self.decided_by if wording.is_judged(cell) else None,
+            "law": cell.law.item(),
+            **self._describe_moduli(),
+            "work_of_adhesion": {"value": work, "unit": "J/m^2"},
+            "range": {"value": float(cell.range), "unit": "m"},
+            "rms_height": {"value": float(cell.rms_height), "unit": "m"},
+            "wanted_share": self.wanted_share,
+            **self._describe_remaining(""),
+            "pull_off_stress": _quantity(pull_off, "Pa"),
+        }
+        if not np.isnan(cell.contact):
+            contents["contact"] = {"value": self.contact, "unit": "m"}
+        if self.larger is not None:
+            contents["larger_contact"] = {
+                "contact": {"value": self.larger.contact, "unit": "m"},
+                "verdict": self.larger.word,
+                **self._describe_remaining("larger_"),
+            }
+        contents["warnings"] = list(self.doubts)
+        return {name: value for name, value in contents.items() if value is not None}
+
+    def _describe_moduli(self) -> dict[str, Any]:
+        """Moduli of the material that are known."""
+        plane_strain = {"value": float(self.cell.modulus_quoted), "unit": "Pa"}
+        if np.isnan(self.cell.poisson_ratio):
+            return {"plane_strain_modulus": plane_strain}
+        return {
+            "youngs_modulus": {"value": float(self.cell.modulus_given), "unit": "Pa"},
+            "poisson_ratio": float(self.cell.poisson_ratio),
+            "plane_strain_modulus": plane_strain,
+        }
+
+    def _describe_remaining(self, contact: str) -> dict[str, Any]:
+        """What remains, and the thresholds; `contact` is the prefix of a larger one."""
+        share = read_limited(self.cell[f"{contact}remaining"])
+        work = float(self.cell.work_of_adhesion)
+        moduli = {
+            "modulus_threshold": wording.name_modulus(self.cell),
+            "plane_strain_modulus_threshold": "E*",
+        }
+        described = {
+            "remaining_share": _quantity(share, "1"),
+            "effective_work_of_adhesion": _quantity(Limited(*(work * x for x in share)), "J/m^2"),
+        }
+        for name, symbol in moduli.items():
+            found = _quantity(_drop_unbounded(read_limited(self.cell[f"{contact}{name}"])), "Pa")
+            described[name] = found and {"symbol": symbol, **found}
+        return {name: value for name, value in described.items() if value is not None}
 
     def __str__(self) -> str:
-        height = f"rms height of the surface: {amount(self.surface.rms_height, 'm')}"
+        cell = self.cell
+        doubts = list(self.doubts)
+        height = f"rms height of the surface: {amount(float(cell.rms_height), 'm')}"
         if self.not_judged:
-            doubts = [doubt for doubt in self.doubts if doubt != self.not_judged[0]]
-            headline = [f"{self.word}: {self.not_judged[0]}", height]
+            doubts.remove(self.not_judged[0])
+            lines = [f"{self.word}: {self.not_judged[0]}", height]
         else:
-            doubts = list(self.doubts)
-            headline = [
-                f"{self.word}: {self._describe_remaining()}{self._describe_doubt()}",
+            remaining = (wording.tell_remaining(cell), wording.tell_improbable(cell))
+            lines = [
+                f"{self.word}: {'; '.join(filter(None, remaining))}",
                 height,
-                f"pull-off stress: {self._describe_pull_off()}",
-                self._describe_threshold(),
-                *self._describe_contact(),
+                f"pull-off stress: {wording.tell_pull_off(cell)}",
+                wording.tell_change(cell),
+                wording.tell_contact(cell),
                 f"decided by {self.decided_by}",
-                *self._describe_dwell(),
+                wording.tell_dwell(cell),
             ]
-        return "\n".join([*headline, *(f"warning: {doubt}" for doubt in doubts)])
-
-    def _describe_doubt(self) -> str:
-        """Improbable values that decide, behind the verdict; empty if there are none."""
-        improbable = []
-        slope = float(self.surface.data.rms_slope[-1])
-        if slope > LIMITS["rms_slope"].usual:
-            improbable.append(f"the rms slope is {number(slope, 2)}")
-        work = self.material.work_of_adhesion
-        if work > LIMITS["work_of_adhesion"].usual and not self.material.work_on_smooth:
-            improbable.append(f"the work of adhesion is {number(work, 2)} J/m^2")
-        if self.material.range > LIMITS["range"].usual:
-            improbable.append(f"the range is {amount(self.material.range, 'm', 2)}")
-        return f"; doubtful, for {' and '.join(improbable)}" if improbable else ""
-
-    def _describe_remaining(self) -> str:
-        share = tell_share(self.remaining, *self.remaining_limits)
-        of = "" if share.endswith("times") else " of"
-        wanted = f"{100 * self.wanted_share:g} % is wanted"
-        return f"{share}{of} the work of adhesion remains; {wanted}"
-
-    def _describe_pull_off(self) -> str:
-        low, high = self.pull_off_limits
-        if self.energy_ratio <= PULL_OFF_UNKNOWN:
-            return limited(self.pull_off, low, high, in_unit("Pa"), least=LEAST_STRESS)
-        if low < LEAST_STRESS:
-            return "not known (contact is nearly full, which was not simulated)"
-        return f"at least {amount(low, 'Pa', 2)} (contact is nearly full, which was not simulated)"
-
-    def _describe_threshold(self) -> str:
-        """Threshold of the modulus, as the modulus was given: E, or E*."""
-        poisson = self.material.poisson
-        name = "E*" if poisson is None else "E"
-        as_given = 1.0 if poisson is None else 1 - poisson**2
-        actual = f"it is {amount(as_given * self.material.plane_strain_modulus, 'Pa')}"
-        value = as_given * self.modulus_threshold
-        low, high = (as_given * modulus for modulus in self.modulus_threshold_limits)
-        if low > MOST_STRESS:
-            return f"sticks at any modulus; {actual}"
-        if high < LEAST_STRESS:
-            return f"sticks at no modulus; {actual}"
-        if value > MOST_STRESS:
-            below = f"sticks below {name} = {amount(low, 'Pa')}"
-            return f"{below}, and probably at any modulus; {actual}"
-        if value < LEAST_STRESS:
-            return f"sticks at no modulus, or below {name} = {amount(high, 'Pa')}; {actual}"
-        text = limited(value, low, high, in_unit("Pa", 3), least=LEAST_STRESS, most=MOST_STRESS)
-        return f"sticks below {name} = {text}; {actual}"
-
-    def _describe_contact(self) -> list[str]:
-        """Size of the contact, and the answer for a larger one; none where neither matters."""
-        size = amount(self.contact, "m")
-        if self.surface.is_larger:
-            return [f"for a contact of {size}"]
-        if self.larger is None:
-            return []
-        larger = amount(self.larger.contact, "m")
-        share = tell_share(*self.larger.remaining)
-        return [
-            f"for contacts up to the size of the scan, {size}; for {larger}, if longer waves "
-            f"follow the fitted law: {self.larger.word}, {share} remains"
-        ]
-
-    def _describe_dwell(self) -> list[str]:
-        """What a dwell does, in one line; none without one."""
-        if self.material.dwell is None:
-            return []
-        return [
-            f"after a dwell of {self.material.dwell:g} s: values are for slow separation, high "
-            f"limits for up to {number(self.material.instant_ratio, 2)} times the work and stress, "
-            "the instantaneous modulus over the relaxed one"
-        ]
-
-
-def tell_share(value: float, low: float, high: float) -> str:
-    """Share of the work of adhesion that remains, or a multiple, with its limits."""
-    if high <= 1:
-        return limited(value, low, high, in_percent, least=LEAST_SHOWN)
-    return f"{limited(value, low, high, in_units_of(1.0), least=LEAST_SHOWN)} times"
+        return "\n".join([*filter(None, lines), *(f"warning: {doubt}" for doubt in doubts)])
 
 
 def verdict(
@@ -250,9 +328,8 @@ def verdict(
     >>> verdict(rough, modulus=210e9, poisson=0.3, work_of_adhesion=0.1, range=3e-10).word
     'does not stick'
     """
-    pair = read_pair(surface, material, length=length, **properties)
-    cell = _judge_one(pair, wanted_share=wanted_share, thresholds=False)
-    return summarise(cell, pair, wanted_share)
+    pair = _read_pair(surface, material, length=length, **properties)
+    return StickinessVerdict(_judge_one(pair, wanted_share=wanted_share, thresholds=False))
 
 
 @dataclass(frozen=True)
@@ -305,26 +382,18 @@ def thresholds(
     >>> print(f"sticks below E = {answer.modulus.value / 1e6:.2f} MPa")
     sticks below E = 1.50 MPa
     """
-    pair = read_pair(surface, material, length=length, **properties)
+    pair = _read_pair(surface, material, length=length, **properties)
     cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
 
     def collect(name: str) -> Limited | None:
         threshold = read_limited(cell[name])
         return None if np.isnan(threshold).all() else threshold
 
-    moduli = find_limited(cell, "modulus_threshold")
+    moduli = read_limited(cell.modulus_threshold)
     if int(cell.verdict) == NOT_JUDGED:
-        return Thresholds(Limited(*moduli), UNKNOWN, None, UNKNOWN, None)
-
-    # Where any modulus would do, no number is a threshold.
-    judged = pair.material
-    full_contact_energy = judged.work_of_adhesion / float(cell.energy_ratio.sel(end="rough"))
-    any_modulus = 0.99 * judged.plane_strain_modulus * judged.work_of_adhesion
-    any_modulus /= LEAST_LENGTH * full_contact_energy
-    as_given = 1.0 if judged.poisson is None else 1 - judged.poisson**2
-    moduli = [as_given * x if x < any_modulus else np.inf for x in moduli]
+        return Thresholds(moduli, UNKNOWN, None, UNKNOWN, None)
     return Thresholds(
-        modulus=Limited(*moduli),
+        modulus=moduli,
         rms_height=collect("rms_height_threshold"),
         thickness=collect("thickness_threshold"),
         pressure=collect("contact_pressure"),
@@ -332,174 +401,49 @@ def thresholds(
     )
 
 
-class ReadPair(NamedTuple):
-    """A material and a surface, and the values of theirs that hardly any real pair has."""
+class _ReadPair(NamedTuple):
+    """A material and a surface."""
 
     material: Material
     surface: Surface
-    doubts: tuple[str, ...]
 
 
-def read_pair(
+def _read_pair(
     surface: Surface | Spectrum | ArrayLike,
     /,
     material: Material | None = None,
     *,
     length: float | tuple[float, float] | None = None,
     **properties: Any,
-) -> ReadPair:
-    """Make a `Material` and a `Surface` of the arguments of `verdict`, with their doubts."""
+) -> _ReadPair:
+    """Make a `Material` and a `Surface` of the arguments of `verdict`."""
     if (material is None) == (not properties):
         raise ValueError("give either a material or its properties, such as modulus=2e5")
     if material is None:
         material = Material(**properties)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", PlausibilityWarning)
-        if isinstance(surface, Material | str | Path):
-            raise ValueError(
-                "surface must be a Surface, a spectrum or heights, got "
-                f"{surface!r}; Surface.read opens a file"
-            )
-        if isinstance(surface, Surface | Spectrum):
-            if length is not None:
-                raise ValueError(f"length is of heights alone; leave it out, got {length!r}")
-        else:
-            if length is None:
-                raise ValueError("length is missing: the side of the measured heights in m")
-            surface = Surface.from_heights(surface, length)
-        if isinstance(surface, Spectrum):
-            surface = Surface.from_spectrum(surface)
-        material.warn()
-        for rough in filter(None, (surface, material.surface)):
-            rough.warn()
-    for warning in caught:  # others are none of ours
-        if not issubclass(warning.category, PlausibilityWarning):
-            warnings.warn(warning.message, stacklevel=3)
-    doubts = [str(w.message) for w in caught if issubclass(w.category, PlausibilityWarning)]
-    return ReadPair(material, surface, tuple(doubts))
+    if isinstance(surface, Material | str | Path):
+        raise ValueError(
+            f"surface must be a Surface, a spectrum or heights, got {surface!r}; Surface.read "
+            "opens a file"
+        )
+    if isinstance(surface, Surface | Spectrum):
+        if length is not None:
+            raise ValueError(f"length is of heights alone; leave it out, got {length!r}")
+    else:
+        if length is None:
+            raise ValueError("length is missing: the side of the measured heights in m")
+        surface = Surface.from_heights(surface, length)
+    if isinstance(surface, Spectrum):
+        surface = Surface.from_spectrum(surface)
+    return _ReadPair(material, surface)
 
 
-def _judge_one(pair: ReadPair, **settings: Any) -> xr.Dataset:
-    """The cell of `judge` for one pair, with a warning of every doubt about it."""
+def _judge_one(pair: _ReadPair, **settings: Any) -> xr.Dataset:
+    """The cell of `judge` for one pair, with a warning of every doubt about its values."""
     dataset = judge([pair.material], [pair.surface], curves=False, **settings)
-    for doubt in pair.doubts:
+    for doubt in find_pair_doubts(pair.material, pair.surface):
         warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
     return dataset.isel(material=0, surface=0)
-
-
-def summarise(cell: xr.Dataset, pair: ReadPair, wanted_share: float) -> StickinessVerdict:
-    """`StickinessVerdict` of one cell of what `judge` returns."""
-    # The margin of a pair is that of what remains; the other criteria are told at the rough end.
-    margin = read_limited(cell.margin)
-    by_criterion = cell.margin_by_criterion.sel(end="rough")
-    margins = {name: float(by_criterion.sel(criterion=name)) for name in CRITERIA}
-    margins[REMAINING] = margin.value
-    limited = {
-        name: find_limited(cell, name) for name in ("remaining", "pull_off", "modulus_threshold")
-    }
-    a_v = read_limited(cell.pair_a_v)
-    reasons = str(cell.not_judged.item()).splitlines()
-    remarks = [text for text in pair.surface.remarks if text not in reasons]
-    larger = find_larger(cell)
-    if larger is not None and larger.word == WORDS[DEPENDS]:
-        remarks += filter(lambda text: text not in remarks, pair.surface.larger.remarks)
-    strain = float(cell.layer_strain.max())
-    if strain > MOST_STRAIN:
-        remarks.append(
-            f"to conform, the layer would have to strain by about {strain:.2g}, beyond linear "
-            "elasticity: all adhesion may be lost"
-        )
-    return StickinessVerdict(
-        word=WORDS[int(cell.verdict)],
-        remaining=limited["remaining"].value,
-        remaining_limits=limited["remaining"][1:],
-        pull_off=limited["pull_off"].value,
-        pull_off_limits=limited["pull_off"][1:],
-        margin=margin.value,
-        margin_limits=margin[1:],
-        modulus_threshold=limited["modulus_threshold"].value,
-        modulus_threshold_limits=limited["modulus_threshold"][1:],
-        regime=REGIMES[int(cell.regime.sel(end="rough"))],
-        simulated=bool(cell.simulated.all()),
-        a_v=a_v.value,
-        a_v_limits=a_v[1:],
-        margins=margins,
-        energy_ratio=float(cell.energy_ratio.max()),
-        wanted_share=wanted_share,
-        decided_by=DECIDED_BY[int(cell.decided_by)],
-        contact=float(cell.contact),
-        larger=larger,
-        material=pair.material,
-        surface=pair.surface,
-        doubts=(*pair.doubts, *remarks, *reasons),
-        not_judged=tuple(reasons),
-    )
-
-
-def find_larger(cell: xr.Dataset) -> LargerContact | None:
-    """Answer for a larger contact from one cell of what `judge` returns; None if there is none."""
-    if np.isnan(cell.larger_contact):
-        return None
-    limited = {name: read_limited(cell[f"larger_{name}"]) for name in LARGER}
-    return LargerContact(
-        contact=float(cell.larger_contact), word=WORDS[int(cell.larger_verdict)], **limited
-    )
-
-
-def find_limited(cell: xr.Dataset, name: str) -> Limited:
-    """Value and limits of a quantity of one pair."""
-    limited = read_limited(cell[name])
-    if name == "modulus_threshold":
-        # Nothing is softer: below a skin that is too stiff no modulus would do.
-        return Limited(*(0.0 if x < 1e-3 * LEAST_STRESS else x for x in limited))
-    return limited
-
-
-def describe_contact_law(
-    *,
-    word: str,
-    material: Material,
-    remaining: Limited,
-    pull_off: Limited,
-    modulus_threshold: Limited,
-    energy_ratio: float,
-    decided_by: str,
-    contact: float,
-    larger: LargerContact | None,
-) -> dict[str, Any]:
-    """Return a verdict and the effective attraction of a smooth surface, for DEM and FE models.
-
-    What is not known is left out: all but the low limit of the pull-off where `energy_ratio`, the
-    work of adhesion over the energy of full contact, is large.
-    """
-    if energy_ratio > PULL_OFF_UNKNOWN:
-        pull_off = pull_off._replace(value=np.nan, high=np.nan)
-    work = material.work_of_adhesion
-    contact_law = {
-        "verdict": word,
-        "decided_by": None if word == WORDS[NOT_JUDGED] else decided_by,
-        "law": material.law,
-        "modulus": {"value": material.plane_strain_modulus, "unit": "Pa"},
-        "work_of_adhesion": {"value": work, "unit": "J/m^2"},
-        "range": {"value": material.range, "unit": "m"},
-        "modulus_threshold": _quantity(_drop_unbounded(modulus_threshold), "Pa"),
-        "effective_work_of_adhesion": _quantity(
-            Limited(*(work * share for share in remaining)), "J/m^2"
-        ),
-        "pull_off_stress": _quantity(pull_off, "Pa"),
-    }
-    if not np.isnan(contact):
-        contact_law["contact"] = {"value": contact, "unit": "m"}
-    if larger is not None:
-        contact_law["larger_contact"] = {
-            "contact": {"value": larger.contact, "unit": "m"},
-            "verdict": larger.word,
-            "effective_work_of_adhesion": _quantity(
-                Limited(*(work * share for share in larger.remaining)), "J/m^2"
-            ),
-            "modulus_threshold": _quantity(_drop_unbounded(larger.modulus_threshold), "Pa"),
-        }
-    return {name: value for name, value in contact_law.items() if value is not None}
 
 
 def _drop_unbounded(moduli: Limited) -> Limited:

@@ -8,14 +8,14 @@ import pytest
 import xarray as xr
 from helpers.analysed import A_V, wall
 
-from common.table_rows import describe_pair
 from stickiness import Material, judge
 from stickiness.criteria.pair import FULL_SHARE, MOST_STRAIN, WORDS
 from stickiness.entries import check_material
+from stickiness.pages.rows import describe_pair
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
-from stickiness.units import si
 from stickiness.verdicts import curves, pair_roughness
+from stickiness.verdicts.judgement import LEAST_MODULUS
 from stickiness.verdicts.limits import LIMITS, read_limited
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -100,7 +100,8 @@ def judged():
 def test_values_lie_within_limits(judged):
     verdicts = judged[0].verdicts
     for name in LIMITED:
-        assert (verdicts[name].diff("limit") >= 0).all(), name
+        low, value, high = (verdicts[name].sel(limit=limit, drop=True) for limit in LIMITS)
+        assert ((low <= value) & (value <= high)).all(), name
 
 
 @pytest.mark.slow
@@ -113,7 +114,15 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
     assert set(words.ravel()) == set(WORDS[:5])
     agree(verdicts.remaining >= DEFAULT_SHARE, verdicts.margin >= 1)
     thresholds = verdicts.margin * verdicts.modulus_quoted
-    np.testing.assert_allclose(verdicts.modulus_threshold, thresholds, rtol=1e-12)
+    # Where any modulus would do, no number is a threshold.
+    found = verdicts.plane_strain_modulus_threshold
+    is_number = np.isfinite(found)
+    assert is_number.mean() > 0.9
+    np.testing.assert_allclose(
+        found.where(is_number), thresholds.where(is_number), rtol=1e-12, atol=LEAST_MODULUS
+    )
+    given = found * verdicts.modulus_given / verdicts.modulus_quoted
+    np.testing.assert_allclose(verdicts.modulus_threshold, given, rtol=1e-12)
     agree(value >= DEFAULT_SHARE, thresholds.sel(limit="value") >= verdicts.modulus_quoted)
     sticks = np.isin(words, ["sticks", "sticks fully"])
     fails = np.isin(words, ["does not stick", "adheres locally, does not hold"])
@@ -153,7 +162,9 @@ def test_pairs_are_on_the_same_side_of_all_thresholds_as_their_shares(judged):
         value, least, most = read_limited(pair.rms_height_threshold)
         assert least <= value <= most
         drawn = bool(np.isfinite(pair.probability))
-        height = float(np.sqrt(pair.pair_h_rms.prod()) if drawn else pair.pair_h_rms[-1])
+        # Of two rough solids it is that of the pair.
+        of_pair = float(np.sqrt(pair.pair_h_rms.prod()) if drawn else pair.pair_h_rms[-1])
+        height = float(pair.rms_height) if material.surface is None else of_pair
         assert (least > height, most > height) == (low_keeps, high_keeps)
         _, slowest, fastest = read_limited(pair.rate_threshold)
         has_rate = material.depends_on_rate and material.dwell is None
@@ -174,29 +185,15 @@ def test_pairs_are_on_the_same_side_of_all_thresholds_as_their_shares(judged):
 
 @pytest.mark.slow
 def test_texts_do_not_contradict_the_verdict(judged):
-    (entries, _, _), verdicts = judged
+    verdicts = judged[0].verdicts
     for name in verdicts.material.values:
-        entry = entries[name]
         for surface in verdicts.surface.values:
             pair = verdicts.sel(material=name, surface=surface)
-            row = describe_pair(pair, entry)
-            _, *shares = read_limited(pair.remaining)
-            for text in (*row["text"].values(), row["threshold"], row["modulus"]):
+            row = describe_pair(pair)
+            for text in (*row["text"].values(), row["change"], row["remaining"]):
                 assert not re.search(r"nan|\(–|– \(|to –|inf", text), text
                 assert text != "–" or np.isnan(pair.probability)
-            assert len(set(re.findall(r"\w?Pa", row["threshold"]))) <= 1  # one unit
+            assert len(set(re.findall(r"\w?Pa", row["text"]["threshold"]))) <= 1  # one unit
             if row["word"] == "depends":
                 assert row["text"]["probability"] not in ("0 %", "100 %")
                 assert row["unknown"] in ("layer", "surface", "model")
-            # As shown, the modulus is on the same side of the limits as the share.
-            given = read_shown(row["modulus"])
-            assert given == pytest.approx(0.75 * float(pair.modulus_quoted), rel=0.01)
-            for text, share in zip((row["sticks_below"], row["fails_above"]), shares, strict=True):
-                assert not text or (read_shown(text) >= given) == (share >= DEFAULT_SHARE)
-
-
-def read_shown(text):
-    """Pa of a modulus as shown, such as "E = 0.2 MPa"."""
-    digits = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-    number = re.sub("^10(?=[⁻⁰¹²³⁴-⁹])", "1 × 10", text.removeprefix("E = "))
-    return si(number.translate(digits).replace(" × 10", "e"), "Pa")

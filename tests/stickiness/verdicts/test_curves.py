@@ -105,7 +105,7 @@ def test_at_the_pair_itself_curves_are_what_is_stored(drawn, thickness, axis, di
 
 def test_curves_cross_the_wanted_share_at_the_threshold(drawn):
     tape = follow(drawn).sel(material="tape")
-    low, value, high = thresholds = tape.modulus_threshold.values
+    low, value, high = thresholds = tape.plane_strain_modulus_threshold.values
     assert low < value < high
     # The limits of thresholds and of shares are those of different draws.
     at_thresholds = np.diag(judge_at(thresholds, drawn))

@@ -89,7 +89,7 @@ def judge_at_moduli(moduli, draws):
 @pytest.mark.parametrize("draws", [0, 60])
 def test_thresholds_and_curves_of_a_tape_keep_its_film(draws):
     tape = judge_at_moduli([0.1e6], draws).isel(material=0)
-    at_thresholds = judge_at_moduli(tape.modulus_threshold.values, draws)
+    at_thresholds = judge_at_moduli(tape.plane_strain_modulus_threshold.values, draws)
     np.testing.assert_allclose(np.diag(at_thresholds.remaining), DEFAULT_SHARE, rtol=1e-6)
     for place in (40, 55, 65):
         factor = float(tape.modulus_factor[place])

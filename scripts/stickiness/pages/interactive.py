@@ -9,10 +9,10 @@ from bokeh.plotting import figure
 from bokeh.resources import Resources
 from markupsafe import Markup
 
-from common.contact_picture import CONTACT, GAPS, code_maps, follow_tension, sides_of
-from common.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
-from report.surface_figures import DASHES, LABELS, LEAST_PERCENT, REMAINS, find_scale
 from stickiness.formatting import unit_for
+from stickiness.pages.contact_figure import CONTACT, GAPS, code_maps, follow_tension, sides_of
+from stickiness.pages.plotting import BLUE, COLOURS, GREEN, ORANGE, RED
+from stickiness.pages.surface_figures import DASHES, LEAST_PERCENT, REMAINS, find_scale
 from stickiness.remaining.roughness import SHORT_RANGE, Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.limits import read_limited
@@ -30,8 +30,8 @@ TOLD_OF_PAIR = [
     ("", "@material on @surface"),
     ("verdict", "@word"),
     ("remains", "@remaining"),
-    ("pull-off [kPa]", "@pull_off"),
-    ("E* threshold [MPa]", "@threshold; the material: @modulus"),
+    ("pull-off", "@pull_off"),
+    ("sticks below", "@threshold; the material: @modulus"),
 ]
 POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
 LEGEND_ROW = 17  # px
@@ -73,18 +73,19 @@ def make_plot(**settings):
     return plot
 
 
-def plot_shares(label, **settings):
-    """Empty plot of remaining shares, with a dashed line from which on a pair sticks."""
+def plot_shares(label, wanted, **settings):
+    """Empty plot of remaining shares, with a dashed line at the wanted one."""
     plot = make_plot(x_axis_type="log", x_axis_label=label, y_axis_label=REMAINS, **settings)
     look = {"dimension": "width", "line_dash": "dashed", "line_color": "#666"}
-    plot.add_layout(models.Span(location=100 * DEFAULT_SHARE, **look))
+    plot.add_layout(models.Span(location=100 * wanted, **look))
     return plot
 
 
 def draw_pairs(pairs):
-    """Remaining share of the `pairs` of `table_rows.arrange_pairs`, with limits, by w/U_full."""
+    """Remaining share of `pairs`, rows of `rows.describe_pair`, with limits, by w/U_full."""
     ranges = {"x_range": (LEAST_RATIO / 1.5, MOST_RATIO * 1.5), "y_range": (-3, 103)}
-    plot = plot_shares("work of adhesion over energy of full contact", height=460, **ranges)
+    label = "work of adhesion over energy of full contact"
+    plot = plot_shares(label, DEFAULT_SHARE, height=460, **ranges)
     # Many decades of waves with the Hurst exponent 0.8.
     rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=2 / 3)
     ratios = np.geomspace(LEAST_RATIO, MOST_RATIO, 500)
@@ -117,33 +118,34 @@ def locate(row):
 
 def draw_curves(found):
     """Tabs with a figure of all `found` curves of a surface for each axis."""
-    panels = {axis.capitalize(): draw_axis(axis, curves) for axis, curves in found.items()}
+    panels = {name.capitalize(): draw_axis(axis) for name, axis in found.items()}
     tabs = [models.TabPanel(title=title, child=panel) for title, panel in panels.items()]
     return models.Tabs(tabs=tabs, sizing_mode="stretch_width")
 
 
-def draw_axis(axis, curves):
-    """Curves along one axis: value, limits, and the pair as it is."""
+def draw_axis(axis):
+    """Curves along one `Axis`: value, limits, and the pair as it is."""
+    label, wanted, curves = axis
     shown = models.DataRange1d(only_visible=True, range_padding=0.02)
     height = 340 + LEGEND_ROW * len(curves)
     scale, limits = find_scale(curves)
     ranges = {"x_range": shown, "y_range": limits, "y_axis_type": scale}
-    plot = plot_shares(LABELS[axis], height=height, **ranges)
-    told = [("", "$name"), (LABELS[axis], "@x"), ("remains [%]", "@value{0.0}")]
+    plot = plot_shares(label, wanted, height=height, **ranges)
+    told = [("", "$name"), (label, "@x"), ("remains [%]", "@value{0.0}")]
     told.append(("limits [%]", "@low{0.0} to @high{0.0}"))
     items = []
-    for label, place, points, own, shown_at_first in curves:
+    for name, place, points, own, shown_at_first in curves:
         if scale == "log":  # which has no zero
             points = points.assign(**points.drop(columns="x").clip(lower=LEAST_PERCENT / 10))
         source = models.ColumnDataSource(points.to_dict("list"))
         look = {"color": COLOURS[place % len(COLOURS)], "visible": shown_at_first}
         band = plot.varea("x", "low", "high", source=source, fill_alpha=0.15, **look)
-        style = look | {"line_dash": DASHES[place % len(DASHES)], "line_width": 2, "name": label}
+        style = look | {"line_dash": DASHES[place % len(DASHES)], "line_width": 2, "name": name}
         line = plot.line("x", "value", source=source, **style)
         plot.add_tools(models.HoverTool(renderers=[line], tooltips=told, visible=False))
         marker = POINTS[place % len(POINTS)]
         mark = plot.scatter([own.x], [own.value], marker=marker, size=10, **look)
-        items.append((label, [line, mark, band]))
+        items.append((name, [line, mark, band]))
     plot.add_layout(models.Legend(items=items, click_policy="hide", **LEGEND), "below")
     return plot
 

@@ -5,9 +5,9 @@ from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import ListedColormap, Normalize, to_hex
 
-from common import plotting
-from common.plotting import BLUE, GREY, RED
 from stickiness.formatting import percent, unit_for
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLUE, GREY, RED
 
 CONTACT = 255  # code of a pixel in contact; lower ones are gaps
 GAPS = [to_hex(colormaps["bone_r"](code / (CONTACT - 1))) for code in range(CONTACT)]

@@ -1,36 +1,41 @@
 """Figures of a surface: heights and spectrum, and the adhesion that remains on it."""
 
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
+import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
-from common import plotting
-from common.plotting import BLACK, COLOURS, GREY, MARKERS
-from common.verdict_texts import MPA
-from stickiness.criteria.pair import NOT_JUDGED
 from stickiness.formatting import unit_for
-from stickiness.remaining.trial_states import DEFAULT_SHARE
+from stickiness.pages import plotting
+from stickiness.pages.plotting import BLACK, COLOURS, GREY, MARKERS
 from stickiness.verdicts.limits import LIMITS
+from stickiness.verdicts.wording import is_judged, name_modulus
 
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
-SHOWN = 3  # materials in print, and of the project at first: more is a bundle
+SHOWN = 3  # materials in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
 LEAST_PERCENT = 0.1  # that a logarithmic axis shows
 ROOM = 3.0  # factor on the modulus by which its curve goes on there
 LABELS = {
-    "modulus": "plane-strain modulus E* [MPa]",
+    "modulus": "{symbol} [{unit}]",
     "roughness": "factor on the heights",
     "rate": "frequency [Hz]",
     "dwell": "dwell time [s]",
 }
+MODULI = {"E": "Young's modulus E", "E*": "plane-strain modulus E*"}
 REMAINS = "remaining share [%]"
 
 
-def draw_surface(surface, output):
+def draw_surface(surface: xr.Dataset, output: str | Path) -> None:
     """Write a figure with the heights, if there are any, and the spectrum."""
     pictured = [name for name in ("heights", "profile") if name in surface]
     row = "AB" if pictured else "AA"
@@ -40,7 +45,7 @@ def draw_surface(surface, output):
         draw_spectrum(panels[row[1]], surface)
 
 
-def draw_reading(surface, output):
+def draw_reading(surface: xr.Dataset, output: str | Path) -> None:
     """Write small pictures of a map as it was read, with what is not used, and as it is used."""
     with plotting.open_figure([output], "AB", 2.2) as panels:
         before = surface.heights_as_read.values
@@ -56,7 +61,7 @@ def draw_reading(surface, output):
         draw_heights(panels["B"], surface.heights[::thin, ::thin])
 
 
-def draw_heights(ax, heights):
+def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
     """Levelled heights, as colours or as a profile, in units that suit them."""
     per_x, unit_x = unit_for(max(float(heights[axis][-1]) for axis in heights.dims), "m")
     low, high = np.percentile(heights, [0.2, 99.8])  # a few outliers must not take all the colours
@@ -73,7 +78,7 @@ def draw_heights(ax, heights):
     ax.set_ylabel(f"y [{unit_x}]")
 
 
-def draw_spectrum(ax, surface):
+def draw_spectrum(ax: Axes, surface: xr.Dataset) -> None:
     """Spectrum with errors, fit, the paper's lines and the ends of the instrument's band."""
     q = surface.wave_number.values
     if "psd_standard_error" in surface:
@@ -89,7 +94,7 @@ def draw_spectrum(ax, surface):
     ax.legend(loc="lower left" if surface.hurst > -1 else "center left")  # clear of the points
 
 
-def draw_measured(ax, surface, q):
+def draw_measured(ax: Axes, surface: xr.Dataset, q: np.ndarray) -> None:
     """Rings within the band of the instrument, the fit with its band beyond, and the cutoff."""
     beyond = ~plotting.find_rings(surface)
     plotting.draw_assumed(ax, surface, GREY)
@@ -125,36 +130,57 @@ class Curve(NamedTuple):
     shown: bool  # at first
 
 
-def find_curves(pairs, labels, at_first):
-    """Curves of the judged materials by axis, in the order of the `labels` by name.
+class Axis(NamedTuple):
+    """An axis along which the remaining share is followed."""
+
+    label: str
+    wanted: float  # share from which on a pair sticks
+    curves: list[Curve]
+
+
+def find_curves(
+    pairs: xr.Dataset, names: Sequence[str], at_first: Sequence[str]
+) -> dict[str, Axis]:
+    """Curves of the judged materials by axis, in the order of their `names`.
 
     Those of the materials `at_first` are shown at first.
     """
-    judged = [name for name in labels if int(pairs.verdict.sel(material=name)) != NOT_JUDGED]
-    curves = {}
-    for axis in LABELS:
-        for place, name in enumerate(judged):
-            pair = pairs.sel(material=name)
-            is_known = bool(np.isfinite(pair[f"remaining_by_{axis}"]).any())
-            if is_known and (axis != "rate" or int(pair.depends_on_rate)):
-                points, own = follow(axis, pair)
+    cells = {name: pairs.sel(material=name) for name in names}
+    judged = {name: cell for name, cell in cells.items() if is_judged(cell)}
+    if not judged:
+        return {}
+    # Moduli are in the unit of those shown at first, as they were given.
+    first = [judged[name] for name in at_first if name in judged] or list(judged.values())
+    per_pascal, unit = unit_for(max(float(cell.modulus_given) for cell in first), "Pa")
+    symbols = {name_modulus(cell) for cell in judged.values()}
+    symbol = MODULI[symbols.pop()] if len(symbols) == 1 else "modulus E or E*, as given"
+    axes = {}
+    for axis, label in LABELS.items():
+        curves = []
+        for place, (name, cell) in enumerate(judged.items()):
+            is_known = bool(np.isfinite(cell[f"remaining_by_{axis}"]).any())
+            if is_known and (axis != "rate" or int(cell.depends_on_rate)):
+                points, own = follow(axis, cell, per_pascal)
                 curve = Curve(
-                    label=labels[name],
+                    label=cell.material_label.item(),
                     place=place,
                     points=points,
                     own=own,
                     shown=name in at_first,
                 )
-                curves.setdefault(axis, []).append(curve)
-    return curves
+                curves.append(curve)
+        if curves:
+            label = label.format(symbol=symbol, unit=unit)
+            axes[axis] = Axis(label, float(pairs.wanted_share), curves)
+    return axes
 
 
-def follow(axis, pair):
+def follow(axis: str, pair: xr.Dataset, per_pascal: float) -> tuple[pd.DataFrame, pd.Series]:
     """Points of the curve along an axis, where it is known and says something, and the pair's."""
     share = pair[f"remaining_by_{axis}"]
     (dim,) = set(share.dims) - {"limit"}
     factor = pair[dim].values  # a rate of 1 Hz, at which the modulus is quoted, counts as 1
-    scale = {"modulus": float(pair.modulus_quoted) / MPA, "dwell": float(pair.dwell)}
+    scale = {"modulus": float(pair.modulus_given) * per_pascal, "dwell": float(pair.dwell)}
     x = factor * scale.get(axis, 1.0)
     percents = 100 * share.transpose(dim, "limit").values
     points = pd.DataFrame(percents, index=x, columns=list(LIMITS)).rename_axis("x").reset_index()
@@ -167,33 +193,33 @@ def follow(axis, pair):
     return points[kept], own
 
 
-def find_scale(curves):
+def find_scale(curves: Sequence[Curve]) -> tuple[str, tuple[float, float]]:
     """Scale and limits of shares [%]: logarithmic where some may exceed 100 %."""
     most = max(curve.points.high.max() for curve in curves)
     return ("linear", (-2, 102)) if most <= 100 else ("log", (LEAST_PERCENT, 1.5 * most))
 
 
-def draw_still(curves_by_axis, output):
+def draw_still(axes: Mapping[str, Axis], output: str | Path) -> None:
     """Write the curves of the first materials for print; say so if nothing is judged."""
-    rows = ("A", "AB", "ABC", "AB;CD")[max(len(curves_by_axis), 1) - 1]
+    rows = ("A", "AB", "ABC", "AB;CD")[max(len(axes), 1) - 1]
     height = 2.9 * len(rows.split(";"))
     with plotting.open_figure([output], rows, height) as panels:
-        if not curves_by_axis:
+        if not axes:
             panels["A"].set_axis_off()
             panels["A"].text(0.5, 0.5, "not judged", ha="center")
             return
-        for ax, (axis, curves) in zip(panels.values(), curves_by_axis.items(), strict=True):
+        for ax, (label, wanted, curves) in zip(panels.values(), axes.values(), strict=True):
             for curve in [curve for curve in curves if curve.shown][:SHOWN]:
                 draw_curve(ax, curve)
-            ax.axhline(100 * DEFAULT_SHARE, color=GREY, linewidth=0.9, linestyle="--")
+            ax.axhline(100 * wanted, color=GREY, linewidth=0.9, linestyle="--")
             scale, limits = find_scale(curves)
-            ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=LABELS[axis], ylabel=REMAINS)
+            ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=label, ylabel=REMAINS)
         handles, texts = panels["A"].get_legend_handles_labels()
         look = {"loc": "outside lower center", "ncols": SHOWN, "handlelength": 3}
         panels["A"].figure.legend(handles, texts, **look)
 
 
-def draw_curve(ax, curve):
+def draw_curve(ax: Axes, curve: Curve) -> None:
     """Draw a `Curve` with its limits and the pair itself."""
     colour = COLOURS[curve.place % len(COLOURS)]
     marker = MARKERS[curve.place % len(MARKERS)]

@@ -1,9 +1,14 @@
-"""Pages and tables from the templates in `report/`, with filters that write numbers and symbols."""
+"""Pages and tables from templates, with filters that write numbers and symbols."""
 
+from __future__ import annotations
+
+import base64
 import os
 import re
+import struct
 from pathlib import Path
 from typing import Any
+from urllib.parse import quote, unquote
 
 import jinja2
 import numpy as np
@@ -12,6 +17,7 @@ from markupsafe import Markup, escape
 from stickiness import datasets, formatting
 from stickiness.criteria.pair import DEPENDS, TOUCHES
 
+TEMPLATES = Path(__file__).with_name("templates")  #: of pages, and parts that others include
 FORMATS = ("number", "percent", "change", "interval", "with_error", "amount", "quantity")
 DOI = re.compile(r"doi:(10\.\d{4,9}/(?:\([^\s()]*\)|[^\s,;:()&]*[^\s,;:()&.])+)")
 # Symbols as texts of datasets and labels spell them, escaped: h_rms, q0, x^2, m^(2/3).
@@ -43,10 +49,10 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     """Environment for the templates in a folder; links are relative to the folder of `page`."""
 
     def href(target: str | Path) -> str:
-        return Path(os.path.relpath(target, Path(page).parent)).as_posix()
+        return quote(Path(os.path.relpath(target, Path(page).parent)).as_posix())
 
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(folder),
+        loader=jinja2.FileSystemLoader([folder, TEMPLATES]),
         autoescape=lambda name: ".html" in (name or ""),
         undefined=jinja2.StrictUndefined,  # a name that nobody gives is an error
         finalize=keep_whole,
@@ -65,7 +71,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
         "capital": lambda text: text[0].upper() + text[1:],
         "breakable": lambda text: Markup(re.sub("([/_])", r"\1<wbr>", str(escape(text)))),
         "href": href,
-        "place": lambda target: re.sub(r"^(\.\./)+", "", href(target)),
+        "place": lambda target: re.sub(r"^(\.\./)+", "", unquote(href(target))),
     }
     environment.tests["finite"] = np.isfinite
     environment.globals["np"] = np
@@ -95,3 +101,13 @@ def typeset(text: str) -> Markup:
         part = LOWERED.sub(lambda m: f"{m[1] or m[3]}<sub>{m[2] or m[4]}</sub>", part)
         parts[index] = RAISED.sub(lambda m: f"<sup>{m[1] or m[2]}</sup>".replace("-", "−"), part)
     return Markup("".join(parts))
+
+
+def embed_png(path: str | Path) -> dict[str, Any]:
+    """A PNG as base64 text, with its name and size in pixels; ValueError if it is none."""
+    content = Path(path).read_bytes()
+    if not content.startswith(b"\x89PNG\r\n\x1a\n"):
+        raise ValueError(f"{path}: not a PNG file; delete it and re-run")
+    width, height = struct.unpack(">II", content[16:24])
+    data = base64.b64encode(content).decode("ascii")
+    return {"name": Path(path).stem, "data": data, "width": width, "height": height}

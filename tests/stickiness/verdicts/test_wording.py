@@ -2,8 +2,10 @@
 
 import pytest
 
-from common.templates import make_environment
+from stickiness import Material, Surface
 from stickiness.entries import check_material
+from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.wording import describe_material
 
 TAPE = {"label": "tape", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm"}
 INCOMPRESSIBLE = {"poisson_ratio": 0.5}
@@ -11,13 +13,13 @@ PLAIN = INCOMPRESSIBLE | {"youngs_modulus": "0.1 MPa"}
 FILM = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 SERIES = {"equilibrium": "10 kPa", "terms": [["30 kPa", "1 s"], ["0.2 MPa", "1 ms"]]}
 TABLE = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
-THICK = "E = 0.1 MPa, ν = 0.5, 50 µm thick"
+THICK = "E = 100 kPa, ν = 0.5, 50 µm thick"
 
 
 @pytest.mark.parametrize(
     ("keys", "text"),
     [
-        (PLAIN | {"surface": "wall"}, "E = 0.1 MPa, ν = 0.5, rough as the brick wall"),
+        (PLAIN | {"surface": "wall"}, "E = 100 kPa, ν = 0.5, rough itself, 2 µm rms"),
         (PLAIN | {"thickness": "50 um"}, f"{THICK} on a rigid base"),
         (
             PLAIN | {"thickness": "50 um", "backing": "slip"},
@@ -29,11 +31,11 @@ THICK = "E = 0.1 MPa, ν = 0.5, 50 µm thick"
         ),
         (
             PLAIN | {"skin": {"thickness": "90 nm", "modulus": "3 GPa", "poisson": 0.35}},
-            "E = 0.1 MPa, ν = 0.5, under a skin of 90 nm and 3 GPa",
+            "E = 100 kPa, ν = 0.5, under a skin of 90 nm and 3 GPa",
         ),
         (
             INCOMPRESSIBLE | {"youngs_modulus_table": TABLE},
-            "E′ = 50 kPa at 10 mHz … 0.5 MPa at 0.1 kHz, ν = 0.5",
+            "E′ = 50 kPa at 10 mHz … 500 kPa at 100 Hz, ν = 0.5",
         ),
         (
             INCOMPRESSIBLE | {"youngs_modulus_prony": SERIES},
@@ -42,7 +44,8 @@ THICK = "E = 0.1 MPa, ν = 0.5, 50 µm thick"
         ({"plane_strain_modulus": "2 MPa"}, "E* = 2 MPa"),
     ],
 )
-def test_materials_are_shown_as_configured(keys, text):
-    macros = make_environment("report").get_template("macros.html.j2").module
-    shown = macros.given(check_material(TAPE | keys), {"wall": "the brick wall"})
-    assert shown.replace("\u00a0", " ") == text
+def test_materials_are_described(keys, text):
+    rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e6, h_rms=2e-6)
+    surfaces = {"wall": Surface.from_spectrum(rough)}
+    material = Material.from_entry(check_material(TAPE | keys), surfaces)
+    assert describe_material(material) == text

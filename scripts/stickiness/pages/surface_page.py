@@ -1,0 +1,206 @@
+"""The page of one surface: verdicts and their reasons, curves, contact, parameters, spectrum."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from stickiness.formatting import amount, number, quantity_with_error, with_error
+from stickiness.pages import contact_figure, interactive, surface_figures
+from stickiness.pages.rendering import TEMPLATES, embed_png, write_page
+from stickiness.pages.rows import describe_pair, describe_surface, explain
+from stickiness.statistics import COVERS
+from stickiness.verdicts import wording
+from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
+from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.pressed_heights import Picture
+from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
+
+
+def write_surface_page(
+    page: str | Path,
+    *,
+    entry: Mapping[str, Any],
+    surface: xr.Dataset,
+    verdicts: xr.Dataset,
+    picture: Picture | None,
+    files: Mapping[str, str | Path],
+    own: Sequence[str] | None = None,
+) -> None:
+    """Write the page of a surface.
+
+    Parameters
+    ----------
+    page : path
+        The page that is written.
+    entry : mapping
+        Entry of the surface, for what readers are told of its origin.
+    surface : Dataset
+        `Surface.data`.
+    verdicts : Dataset
+        What `judge` returns, with curves and thresholds, for this surface alone.
+    picture : Picture or None
+        What `picture_contact` returns; None of a surface that was not measured.
+    files : mapping
+        Files of data that the page links to: surface, verdicts and, with a picture, contact and
+        pull_off.
+    own : sequence of str, optional
+        Names of the materials that are shown first, and the others on request. By default all.
+    """
+    pairs = verdicts.squeeze("surface")
+    names = list(map(str, pairs.material.values))
+    own = names if own is None else [name for name in names if name in own]
+    names = [*own, *(name for name in names if name not in own)]
+    at_first = own or names[: surface_figures.SHOWN]
+    rows = [describe_verdict(pairs.sel(material=name)) | {"mine": name in own} for name in names]
+    followed = surface_figures.find_curves(pairs, names, at_first)
+    curves = followed and {
+        "interactive": interactive.embed(interactive.draw_curves(followed)),
+        "still": draw_png(surface_figures.draw_still, followed),
+    }
+    reading = None
+    if "heights_as_read" in surface:
+        reading = draw_png(surface_figures.draw_reading, surface)
+    contact = None
+    if picture is not None:
+        suited = [name for name in own if pairs.half_space.sel(material=name)]
+        contact = describe_contact(picture, pairs.sel(material=suited))
+    write_page(
+        TEMPLATES / "surface.html.j2",
+        page,
+        files=files,
+        surface=surface,
+        made=entry,
+        sizes=describe_surface(surface),
+        covers=COVERS,
+        figure=draw_png(surface_figures.draw_surface, surface),
+        reading=reading,
+        wanted=float(pairs.wanted_share),
+        doubts=list_doubts(rows if not own else [row for row in rows if row["mine"]]),
+        not_judged=surface.attrs.get("not_judged", ""),
+        contact_area=CONTACT_AREA,
+        theories=(DECIDED_BY[BY_GAUSSIAN_THEORY], DECIDED_BY[BY_SHAPED_THEORY]),
+        verdicts=rows,
+        shown_at_first=len(at_first),
+        curves=curves,
+        contact=contact,
+        library=interactive.library() if curves or contact else "",
+    )
+
+
+def describe_verdict(pair: xr.Dataset) -> dict[str, Any]:
+    """Verdict on one material, with every criterion's reason."""
+    return describe_pair(pair) | {
+        "thresholds": {
+            name: read_limited(pair[name]) for name in THRESHOLDS if not np.isnan(pair[name]).any()
+        },
+        "criteria": explain(pair) if wording.is_judged(pair) else [],
+        "larger": describe_larger(pair),
+    }
+
+
+def describe_larger(pair: xr.Dataset) -> dict[str, str] | None:
+    """Verdict and share for a contact larger than the scan; None where none is judged."""
+    if np.isnan(pair.larger_contact):
+        return None
+    return {
+        "contact": wording.tell_larger_size(pair),
+        "word": wording.WORDS[int(pair.larger_verdict)],
+        "remaining": wording.tell_share(*read_limited(pair.larger_remaining)),
+    }
+
+
+def list_doubts(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Doubts about the pairs of these rows, once each; those about a material name it."""
+    doubts = []
+    for row in rows:
+        pair = row["pair"]
+        about_material = pair.material_doubts.item().splitlines()
+        reasons = pair.not_judged.item().splitlines()
+        for doubt in pair.doubts.item().splitlines():
+            if doubt not in reasons:
+                doubts.append(f"{row['material']}: {doubt}" if doubt in about_material else doubt)
+    return list(dict.fromkeys(doubts))
+
+
+def draw_png(draw: Callable[..., None], *shown: Any) -> dict[str, Any]:
+    """Picture that a function draws into a file, its last argument, as text for a page."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "picture.png")
+        draw(*shown, file)
+        return embed_png(file)
+
+
+def describe_contact(picture: Picture, suited: xr.Dataset) -> dict[str, Any] | None:
+    """Simulated contact and pull-off of the measured heights; None where there is no map.
+
+    `suited` are the pairs whose material is as the simulated solid: deep and smooth.
+    """
+    contact, pull_off = picture
+    if contact.attrs["left_out"]:
+        return None
+    loads = list_loads(contact, suited)
+    texts = []
+    for load in loads:
+        pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
+        pressure = ", ".join(pressures) or f"{load['pressure']} E* q₀ hᵣₘₛ"
+        texts.append(
+            f"Mean pressure: {pressure}. Contact area: {load['area']}. Mean gap: {load['gap']}."
+        )
+    compared = () if pull_off.attrs["left_out"] else ("separation", "pull_off")
+    outside = [name for name in compared if not overlap(pull_off, name)]
+    return {
+        "interactive": interactive.embed(interactive.draw_contact(contact, pull_off, texts)),
+        "still": draw_png(contact_figure.draw_still, contact, pull_off),
+        "data": contact,
+        "loads": loads,
+        "pulled": pull_off.attrs["material"],
+        "moment": pull_off.attrs["moment"],
+        "pull_off": pull_off,
+        "outside": outside,
+        "pulled_works": {name: read_limited(pull_off[name]) for name in compared},
+        "too_high": all(
+            read_limited(pull_off[name]).value < read_limited(pull_off[f"predicted_{name}"]).value
+            for name in outside
+        ),
+    }
+
+
+def list_loads(contact: xr.Dataset, suited: xr.Dataset) -> list[dict[str, Any]]:
+    """Texts of every load: pressure over E* and for each suited material, area and mean gap."""
+    moduli = {}
+    for name in suited.material.values:
+        pair = suited.sel(material=name)
+        label = f"{pair.material_label.item()} {wording.tell_moment(pair)}".strip()
+        moduli[label] = float(pair.modulus_quoted)
+    rows = []
+    for index in range(contact.sizes["pressure"]):
+        load = contact.isel(pressure=index)
+        area = with_error(100 * load.area_fraction, 100 * load.area_fraction_discretisation_error)
+        gap = quantity_with_error(
+            float(load.mean_gap), float(load.mean_gap_discretisation_error), "m"
+        )
+        pressures = {
+            label: amount(float(load.mean_pressure) * modulus, "Pa", 2)
+            for label, modulus in moduli.items()
+        }
+        rows.append(
+            {
+                "pressure": number(load.pressure, 2),
+                "pressures": pressures,
+                "area": f"({area}) %",
+                "gap": gap,
+            }
+        )
+    return rows
+
+
+def overlap(pull_off: xr.Dataset, name: str) -> bool:
+    """Whether the limits of simulation and model have values in common."""
+    simulated, predicted = (read_limited(pull_off[each]) for each in (name, f"predicted_{name}"))
+    return bool(simulated.low <= predicted.high and predicted.low <= simulated.high)

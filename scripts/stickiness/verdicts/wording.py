@@ -1,0 +1,250 @@
+"""Words for a pair: what the terminal, pages and tables say of one cell of what `judge` returns.
+
+A text is made here and nowhere else, so that one question has one answer wherever it is asked.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import xarray as xr
+
+from stickiness.criteria.pair import NOT_JUDGED, WORDS
+from stickiness.formatting import (
+    amount,
+    duration,
+    in_percent,
+    in_unit,
+    in_units_of,
+    limited,
+    number,
+    percent,
+)
+from stickiness.plausibility import LIMITS
+from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
+from stickiness.solids import Film, Layer, Skin
+from stickiness.solids.moduli import REFERENCE_FREQUENCY, Prony, Table
+from stickiness.verdicts.limits import read_limited
+
+if TYPE_CHECKING:
+    from stickiness.verdicts.material import Material
+
+LEAST_STRESS = 1.0  #: [Pa]; beyond these two nobody can use a stress or a modulus
+MOST_STRESS = 1e13
+LEAST_SHOWN = 1e-3  #: share of the work of adhesion below which texts say 0 %
+_DIGITS = 3  # of a threshold of the modulus
+
+
+def tell_share(value: float, low: float, high: float) -> str:
+    """Share of the work of adhesion that remains, or a multiple, with its limits."""
+    if high <= 1:
+        return limited(value, low, high, in_percent, least=LEAST_SHOWN)
+    return f"{limited(value, low, high, in_units_of(1.0), least=LEAST_SHOWN)} times"
+
+
+def tell_remaining(cell: xr.Dataset) -> str:
+    """How much of the work of adhesion remains, and how much is wanted."""
+    share = tell_share(*read_limited(cell.remaining))
+    of = "" if share.endswith("times") else " of"
+    return f"{share}{of} the work of adhesion remains; {percent(cell.wanted_share)} is wanted"
+
+
+def tell_pull_off(cell: xr.Dataset) -> str:
+    """Pull-off stress with its limits; only a low limit where contact is nearly full."""
+    pull_off = read_limited(cell.pull_off)
+    if is_pull_off_known(cell):
+        return limited(*pull_off, in_unit("Pa"), least=LEAST_STRESS)
+    if pull_off.low < LEAST_STRESS:
+        return "not known"
+    return f"at least {amount(pull_off.low, 'Pa', 2)}"
+
+
+def is_pull_off_known(cell: xr.Dataset) -> bool:
+    """Whether the pull-off has a value and a high limit: near full contact it was not simulated."""
+    return bool(cell.energy_ratio.max() <= PULL_OFF_UNKNOWN)
+
+
+def name_modulus(cell: xr.Dataset) -> str:
+    """Symbol of the modulus as it was given."""
+    return "E*" if np.isnan(cell.poisson_ratio) else "E"
+
+
+def tell_modulus(cell: xr.Dataset) -> str:
+    """Modulus of the material, at the rate or after the dwell of the verdict."""
+    return f"{name_modulus(cell)} = {amount(float(cell.modulus_given), 'Pa')}"
+
+
+def tell_threshold(cell: xr.Dataset, name: str = "modulus_threshold") -> str:
+    """Modulus below which a pair sticks, with its limits; "any" or "none" where no number is."""
+    value, low, high = read_limited(cell[name])
+    symbol = name_modulus(cell)
+    if low > MOST_STRESS:
+        return "any"
+    if high < LEAST_STRESS:
+        return "none"
+    if value > MOST_STRESS:
+        return f"{symbol} = {amount(low, 'Pa')} at least, probably any"
+    if value < LEAST_STRESS:
+        return f"none, or {symbol} = {amount(high, 'Pa')} at most"
+    write = in_unit("Pa", _DIGITS)
+    return f"{symbol} = {limited(value, low, high, write, least=LEAST_STRESS, most=MOST_STRESS)}"
+
+
+def tell_change(cell: xr.Dataset) -> str:
+    """Modulus below which a pair sticks, beside its own, as the rest of a sentence."""
+    value, low, high = read_limited(cell.modulus_threshold)
+    symbol = name_modulus(cell)
+    if low > MOST_STRESS:
+        sticks = "at any modulus"
+    elif high < LEAST_STRESS:
+        sticks = "at no modulus"
+    elif value > MOST_STRESS:
+        sticks = f"below {symbol} = {amount(low, 'Pa')}, and probably at any modulus"
+    elif value < LEAST_STRESS:
+        sticks = f"at no modulus, or below {symbol} = {amount(high, 'Pa')}"
+    else:
+        sticks = f"below {tell_threshold(cell)}"
+    return f"sticks {sticks}; it is {amount(float(cell.modulus_given), 'Pa')}"
+
+
+def tell_contact(cell: xr.Dataset) -> str:
+    """Size of the contact, and the answer for a larger one; empty where neither matters."""
+    size = amount(float(cell.contact), "m")
+    if float(cell.contact) > float(cell.scan) * (1 + 1e-9):
+        return f"for a contact of {size}"
+    if np.isnan(cell.larger_contact):
+        return ""
+    share = tell_share(*read_limited(cell.larger_remaining))
+    return (
+        f"for contacts up to the size of the scan, {size}; for {tell_larger_size(cell)}, if longer "
+        f"waves follow the fitted law: {WORDS[int(cell.larger_verdict)]}, {share} remains"
+    )
+
+
+def tell_larger_size(cell: xr.Dataset) -> str:
+    """Size of the larger contact that is judged, too."""
+    return amount(float(cell.larger_contact), "m")
+
+
+def tell_dwell(cell: xr.Dataset) -> str:
+    """What a dwell does, in one line; empty without one."""
+    if np.isnan(cell.dwell):
+        return ""
+    return (
+        f"after a dwell of {float(cell.dwell):g} s: values are for slow separation, high limits "
+        f"for up to {number(cell.instant_ratio, 2)} times the work and stress, the instantaneous "
+        "modulus over the relaxed one"
+    )
+
+
+def tell_moment(cell: xr.Dataset) -> str:
+    """Rate at which, or dwell after which, a pair is judged; empty of an elastic solid."""
+    return _tell_moment(bool(cell.depends_on_rate), float(cell.dwell))
+
+
+def tell_material_moment(material: Material) -> str:
+    """The same of a material."""
+    return _tell_moment(material.depends_on_rate, material.dwell or np.nan)
+
+
+def _tell_moment(depends_on_rate: bool, dwell: float) -> str:
+    if not depends_on_rate:
+        return ""
+    if np.isnan(dwell):
+        return f"at {amount(REFERENCE_FREQUENCY, 'Hz')}"
+    return f"after {duration(dwell)} of dwell"
+
+
+def tell_rates(cell: xr.Dataset) -> str:
+    """Frequencies at which a pair sticks, and may stick; empty where the rate does not matter."""
+    if "rate_threshold" not in cell:
+        return ""
+    _, low, high = read_limited(cell.rate_threshold)
+    if np.isnan(low) or np.isnan(high):
+        return ""
+
+    def below(highest: float) -> str:
+        if highest == 0:
+            return "at no frequency"
+        if np.isinf(highest):
+            return "at every frequency"
+        return f"below {number(highest, 2)} Hz"
+
+    surely, perhaps = below(low), below(high)
+    if surely == perhaps:
+        return f"sticks {surely}"
+    return f"sticks {surely}, and may stick {perhaps}" if low > 0 else f"may stick {perhaps}"
+
+
+def tell_improbable(cell: xr.Dataset) -> str:
+    """Improbable values that decide, which make a verdict doubtful; empty if there are none."""
+    improbable = []
+    slope = float(cell.pair_rms_slope.sel(end="rough"))
+    if slope > LIMITS["rms_slope"].usual:
+        improbable.append(f"the rms slope is {number(slope, 2)}")
+    work = float(cell.work_of_adhesion)
+    if work > LIMITS["work_of_adhesion"].usual and not cell.work_on_smooth:
+        improbable.append(f"the work of adhesion is {number(work, 2)} J/m^2")
+    range_ = float(cell.range)
+    if range_ > LIMITS["range"].usual:
+        improbable.append(f"the range is {amount(range_, 'm', 2)}")
+    return f"doubtful, for {' and '.join(improbable)}" if improbable else ""
+
+
+def tell_verdict(cell: xr.Dataset) -> str:
+    """Word of the verdict on a pair."""
+    return WORDS[int(cell.verdict)]
+
+
+def is_judged(cell: xr.Dataset) -> bool:
+    """Whether a pair has a verdict."""
+    return int(cell.verdict) != NOT_JUDGED
+
+
+def describe_material(material: Material) -> str:
+    """Properties of a material for readers: modulus, layer, skin and roughness."""
+    parts = [_describe_modulus(material)]
+    if material.poisson is not None:
+        parts.append(f"ν = {number(material.poisson)}")
+    solid = material.solid
+    if isinstance(solid, Layer):
+        slips = ", free to slip" if solid.backing == "slip" else ""
+        backing = _describe_backing(material, solid)
+        parts.append(f"{amount(solid.thickness, 'm')} thick{slips} {backing}")
+    if isinstance(solid, Skin):
+        modulus = solid.modulus_ratio * material.quoted_modulus
+        thickness = amount(solid.thickness, "m")
+        parts.append(f"under a skin of {thickness} and {amount(modulus, 'Pa')}")
+    if material.surface is not None:
+        parts.append(f"rough itself, {amount(material.surface.rms_height, 'm')} rms")
+    return ", ".join(parts)
+
+
+def _describe_modulus(material: Material) -> str:
+    """Modulus of a material as it was given: a number, a series or a table."""
+    modulus = material.modulus
+    if isinstance(modulus, Table):
+        ends = [
+            f"{amount(float(stiffness), 'Pa')} at {amount(float(frequency), 'Hz')}"
+            for frequency, stiffness in (
+                (modulus.frequencies[0], modulus.moduli[0]),
+                (modulus.frequencies[-1], modulus.moduli[-1]),
+            )
+        ]
+        return f"E′ = {' … '.join(ends)}"
+    if isinstance(modulus, Prony):
+        count = len(modulus.terms)
+        terms = f"{count} Prony term{'s' if count > 1 else ''}"
+        return f"E = {amount(modulus.equilibrium, 'Pa')} at rest, {terms}"
+    symbol = "E*" if material.poisson is None else "E"
+    return f"{symbol} = {amount(float(modulus), 'Pa')}"
+
+
+def _describe_backing(material: Material, layer: Layer) -> str:
+    """What a layer lies on."""
+    if isinstance(layer.backing, Film):
+        film = layer.backing
+        modulus = film.modulus_ratio * material.quoted_modulus
+        return f"on a film of {amount(film.thickness, 'm')} and {amount(modulus, 'Pa')}"
+    return "on a rigid base"
