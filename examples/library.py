@@ -11,7 +11,7 @@ from stickiness.persson import Persson
 # Instead of the spectrum, the same call takes measured heights [m] and their length.
 Q0 = 6.283 / 1e-4
 rough = spectrum.SelfAffine(hurst=0.8, q0=Q0, q1=1e4 * Q0, h_rms=1e-6)
-silicone = {"modulus": 0.7e6, "poisson": 0.5, "work_of_adhesion": 0.04, "range": 0.3e-9}
+silicone = {"youngs_modulus": 0.7e6, "work_of_adhesion": 0.04, "range": 0.3e-9}
 print(stickiness.verdict(rough, **silicone))
 
 # Contact without adhesion, for a narrower spectrum, in simulation and theory. Lengths are in units

@@ -16,7 +16,7 @@ RADIUS = 1e-3  # m
 # Two equal balls meet as one of half the radius on a flat solid.
 reduced_radius = RADIUS / 2
 roughness = Surface.from_spectrum(spectrum.SelfAffine(hurst=0.8, q0=1e6, q1=1e9, h_rms=0.1e-6))
-rubber = Material(modulus=1e6, poisson=0.5, work_of_adhesion=0.07, range=3e-10)
+rubber = Material(youngs_modulus=1e6, work_of_adhesion=0.07, range=3e-10)
 
 ball = pull_off_of_ball(roughness, rubber, reduced_radius)
 forces = np.array([ball.force, *ball.force_limits])

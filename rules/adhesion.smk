@@ -22,7 +22,7 @@ def points_in_full(wildcards):
 
 def parameters_in_full(wildcards):
     """What a full solution of a set depends on, beside the points that are solved in full."""
-    others = ("model", "accuracy", "seeds", "maps")
+    others = ("case", "model", "accuracy", "seeds", "maps")
     return {key: value for key, value in ADHESION[wildcards.adhesion].items() if key not in others}
 
 

@@ -45,10 +45,12 @@ def material_surfaces():
 
 
 MATERIAL_SURFACES = several("real_surfaces/{surface}.nc", surface=material_surfaces())
-# What a verdict depends on beside the surface.
+# What a verdict depends on beside the surface. Of the texts about a material it tells the label alone.
 JUDGED = {
     "material_surfaces": material_surfaces(),
-    "materials": MATERIALS,
+    "materials": {
+        name: {**without_texts(entry), "label": entry["label"]} for name, entry in MATERIALS.items()
+    },
 }
 
 
@@ -102,7 +104,6 @@ rule judge:
     conda:
         "../envs/environment.yaml"
     params:
-        materials=MATERIALS,
         labels=LABELS,
         code=source_hash("criteria/judge.py"),
     message:

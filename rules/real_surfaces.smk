@@ -50,7 +50,10 @@ rule picture_contact:
     params:
         surface=lambda wildcards: without_texts(REAL_SURFACES[wildcards.real_surface]),
         material=PICTURED_MATERIAL,
-        entry=without_texts(MATERIALS[PICTURED_MATERIAL]),
+        entry={
+            **without_texts(MATERIALS[PICTURED_MATERIAL]),
+            "label": MATERIALS[PICTURED_MATERIAL]["label"],  # the page tells it
+        },
         code=source_hash("real_surfaces/picture_contact.py"),
     message:
         "Picture contact on measured heights: {wildcards.real_surface}"

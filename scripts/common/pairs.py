@@ -3,6 +3,7 @@
 from common import provided
 from stickiness.pages.rows import describe_pair
 from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.wording import tell_doubt
 
 SHARES = (0.01, 0.1, 0.3)  #: of the work of adhesion, that may be wanted
 
@@ -27,7 +28,7 @@ def list_doubts(verdicts):
     """Doubts about the materials, each with the name of its material."""
     cells = [verdicts.sel(material=name) for name in verdicts.material.values]
     return [
-        f"{cell.material_label.item()}: {doubt}"
+        f"{cell.material_label.item()}: {tell_doubt(doubt)}"
         for cell in cells
         for doubt in cell.material_doubts.item().splitlines()
     ]

@@ -1,6 +1,6 @@
 """Materials and surfaces that come with the project; a user's entries are shown before them."""
 
-from stickiness.verdicts.material import Material
+from stickiness.entries.material import Material
 
 MATERIALS = ("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block")
 SURFACES = ("upper_line", "lower_line", "asphalt", "sandblasted_pmma", "ground_steel")

@@ -33,12 +33,13 @@ COLUMN_WIDTH = 26  # in characters
 def main(job):
     labels = job.params.labels
     output = job.output
-    dataset = join_surfaces([datasets.read(path) for path in job.input.verdicts])
+    verdicts = [datasets.read(path) for path in job.input.verdicts]
+    dataset = join_surfaces(verdicts)
     datasets.write(
         dataset,
         output.dataset,
         title="verdicts of the stickiness criteria",
-        parameters={"materials": job.params.materials, "labels": labels},
+        parameters={**datasets.parameters(verdicts[0]), "labels": labels},
     )
     shown = describe_page(dataset, labels)
     write_page(job.input.template, output.table, **shown)
@@ -105,6 +106,7 @@ def tabulate_pairs(rows):
     table = []
     for row in rows:
         pair = row["pair"]
+        has_poisson = bool(np.isfinite(pair.poisson_ratio))
         cells = {
             "material": row["material"],
             "material key": row["key"],
@@ -113,7 +115,7 @@ def tabulate_pairs(rows):
             "entry": "yours" if row["mine"] else "other",
             "verdict": row["word"],
             "judged": row["moment"],
-            "E [MPa]": float(pair.modulus_given) / MPA,
+            "E [MPa]": float(pair.modulus_given) / MPA if has_poisson else np.nan,
             "E* [MPa]": float(pair.modulus_quoted) / MPA,
             "w/U_full": float(pair.energy_ratio.sel(end="rough")),
         }
@@ -122,6 +124,8 @@ def tabulate_pairs(rows):
             if name == "pull_off" and pair.energy_ratio.max() > PULL_OFF_UNKNOWN:
                 value = np.nan
                 high = np.nan
+            if name == "modulus_threshold" and not has_poisson:
+                value = low = high = np.nan
             cells[f"{head} [{unit}]"] = value
             cells[f"{head}, low limit [{unit}]"] = low
             cells[f"{head}, high limit [{unit}]"] = high

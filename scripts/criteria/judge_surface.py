@@ -4,8 +4,8 @@ import json
 
 from common.job import start
 from stickiness import __version__, datasets
+from stickiness.entries.material import Material
 from stickiness.verdicts.judgement import judge
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.verdict import StickinessVerdict
 

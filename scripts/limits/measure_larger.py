@@ -10,11 +10,11 @@ from common.job import start
 from limits.measure_patches import cut
 from limits.measuring import THRESHOLDS, write_rows
 from limits.trial_thresholds import SHARES, find_log_thresholds
+from stickiness.entries.material import Material
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.verdicts.judgement import judge
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.longer_waves import lengthen
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
 
 HEIGHT_UNIT = 1e-7  # m, of heights over h_rms
@@ -118,8 +118,8 @@ def judge_threshold(surface, log_length, name, range_):
     """
     unit = HEIGHT_UNIT**2 / LENGTH_UNIT
     material = Material(
-        modulus=WORK_OF_ADHESION / (np.exp(log_length) * unit),
-        poisson=0.0,
+        youngs_modulus=WORK_OF_ADHESION / (np.exp(log_length) * unit),
+        poisson_ratio=0.0,
         work_of_adhesion=WORK_OF_ADHESION,
         range=range_ * HEIGHT_UNIT,
     )

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from common.job import start
 from stickiness import datasets
-from stickiness.verdicts.material import Material
+from stickiness.entries.material import Material
 from stickiness.verdicts.measured_surface import read_measurements
 from stickiness.verdicts.pressed_heights import picture_contact
 from stickiness.verdicts.rough_surface import Surface
@@ -17,7 +17,9 @@ def main(job):
     surface = replace(
         Surface.open(job.input.surface), measurements=read_measurements(params.surface)
     )
-    picture = picture_contact(surface, Material.from_entry(params.entry))
+    # A material that is rough itself is left out, whatever its own surface is.
+    own_surface = {params.entry["surface"]: surface}
+    picture = picture_contact(surface, Material.from_entry(params.entry, own_surface))
     datasets.write(
         picture.contact,
         job.output.contact,

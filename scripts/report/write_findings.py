@@ -29,10 +29,10 @@ def main(job):
     inputs = job.input
     weakest = at_load(read(inputs.dmt_error)).isel(adhesion_length_over_range=0)
     judged = read(inputs.verdicts)
-    parameters = datasets.parameters(judged)
-    materials = {name: entry["label"] for name, entry in parameters["materials"].items()}
+    materials = judged.material_label.to_series()
+    labels = datasets.parameters(judged)["labels"]
     verdicts = judged.verdict.transpose("material", "surface").to_pandas()
-    verdicts = verdicts.rename(index=materials, columns=parameters["labels"])
+    verdicts = verdicts.rename(index=materials, columns=labels)
     experiments = read(inputs.experiments)
     trade = summary.read(inputs.tradeoff)
     of_contact = trade.problem == "contact"

@@ -53,7 +53,7 @@ _MODULES = (
 _PACKAGES = ("measured", "accuracy", "datasets")
 _FUNCTIONS = {
     "Surface": "stickiness.verdicts.rough_surface",
-    "Material": "stickiness.verdicts.material",
+    "Material": "stickiness.entries.material",
     "verdict": "stickiness.verdicts.verdict",
     "thresholds": "stickiness.verdicts.verdict",
     "judge": "stickiness.verdicts.judgement",

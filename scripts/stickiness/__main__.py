@@ -23,9 +23,7 @@ from stickiness import __version__
 SURFACE = "surface"  #: name of the one that is judged, in files
 TEXTS = tomllib.loads(Path(__file__).with_name("command.toml").read_text(encoding="utf-8"))
 #: Options by the keys of the configuration, for which they stand.
-OPTIONS = {
-    key: option for group in ("material", "surface") for key, (option, _) in TEXTS[group].items()
-}
+OPTIONS = {key: option for group in ("material", "surface") for key, option in TEXTS[group].items()}
 
 
 def main() -> None:
@@ -119,6 +117,8 @@ def write_example(file: Path) -> None:
 
 def read_options(arguments: list[str]) -> argparse.Namespace:
     """Return what the command line gives, by the keys of the configuration."""
+    from stickiness.entries import describe_keys
+
     style = partial(argparse.RawDescriptionHelpFormatter, max_help_position=30, width=100)
     parser = argparse.ArgumentParser(
         usage=TEXTS["usage"],
@@ -147,8 +147,12 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
     )
     for title in ("material", "surface"):
         group = parser.add_argument_group(title)
-        for key, (option, text) in TEXTS[title].items():
+        texts = describe_keys(title)
+        for key, option in TEXTS[title].items():
             kind = str if key == "label" else read_value
+            text = texts[key].replace("%", "%%")
+            if key in TEXTS["defaults"]:
+                text = f"{text} (default: {TEXTS['defaults'][key]})"
             group.add_argument(option, dest=key, type=kind, metavar="VALUE", help=text)
     options = parser.parse_args(arguments)
     used = [OPTIONS[key] for key in choose_given(options, "material")]
@@ -214,9 +218,7 @@ def read_materials(options: argparse.Namespace) -> dict[str, Any]:
     """Return the materials of the options or of the tape, by name."""
     from stickiness import Material, entries
 
-    defaults: dict[str, Any] = {}
-    if options.common is None:
-        defaults = {"poisson_ratio": 0.5, "range": "0.3 nm"}
+    defaults = TEXTS["defaults"] if options.common is None else {}
     with one_line():
         if options.tape:
             checked = entries.read_materials(options.tape)

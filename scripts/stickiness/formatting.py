@@ -126,8 +126,13 @@ def limited(
     if low == high == math.inf:
         return "any"
     if high == math.inf:
-        bound = "no limits" if low == 0 else f"at least {show(low)}"
-        return f"{show(value)} ({bound})" if 0 < value < math.inf else bound
+        has_value = 0 < value < math.inf
+        if low == 0:
+            return f"{show(value)} (no limits)" if has_value else "no limits"
+        if not has_value:
+            return f"at least {show(low)}"
+        texts, unit = write([value, low])
+        return f"{texts[0]}{unit} (at least {texts[1]}{unit})"
     if low == 0 and not value * FAR >= high:
         return f"below {show(high)}"
     if low > 0 and high > FAR * low:

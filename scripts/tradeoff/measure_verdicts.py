@@ -107,8 +107,8 @@ def make_pair(adhesion_length, heights, law):
     pixel = SIDE / heights.shape[0]
     range_ = float(np.sqrt(PIXELS_IN_ZONE * pixel * adhesion_length))
     material = stickiness.Material(
-        modulus=MODULUS,
-        poisson=0.0,
+        youngs_modulus=MODULUS,
+        poisson_ratio=0.0,
         work_of_adhesion=adhesion_length * MODULUS,
         range=range_,
         law=law,

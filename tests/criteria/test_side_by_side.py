@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
 from helpers.analysed import wall
@@ -71,6 +72,9 @@ def test_rows_are_sorted_and_say_what_the_verdicts_say(written):
             assert row[f"keeps {100 * share:g} % by limits"] == ("no", "depends", "yes")[kept]
         margin = read_limited(pair.margin).value
         for symbol in ("E", "E*"):
+            if symbol == "E" and np.isnan(pair.poisson_ratio):
+                assert np.isnan(row["E [MPa]"])
+                continue
             threshold = row[f"threshold of {symbol} [MPa]"] / row[f"{symbol} [MPa]"]
             assert threshold == pytest.approx(margin, rel=1e-4)
     # Near full contact only a low limit of the pull-off is known.

@@ -113,7 +113,7 @@ def test_the_verdict_shown_is_that_of_the_tutorials_wall(tmp_path):
     """Printed by the library, as the command prints it."""
     example_wall.write(tmp_path / "wall.txt")
     wall = Surface.read(tmp_path / "wall.txt", length="2 mm", height_unit="um")
-    tape = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=0.3e-9)
+    tape = Material(youngs_modulus=0.2e6, work_of_adhesion=0.06, range=0.3e-9)
     assert f"The material: {verdict(wall, tape)}\n" in (ROOT / "README.md").read_text(
         encoding="utf-8"
     )

@@ -61,12 +61,13 @@ def average(fine, coarse, many):
 
 
 ROUGH = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.3)
-GEL = Material(modulus=1e5, work_of_adhesion=0.05, range=3e-10)
+GEL = Material(youngs_modulus=1e5, work_of_adhesion=0.05, range=3e-10)
 
 
 def judge(surface=None, h_rms=1e-6, **changes):
     surface = band(q0=6e4, q1=6e8, h_rms=h_rms) if surface is None else surface
-    return verdict(surface, **{"modulus": 1e5, "work_of_adhesion": 0.05, "range": 3e-10} | changes)
+    gel = {"youngs_modulus": 1e5, "work_of_adhesion": 0.05, "range": 3e-10}
+    return verdict(surface, **gel | changes)
 
 
 MISUSES = [
@@ -213,14 +214,14 @@ MISUSES = [
     (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
     (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
     (lambda: share.tough_share(0.0, 0.4), "energy_ratio must"),
-    (lambda: judge(modulus=-1.0), "modulus must"),
-    (lambda: judge(poisson=0.7), "poisson must be above -1 and at most 0.5, got 0.7"),
+    (lambda: judge(youngs_modulus=-1.0), "youngs_modulus must"),
+    (lambda: judge(poisson_ratio=0.7), "poisson_ratio must be less than .* 0.5, got 0.7"),
     (lambda: judge(length=1e-4), "length is of heights alone"),
     (lambda: judge(wanted_share=1), "wanted_share must be between 0 and 1, got 1"),
     (lambda: verdict(BAND), "give either a material or its properties"),
-    (lambda: verdict(BAND, GEL, modulus=1e5), "give either a material or its properties"),
-    (lambda: Surface.from_drawing(), "give exactly one of Ra and Rq"),
-    (lambda: Surface.from_drawing(Ra=1e-6, Rq=1e-6), "give exactly one of Ra and Rq"),
+    (lambda: verdict(BAND, GEL, youngs_modulus=1e5), "give either a material or its properties"),
+    (lambda: Surface.from_drawing(), "give exactly one of: Ra; Rq"),
+    (lambda: Surface.from_drawing(Ra=1e-6, Rq=1e-6), "give exactly one of: Ra; Rq"),
     (lambda: Surface.from_drawing(Ra=-1e-6), "Ra must be positive"),
     (lambda: Surface.from_heights(np.ones(8), 1e-3), r"an \(nx, ny\) array, got the shape"),
     (lambda: Surface.from_profile(np.ones((8, 8)), 1e-3), r"an \(n,\) array, got the shape"),
@@ -243,15 +244,15 @@ MISUSES = [
         r"heights: \d+ of 256 points .* are missing, more than the 10.0 % that are filled",
     ),
     (
-        lambda: judge(poisson=0.5, solid=Layer(1e-300, 0.5)),
+        lambda: judge(solid=Layer(1e-300, 0.5)),
         "thickness = 1e-300 is out of proportion to the waves",
     ),
     (
         lambda: stickiness.thresholds(
             band(q0=6e4, q1=6e8, h_rms=1e-6),
             Material(
-                modulus=1e5,
-                poisson=0.3,
+                youngs_modulus=1e5,
+                poisson_ratio=0.3,
                 work_of_adhesion=0.05,
                 range=3e-10,
                 solid=Layer(1e-300, 0.3),
@@ -260,7 +261,10 @@ MISUSES = [
         "thickness = 1e-300 is out of proportion to the waves",
     ),
     (lambda: judge(range=1e-300), "range must be between 1e-30 and 1e30 m, got 1e-300"),
-    (lambda: judge(modulus=1e-300), "modulus must be between 1e-30 and 1e30 Pa, got 1e-300"),
+    (
+        lambda: judge(youngs_modulus=1e-300),
+        "youngs_modulus must be between 1e-30 and 1e30 Pa, got 1e-300",
+    ),
     (
         lambda: judge(work_of_adhesion=1e300),
         r"work_of_adhesion must be between 1e-30 and 1e30 J/m\^2, got 1e\+300",
@@ -276,7 +280,10 @@ MISUSES = [
     (lambda: Skin(1.0, -9.0, 0.4, 0.5), "modulus_ratio must be positive"),
     (lambda: Skin(1.0, 9.0, 0.6, 0.5), "skin_poisson must be non-negative and at most 0.5"),
     (lambda: Skin(1.0, 9.0, 0.4, -0.1), "poisson must be non-negative and at most 0.5"),
-    (lambda: judge(poisson=0.5, solid=Skin(1e-7, 9.0, 0.4, 0.3)), "poisson = 0.5 must equal"),
+    (
+        lambda: judge(solid=Skin(1e-7, 9.0, 0.4, 0.3)),
+        "must equal the solid's, 0.3, got 0.5",
+    ),
     (lambda: HalfSpace().compliance(0.0), "q must be positive and finite, got 0"),
     (lambda: Constant(-1.0), "modulus must be positive"),
     (lambda: Prony(0.0, ((1.0, 1.0),)), "equilibrium must be positive"),

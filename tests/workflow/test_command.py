@@ -71,7 +71,7 @@ def verdict(folder):
     """The verdict of the library on the same pair."""
     options = {"length": "2 mm", "height_unit": "um"}
     wall = stickiness.Surface.read(folder / "wall#1.npy", **options)
-    return stickiness.verdict(wall, modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    return stickiness.verdict(wall, youngs_modulus=2e5, work_of_adhesion=0.06, range=3e-10)
 
 
 def test_the_answer_is_that_of_the_library(folder, verdict):
@@ -190,9 +190,9 @@ def test_terminal_page_and_files_give_one_number(folder, first, verdict):
     )
     stored = datasets.read(folder / RESULTS / "wall#1/verdicts.nc").squeeze()
     assert StickinessVerdict(stored).to_dict() == verdict.to_dict()
-    pair = {"poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
+    pair = {"work_of_adhesion": 0.06, "range": 3e-10}
     wall = stickiness.Surface.read(folder / "wall#1.npy", length="2 mm", height_unit="um")
-    found = stickiness.thresholds(wall, modulus=2e5, **pair)
+    found = stickiness.thresholds(wall, youngs_modulus=2e5, **pair)
     assert found.modulus.value == verdict.modulus_threshold
     # The curve of the modulus crosses the wanted share at the threshold.
     curve = stored.remaining_by_modulus.sel(limit="value")

@@ -25,7 +25,7 @@ from stickiness.accuracy.quantities import MODELLED
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.entries.fields import Section, needed, optional
-from stickiness.entries.material_entry import Materials
+from stickiness.entries.material import Materials
 from stickiness.entries.surface_entry import Surfaces
 
 # What the figures and the claims read; may be edited but not removed.

@@ -4,7 +4,6 @@
 - `equivalent_sphere`: attraction by the edges of contact, from weak to tough
 - `pair`: a material on a surface, as all criteria see it, and every quantity of it
 - `registry`: every criterion with its threshold, reason and line in figures, in one table
-- `verdict`: from a surface and a material to a verdict
 - `a_v_fit`: the prefactor a_V fitted to attractive areas
 - `a_v_table`: a_V from Persson's theory: of a spectrum, and tabulated for self-affine surfaces
 """

@@ -1,25 +1,32 @@
-"""Entries of materials and surfaces in the configuration, checked, with values in SI units.
+"""What may be said of materials and surfaces: their keys, with types, defaults, limits and texts.
+
+`material` has the class that users make in Python and that files and the command fill,
+`surface_entry` the descriptions that become a `Surface`. Both are models of pydantic, which is
+imported when one is used.
 
 A checked entry is a dictionary with the keys that users write. Every key is present: numbers are in
 SI units, defaults are filled in, and what is absent is None. Numbers that had a unit remember their
 text (`stickiness.units.Quantity`).
-
-The models that check entries need pydantic. It is imported when an entry is checked, since most
-jobs get entries that were checked before.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from stickiness.entries.errors import EntryError
 
+if TYPE_CHECKING:
+    from stickiness.entries.fields import Section
+
 __all__ = [
     "EntryError",
+    "check_drawing",
+    "check_heights",
     "check_material",
     "check_surface",
+    "describe_keys",
     "list_common_materials",
     "list_measurements",
     "read_materials",
@@ -62,12 +69,9 @@ def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[st
     >>> tape["youngs_modulus"] / 1e3, tape["law"], tape["dwell"]
     (200.0, 'exponential', None)
     """
-    from stickiness.entries.material_entry import Material
+    from stickiness.entries.material import Material
 
-    entry = dict(entry)
-    if entry.get("common") is None:
-        entry = {"label": "the material", "source": "not stated"} | entry
-    return _check(Material, entry, numbers)
+    return _check(Material, Material.complete(entry), {"numbers": numbers})
 
 
 def check_surface(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[str, Any]:
@@ -75,10 +79,28 @@ def check_surface(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[str
 
     A file that is measured is not looked for, since reading it tells more.
     """
-    from stickiness.entries.surface_entry import Surface
+    from stickiness.entries.surface_entry import AnySurface, SurfaceEntry
 
-    entry = {"label": "the surface", "source": "not stated"} | dict(entry)
-    return _check(Surface, entry, numbers)
+    context = {"numbers": numbers, "unread": True}
+    return _check(AnySurface, SurfaceEntry.complete(entry), context)
+
+
+def check_heights(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Check how heights in an array are analysed, with all keys in return.
+
+    Lengths are numbers in m or texts with a unit; a ValueError says what is wrong.
+    """
+    from stickiness.entries.surface_entry import HeightsEntry
+
+    return _check_arguments(HeightsEntry, options)
+
+
+def check_drawing(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Check parameters of profiles on a drawing; see `check_heights`."""
+    from stickiness.entries.surface_entry import SurfaceTextureEntry
+
+    entry = SurfaceTextureEntry.complete({"kind": "surface_texture", **parameters})
+    return _check_arguments(SurfaceTextureEntry, entry)
 
 
 def without_texts(entry: Mapping[str, Any]) -> dict[str, Any]:
@@ -108,14 +130,14 @@ def read_materials(path: str | Path) -> dict[str, dict[str, Any]]:
     """
     import yaml
 
-    from stickiness.entries.material_entry import Materials
+    from stickiness.entries.material import Materials
 
     try:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise EntryError(str(path), None, f"not valid YAML: {error}") from None
     try:
-        return _check(Materials, content, numbers=False)["materials"]
+        return _check(Materials, content, {"numbers": False})["materials"]
     except EntryError as error:
         key = f"{path}: {error.key}" if error.key else str(path)
         raise EntryError(key, error.value, error.message) from None
@@ -134,13 +156,45 @@ def list_common_materials() -> dict[str, dict[str, Any]]:
     return {name: check_material(entry) for name, entry in read_common_materials().items()}
 
 
+def describe_keys(kind: str) -> dict[str, str]:
+    """Return what the keys of a "material" or of a measured "surface" mean, by key.
+
+    Examples
+    --------
+    >>> print(describe_keys("surface")["missing_value"])
+    number that marks missing points besides NaN
+    """
+    from stickiness.entries.material import Material
+    from stickiness.entries.surface_entry import MeasuredEntry
+
+    models: dict[str, type[Section]] = {"material": Material, "surface": MeasuredEntry}
+    texts = {}
+    for key, schema in models[kind].model_json_schema()["properties"].items():
+        text = schema["description"]
+        *others, last = schema.get("enum", [""])
+        if not all(choice in text for choice in (*others, last)):
+            text = f"{', '.join(others)} or {last}: {text}"
+        texts[key] = text
+    return texts
+
+
 def list_measurements(entry: Mapping[str, Any]) -> list[dict[str, Any]]:
     """Return every measurement of a checked entry of a measured surface, with all of its keys."""
     return [dict(measurement) for measurement in entry["measurements"] or [entry]]
 
 
-def _check(model: Any, content: Any, numbers: bool) -> dict[str, Any]:
-    """Return the checked content of a model, or of a union of models."""
+def _check_arguments(model: Any, arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the checked arguments of a function."""
+    from stickiness.entries.errors import argument_error
+
+    try:
+        return _check(model, arguments, None)
+    except EntryError as error:
+        raise argument_error(error) from None
+
+
+def _check(model: Any, content: Any, context: dict[str, Any] | None) -> dict[str, Any]:
+    """Return the checked content of a model, or of a union of models; `fields` has contexts."""
     import pydantic
 
     from stickiness.entries.errors import first_error
@@ -148,7 +202,7 @@ def _check(model: Any, content: Any, numbers: bool) -> dict[str, Any]:
     adapter = pydantic.TypeAdapter(model)
     content = _drop_absent(content)
     try:
-        checked = adapter.validate_python(content, context={"numbers": numbers, "unread": True})
+        checked = adapter.validate_python(content, context=context)
     except pydantic.ValidationError as error:
         raise first_error(error, content) from None
     return adapter.dump_python(checked)

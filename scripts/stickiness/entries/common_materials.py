@@ -4,8 +4,6 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from stickiness.entries.errors import EntryError, suggest
 
 FILE = Path(__file__).with_suffix(".yaml")
@@ -14,6 +12,8 @@ FILE = Path(__file__).with_suffix(".yaml")
 @cache
 def read_common_materials() -> dict[str, dict[str, Any]]:
     """Return the entries of all common materials, by name."""
+    import yaml
+
     return yaml.safe_load(FILE.read_text(encoding="utf-8"))["materials"]
 
 

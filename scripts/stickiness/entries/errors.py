@@ -34,6 +34,14 @@ class EntryError(ValueError):
         super().__init__(f"{shown}: {message}" if shown else message)
 
 
+def argument_error(error: EntryError) -> ValueError:
+    """Return the error as of an argument in Python: ``range must be positive, got -1.0``."""
+    wanted, colon, reason = error.message.partition(":")
+    if error.key and error.value is not None and wanted.startswith("must "):
+        return ValueError(f"{error.key} {wanted}, got {error.value!r}{colon}{reason}")
+    return error
+
+
 def suggest(value: Any, names: Iterable[str]) -> str:
     """Ask whether the closest of the names is meant; without one, list them all."""
     names = list(names)
@@ -53,12 +61,20 @@ def first_error(error: pydantic.ValidationError, content: Mapping[str, Any]) -> 
     value = problem["input"]
     # Messages about units begin with the text, which stands before them already.
     message = problem["msg"] if reason is None else str(reason).removeprefix(repr(value))
-    message = message.lstrip(": ")
+    message = message.lstrip(": ").replace("Input should", "must")
     if problem["type"] == "union_tag_invalid":
         value = problem["ctx"]["tag"]
         message = f"must be one of {problem['ctx']['expected_tags']}"
     if problem["type"] == "float_type" and isinstance(value, str):
         message += _HINT
+    if problem["type"] == "missing":
+        message = "the key is missing"
+    if problem["type"] == "literal_error":
+        message = f"must be one of {problem['ctx']['expected'].replace(' or ', ', ')}"
+    if problem["type"] == "too_long":
+        message = f"must have at most {problem['ctx']['max_length']} values"
+    if problem["type"] == "too_short":
+        message = f"must have at least {problem['ctx']['min_length']} values"
     # The value of a whole section would be too long for one line.
     if problem["type"] == "missing" or isinstance(value, Mapping):
         value = None

@@ -1,16 +1,28 @@
-"""What the models of the configuration are made of: sections, numbers and values with units."""
+"""What models are made of: sections, numbers and values with units.
+
+Models are validated in one of three contexts. None is that of arguments in Python: values with
+units are numbers in SI units or texts, and improbable ones are allowed. With `numbers`, entries
+that were made in Python are checked: values may be numbers, too, but must be possible. Any other
+is that of files, in which values with units are texts.
+"""
 
 import inspect
+import math
 import re
-from collections.abc import Hashable
-from typing import Annotated, Any, ClassVar, Literal, TypeVar
+from collections.abc import Hashable, Mapping
+from functools import reduce
+from operator import or_
+from typing import Annotated, Any, ClassVar, Literal, TypeVar, get_args
 
+import numpy as np
 from pydantic import (
     AfterValidator,
     BaseModel,
     ConfigDict,
     Discriminator,
     Field,
+    GetCoreSchemaHandler,
+    PlainSerializer,
     PlainValidator,
     Strict,
     Tag,
@@ -18,6 +30,7 @@ from pydantic import (
     WithJsonSchema,
     model_validator,
 )
+from pydantic_core import CoreSchema
 
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.plausibility import LIMITS
@@ -27,10 +40,30 @@ from stickiness.units import Quantity
 T = TypeVar("T")
 
 
+class _Absent:
+    """Mark of an optional value: None is its default, but cannot be given."""
+
+    def __get_pydantic_core_schema__(
+        self, source: Any, handler: GetCoreSchemaHandler
+    ) -> CoreSchema:
+        """Return the schema of the value that can be given."""
+        kinds = [kind for kind in get_args(source) if kind is not type(None)]
+        return handler(reduce(or_, kinds))
+
+
+Maybe = Annotated[T | None, _Absent()]
+#: Values are written as they are; a float would lose its text.
+KEPT = PlainSerializer(lambda value: value)
+
+
 def complete_schema(schema: dict[str, Any], section: type["Section"]) -> None:
     """Give a JSON schema a title, a docstring, and groups of keys that exclude each other."""
-    schema["title"] = re.sub("(?<=[a-z])(?=[A-Z])", " ", section.__name__).capitalize()
-    schema["description"] = inspect.getdoc(section)
+    title = re.sub("(?<=[a-z])(?=[A-Z])", " ", section.__name__.removesuffix("Entry"))
+    schema["title"] = title.capitalize()
+    introduction, *_ = (inspect.getdoc(section) or "").partition("\n\nParameters\n")
+    schema["description"] = introduction
+    for key in section.only_in_python:
+        del schema["properties"][key]
     for group in section.one_of:
         choices = [{"required": choice.split(" and ")} for choice in group]
         schema.setdefault("allOf", []).append({"oneOf": choices})
@@ -47,16 +80,20 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, json_schema_extra=complete_schema)
     #: Groups of choices such as "a" and "b and c", of which exactly one must be given.
     one_of: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    #: Keys with values that no file can hold.
+    only_in_python: ClassVar[tuple[str, ...]] = ()
 
     @model_validator(mode="before")
     @classmethod
-    def check_keys(cls, entry: Any) -> Any:
+    def check_keys(cls, entry: Any, info: ValidationInfo) -> Any:
         """Check that no key is unknown, and that of keys that exclude each other one is there."""
         if not isinstance(entry, dict):
             return entry
+        unusable = () if info.context is None else cls.only_in_python
+        known = [key for key in cls.model_fields if key not in unusable]
         for key in entry:
-            if key not in cls.model_fields:
-                text = f"the key is unknown; {suggest(key, cls.model_fields)}"
+            if key not in known:
+                text = f"the key is unknown; {suggest(key, known)}"
                 raise EntryError(str(key), None, text)
         for group in cls.one_of:
             complete = [choice for choice in group if entry.keys() >= {*choice.split(" and ")}]
@@ -64,38 +101,72 @@ class Section(BaseModel):
                 raise EntryError("", None, f"give exactly one of: {'; '.join(group)}")
         return entry
 
+    def fill_in(self, key: str, value: Any) -> None:
+        """Give a key a value that was not given, also where the section cannot be changed."""
+        self.__dict__[key] = value
+
 
 def needed(text: str) -> Any:
     return Field(description=text)
 
 
 def optional(text: str, default: Any = None) -> Any:
+    """Return an optional field; the text tells its default, unless that is None or false."""
+    if default not in (None, False) and "default" not in text:
+        text = f"{text}; default {'true' if default is True else default}"
     return Field(default, description=text)
 
 
-def quantity(word: str, unit: str, limits: str = "") -> Any:
-    """Return the type of a text with a unit, positive and possible by the named limits.
+def quantity(word: str, unit: str, limits: str = "", zero: bool = False) -> Any:
+    """Return the type of a value with a unit, positive and possible by the named limits.
 
-    Entries that are made in Python (`check_material`, `check_surface`) may have numbers in SI.
+    With `zero`, Python may have it, too, for what is absent in files.
     """
 
-    def read(value: Any, info: ValidationInfo) -> Quantity:
-        if isinstance(value, Quantity):
-            return value
-        if isinstance(value, int | float) and (info.context or {}).get("numbers"):
-            value = f"{value!r} {unit}"
-        number = Quantity.read(value, unit)
-        if not number > 0:
-            raise ValueError("must be positive")
-        if limits:
-            possible = LIMITS[limits]
-            if not possible.least <= number <= possible.most:
-                between = f"{possible.least:g} … {possible.most:g} {unit}"
-                raise ValueError(f"must be in {between}: {possible.reason}")
-        return number
+    def read(value: Any, info: ValidationInfo) -> float:
+        return read_quantity(value, info, unit, limits, zero)
 
-    schema = WithJsonSchema({"type": "string", "quantity": word})
-    return Annotated[Quantity, PlainValidator(read), schema]
+    schema = WithJsonSchema({"type": "string", "quantity": word, "unit": unit})
+    return Annotated[float, PlainValidator(read), KEPT, schema]
+
+
+def read_quantity(
+    value: Any, info: ValidationInfo, unit: str, limits: str = "", zero: bool = False
+) -> float:
+    """Return a value in its SI unit; see `quantity`."""
+    if isinstance(value, Quantity):
+        return value
+    if info.context is None:
+        return _read_argument(value, unit, limits, zero)
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if is_number and info.context.get("numbers"):
+        quantity = Quantity(value, f"{value!r} {unit}")
+    else:
+        quantity = Quantity.read(value, unit)
+    if not 0 < quantity < math.inf:
+        raise ValueError("must be positive and finite")
+    if limits:
+        possible = LIMITS[limits]
+        if not possible.least <= quantity <= possible.most:
+            between = f"{possible.least:g} … {possible.most:g} {unit}"
+            raise ValueError(f"must be in {between}: {possible.reason}")
+    return quantity
+
+
+def _read_argument(value: Any, unit: str, limits: str, zero: bool) -> float:
+    """Return a text with a unit, or a number in SI units, that need not be probable."""
+    if isinstance(value, str):
+        quantity: float = Quantity.read(value, unit)
+    else:
+        array = np.asarray(value)
+        if array.ndim or array.dtype.kind not in "iuf":
+            raise ValueError(f"must be a number in {unit}, or a text with its unit")
+        quantity = float(array)
+    if not (0 < quantity < math.inf or (zero and quantity == 0)):
+        raise ValueError(f"must be {'zero or ' if zero else ''}positive and finite")
+    if limits and not 1e-30 <= quantity <= 1e30:  # else products of it may leave floats
+        raise ValueError(f"must be between 1e-30 and 1e30 {unit}: {LIMITS[limits].reason}")
+    return quantity
 
 
 def _check_distinct(values: list[Any]) -> list[Any]:
@@ -136,15 +207,16 @@ Poisson = Annotated[float, Field(ge=0, le=0.5)]
 Count = Annotated[int, Field(ge=1, le=10000)]
 Index = Annotated[int, Field(ge=0)]
 Hurst = Annotated[float, Field(gt=0, le=1, description="Hurst exponent in (0, 1]")]
-Law = Annotated[Literal[tuple(sorted(LAWS))], Field(description="traction law")]
-PredictedLaw = Annotated[Literal[PREDICTED], Field(description="traction law")]
+Law = Annotated[Literal[tuple(sorted(LAWS))], Field(description="traction law")]  # type: ignore[valid-type]
+PredictedLaw = Annotated[Literal[PREDICTED], Field(description="traction law")]  # type: ignore[valid-type]
 
 Length = quantity("length", "m")
 WaveNumber = quantity("wave number", "1/m")
 Pressure = quantity("pressure", "Pa")
 Frequency = quantity("frequency", "Hz")
 Time = quantity("time", "s")
-Modulus = quantity("modulus", "Pa", "modulus")
+Pressed = quantity("pressure", "Pa", zero=True)
+Modulus = quantity("modulus", "Pa", "youngs_modulus")
 Energy = quantity("energy per area", "J/m^2", "work_of_adhesion")
 Range = quantity("length", "m", "range")
 Thickness = quantity("length", "m", "thickness")
@@ -154,9 +226,17 @@ SkinThickness = quantity("length", "m", "skin_thickness")
 class Labelled(Section):
     """Text about an entry."""
 
+    #: Texts of an entry outside files, where they may be missing.
+    unstated: ClassVar[dict[str, str]]
+
     label: Text = needed("name for readers")
     source: Text = needed("where the values or the data come from")
-    note: str = optional("a remark for readers")
+    note: Maybe[str] = optional("a remark for readers")
+
+    @classmethod
+    def complete(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
+        """Return an entry with texts about it; a common material has its own."""
+        return dict(entry) if entry.get("common") is not None else cls.unstated | dict(entry)
 
 
 class Direction(Section):
@@ -168,3 +248,22 @@ class Direction(Section):
     angle: Annotated[float, Field(ge=-180, le=180)] = optional(
         "of the long correlation length from x, in degrees", 0.0
     )
+
+
+def document(section: type[Labelled]) -> None:
+    """Give a class that users make in Python a docstring and a signature, from its keys."""
+    types = {"string": "str", "boolean": "bool", "number": "float", "integer": "int"}
+    schemas = section.model_json_schema()["properties"]
+    lines = ["Parameters", "----------"]
+    parameters = []
+    for key, field in section.model_fields.items():
+        schema = schemas.get(key, {})
+        unit = schema.get("unit")
+        kind = f"float [{unit}] or str" if unit else types.get(schema.get("type", ""), "")
+        lines += [f"{key} : {kind}".rstrip(" :"), f"    {field.description}"]
+        default = inspect.Parameter.empty if field.is_required() else field.default
+        default = section.unstated.get(key, default)
+        parameters.append(inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=default))
+    introduction, heading, rest = (inspect.getdoc(section) or "").partition("Raises\n")
+    section.__doc__ = introduction + "\n".join([*lines, "", heading]) + rest
+    section.__signature__ = inspect.Signature(parameters)

@@ -1,15 +1,13 @@
-"""Models of a real surface in the configuration."""
+"""Entries of real surfaces: what files, the command and Python may say of them."""
 
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
     AfterValidator,
-    Discriminator,
     Field,
     PlainValidator,
-    Tag,
     ValidationInfo,
     WithJsonSchema,
     model_validator,
@@ -19,7 +17,6 @@ from stickiness import plausibility
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError
 from stickiness.entries.fields import Section, needed, optional
-from stickiness.entries.material_entry import ElasticPair
 from stickiness.measured import readers, texture
 from stickiness.measured.levelling import MAX_MISSING
 from stickiness.spectrum import kinds
@@ -39,36 +36,42 @@ def _check_order(section: Section, key: str) -> None:
         raise EntryError(key, values, "must be [low, high]")
 
 
-def _read_prefactor(value: Any, info: ValidationInfo) -> Quantity:
+def _read_prefactor(value: Any, info: ValidationInfo) -> float:
     """Read C0, whose unit depends on the Hurst exponent."""
-    if isinstance(value, Quantity) or "hurst" not in info.data:
-        return value
-    unit = f"m^{2 - 2 * info.data['hurst']:g}"
-    if isinstance(value, int | float) and (info.context or {}).get("numbers"):
-        value = f"{value!r} {unit}"
-    prefactor = Quantity.read(value, unit)
-    if not prefactor > 0:
-        raise ValueError("must be positive")
-    return prefactor
+    if "hurst" not in info.data:  # which is wrong, and told of
+        return 0.0
+    return f.read_quantity(value, info, f"m^{2 - 2 * info.data['hurst']:g}")
 
 
-Prefactor = Annotated[Quantity, PlainValidator(_read_prefactor), WithJsonSchema({"type": "string"})]
+Prefactor = Annotated[
+    float, PlainValidator(_read_prefactor), f.KEPT, WithJsonSchema({"type": "string"})
+]
 
 
-class SelfAffine(f.Labelled, f.Direction):
+class SurfaceEntry(f.Labelled):
+    """What entries of surfaces have in common."""
+
+    unstated: ClassVar[dict[str, str]] = {"label": "the surface", "source": "not stated"}
+
+
+class SelfAffineEntry(SurfaceEntry, f.Direction):
     """A surface of `kind: self_affine`."""
 
     one_of = (("longest_wavelength", "q0"), ("shortest_wavelength", "q1"), ("h_rms", "C0"))
 
     kind: Literal["self_affine"] = needed("parameters of a spectrum")
     hurst: f.Hurst
-    longest_wavelength: f.Length = optional('longest wavelength, e.g. "6 mm"; or give q0')
-    shortest_wavelength: f.Length = optional('shortest wavelength, e.g. "1 um"; or give q1')
-    q0: f.WaveNumber = optional('lowest wave number, e.g. "1e3 1/m"')
-    q1: f.WaveNumber = optional('highest wave number, e.g. "1e9 1/m"')
-    rolloff_wavelength: f.Length = optional("wavelength above which the spectrum is flat")
-    h_rms: f.OneOrTwo[f.Length] = optional('rms height or its range, e.g. ["0.5 um", "2 um"]')
-    C0: f.OneOrTwo[Prefactor] = optional(
+    longest_wavelength: f.Maybe[f.Length] = optional('longest wavelength, e.g. "6 mm"; or give q0')
+    shortest_wavelength: f.Maybe[f.Length] = optional(
+        'shortest wavelength, e.g. "1 um"; or give q1'
+    )
+    q0: f.Maybe[f.WaveNumber] = optional('lowest wave number, e.g. "1e3 1/m"')
+    q1: f.Maybe[f.WaveNumber] = optional('highest wave number, e.g. "1e9 1/m"')
+    rolloff_wavelength: f.Maybe[f.Length] = optional("wavelength above which the spectrum is flat")
+    h_rms: f.Maybe[f.OneOrTwo[f.Length]] = optional(
+        'rms height or its range, e.g. ["0.5 um", "2 um"]'
+    )
+    C0: f.Maybe[f.OneOrTwo[Prefactor]] = optional(
         'prefactor of C0 q^(-2(H+1)) or its range, e.g. "1e-3 m^0.4"'
     )
 
@@ -113,7 +116,7 @@ class SelfAffine(f.Labelled, f.Direction):
         return self
 
 
-class SurfaceTexture(f.Labelled):
+class SurfaceTextureEntry(SurfaceEntry):
     """A surface of `kind: surface_texture`, by the parameters of profiles on drawings.
 
     The heights are assumed to be Gaussian and isotropic, with Hurst exponents from 0.6 to 1.
@@ -122,14 +125,14 @@ class SurfaceTexture(f.Labelled):
     one_of = (("Ra", "Rq"),)
 
     kind: Literal["surface_texture"] = needed("parameters of profiles (ISO 21920, ISO 4287)")
-    Ra: f.OneOrTwo[f.Length] = optional('mean deviation or its range, e.g. "0.8 um"')
-    Rq: f.OneOrTwo[f.Length] = optional("rms deviation or its range, instead of Ra")
-    Rz: f.Length = optional("maximum height, to check that heights can be Gaussian")
-    RSm: f.OneOrTwo[f.Length] = optional(
+    Ra: f.Maybe[f.OneOrTwo[f.Length]] = optional('mean deviation or its range, e.g. "0.8 um"')
+    Rq: f.Maybe[f.OneOrTwo[f.Length]] = optional("rms deviation or its range, instead of Ra")
+    Rz: f.Maybe[f.Length] = optional("maximum height, to check that heights can be Gaussian")
+    RSm: f.Maybe[f.OneOrTwo[f.Length]] = optional(
         "mean spacing of profile elements; default 0.04 to 0.5 times lambda_c"
     )
-    lambda_c: f.Length = optional("cut-off of the profile filter; default by ISO 4288")
-    shortest_wavelength: f.Length = optional("shortest wavelength; default 1 nm")
+    lambda_c: f.Maybe[f.Length] = optional("cut-off of the profile filter; default by ISO 4288")
+    shortest_wavelength: f.Maybe[f.Length] = optional("shortest wavelength; default 1 nm")
 
     @model_validator(mode="after")
     def check_parameters(self) -> Self:
@@ -176,20 +179,33 @@ def _check_length_unit(unit: str) -> str:
 LengthUnit = Annotated[str, AfterValidator(_check_length_unit)]
 
 
-class Reading(Section):
-    """How a measured file is read and analysed."""
+class MeasuredFile(Section):
+    """A measured file, and what it does not tell itself."""
 
     file: f.Text = needed("file of any instrument, .nc, .npz, .npy or text")
-    format: f.Text = optional(
+    format: f.Maybe[f.Text] = optional(
         "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
     )
-    channel: str | f.Index = optional("channel of an instrument's file")
-    variable: str = optional("NetCDF variable or npz key")
-    length: f.OneOrTwo[f.Length] = optional("side, or sides along x and y, of what was measured")
-    pixel_size: f.OneOrTwo[f.Length] = optional("grid step, instead of length")
-    height_unit: LengthUnit = optional('unit of the heights, e.g. "nm"')
-    position_unit: LengthUnit = optional('unit of the positions of a line profile, e.g. "um"')
-    missing_value: float = optional("number that marks missing points besides NaN")
+    channel: f.Maybe[str | f.Index] = optional(
+        "channel of an instrument's file, by name or counted from 0"
+    )
+    variable: f.Maybe[str] = optional("NetCDF variable or npz key")
+    length: f.Maybe[f.OneOrTwo[f.Length]] = optional(
+        'side, e.g. "2 mm", or sides along x and y, of what was measured'
+    )
+    pixel_size: f.Maybe[f.OneOrTwo[f.Length]] = optional(
+        'grid step, e.g. "0.5 um", instead of length'
+    )
+    height_unit: f.Maybe[LengthUnit] = optional('unit of the heights, e.g. "nm"')
+    position_unit: f.Maybe[LengthUnit] = optional(
+        'unit of the positions of a line profile, e.g. "um"'
+    )
+    missing_value: f.Maybe[float] = optional("number that marks missing points besides NaN")
+
+
+class Analysis(Section):
+    """How measured heights are analysed."""
+
     missing: Literal["fill", "crop", "refuse"] = optional(
         "interpolate missing points, cut to the largest rectangle without any, or stop", "fill"
     )
@@ -210,13 +226,21 @@ class Reading(Section):
     window: Literal["none", "hann", "hann_radial"] = optional(
         "taper; none for periodic heights", "hann"
     )
-    fit_from: f.Length = optional("longest wavelength of the fit; default a quarter of the side")
-    fit_to: f.Length = optional("shortest wavelength of the fit; overrides the next three")
-    resolution: f.Length = optional("shortest wavelength that the instrument resolves")
-    tip_radius: f.Length = optional('radius of a scanning tip, e.g. "10 nm"')
+    fit_from: f.Maybe[f.Length] = optional(
+        "longest wavelength of the fit; default a quarter of the side"
+    )
+    fit_to: f.Maybe[f.Length] = optional(
+        "shortest wavelength of the fit; overrides resolution, tip_radius and cutoff"
+    )
+    resolution: f.Maybe[f.Length] = optional("shortest wavelength that the instrument resolves")
+    tip_radius: f.Maybe[f.Length] = optional('radius of a scanning tip, e.g. "10 nm"')
     cutoff: Literal["detect", "ignore"] = optional(
         "blur and noise in the spectrum; default detect", "detect"
     )
+
+
+class Reading(Analysis, MeasuredFile):
+    """How a measured file is read and analysed."""
 
     @model_validator(mode="after")
     def check_file(self, info: ValidationInfo) -> Self:
@@ -226,7 +250,7 @@ class Reading(Section):
         with `unread` that reading it will tell.
         """
         context = info.context or {}
-        if self.file is None or context.get("unread"):
+        if not self.file or context.get("unread"):
             return self
         path = Path(self.file)
         if not path.is_file():
@@ -262,56 +286,33 @@ class Reading(Section):
             raise EntryError("fit_to", self.fit_to, f"must be below fit_from = {self.fit_from!r}")
 
 
-def _name_load(load: object) -> str:
-    return "pressure" if isinstance(load, str | Quantity) else "number"
+class Use(Section):
+    """How what was measured is used."""
 
-
-Load = Annotated[
-    Annotated[f.Pressure, Tag("pressure")] | Annotated[f.Positive, Tag("number")],
-    Discriminator(_name_load),
-]
-
-
-class Contact(Section):
-    """Contact of the measured heights themselves.
-
-    A job asks for 2 GB of memory at 2048 points along a side, 7 GB at 4096 and 25 GB at 8192. A
-    load without adhesion takes about 5 s of processor at 2048 and 30 s at 4096; with adhesion
-    whose edges the grid does not resolve, about 3 min at 2048 and, extrapolated, 20 min at 4096.
-    """
-
-    pressures: f.Several[Load] = needed(
-        'mean pressures over E* q0 h_rms; or with a unit, e.g. "0.25 MPa", beside `adhesion`'
+    plausibility: Literal["check", "ignore"] = optional(
+        "ignore: a verdict on implausible data, too", "check"
     )
-    shortest_wavelength: f.Length = optional("shortest wavelength to keep")
-    measurement: f.Index = optional("which of `measurements`, counted from 0; default the first", 0)
-    periodic: bool = optional(
-        "true: the heights are periodic and pressed on the grid of the file", False
+    extend_to: f.Maybe[f.Length] = optional(
+        "wavelength to which the fit is extended beyond the instrument"
     )
-    most_points: Annotated[int, Field(ge=64, le=8192)] = optional(
-        "largest grid along a side; default 2048", 2048
+    contact: f.Maybe[f.Length] = optional(
+        'side of the contact, e.g. "10 mm", if it is larger than the scan'
     )
-    adhesion: ElasticPair = optional("contact on approach with exponential attraction as well")
 
     @model_validator(mode="after")
-    def check_units(self) -> Self:
-        """Check that all pressures have a unit or none, and a modulus if they have one."""
-        with_unit = [isinstance(pressure, Quantity) for pressure in self.pressures]
-        for index, pressure in enumerate(self.pressures if any(with_unit) else []):
-            key = f"pressures[{index}]"
-            if not with_unit[index]:
-                text = "has no unit, while others have; give all of them one kind"
-                raise EntryError(key, pressure, text)
-            if self.adhesion is None:
-                text = (
-                    "needs bem.adhesion, which gives the modulus; or give it over E* q0 h_rms, "
-                    "without a unit"
-                )
-                raise EntryError(key, pressure, text)
+    def check_extension(self) -> Self:
+        """Check that no wave is shorter than an atom."""
+        if self.extend_to is not None and self.extend_to < LEAST_WAVE:
+            text = f"is shorter than {LEAST_WAVE:g} m, an atom: correct it"
+            raise EntryError("extend_to", self.extend_to, text)
         return self
 
 
-class Measured(f.Labelled, Reading):
+class HeightsEntry(Use, Analysis):
+    """Measured heights in an array."""
+
+
+class MeasuredEntry(Use, Reading, SurfaceEntry):
     """A surface of `kind: measured`.
 
     Keys of reading apply to every measurement that does not give its own.
@@ -321,13 +322,9 @@ class Measured(f.Labelled, Reading):
 
     kind: Literal["measured"] = needed("a measurement")
     file: f.Text = optional("as in a measurement")
-    measurements: f.AtLeastTwo[Reading] = optional("several files, averaged into one spectrum")
-    plausibility: Literal["check", "ignore"] = optional(
-        "ignore: a verdict on implausible data, too", "check"
+    measurements: f.Maybe[f.AtLeastTwo[Reading]] = optional(
+        "several files, averaged into one spectrum"
     )
-    extend_to: f.Length = optional("wavelength to which the fit is extended beyond the instrument")
-    contact: f.Length = optional("side of the contact, if it is larger than the scan")
-    bem: Contact = optional("contact of the measured heights themselves, made periodic")
 
     @model_validator(mode="before")
     @classmethod
@@ -345,12 +342,10 @@ class Measured(f.Labelled, Reading):
     @model_validator(mode="after")
     def check_sides(self, info: ValidationInfo) -> Self:
         """Check the sides of what was measured, which are mistyped most often."""
-        if self.extend_to is not None and self.extend_to < LEAST_WAVE:
-            text = f"is shorter than {LEAST_WAVE:g} m, an atom: correct it"
-            raise EntryError("extend_to", self.extend_to, text)
         if self.plausibility == "ignore" or (info.context or {}).get("unread"):
             return self
-        for index, measurement in enumerate(self.measurements or [self]):
+        measurements: list[Reading] = self.measurements or [self]
+        for index, measurement in enumerate(measurements):
             key = f"measurements[{index}].length" if self.measurements else "length"
             for side in _as_list(measurement.length):
                 if side > plausibility.LONGEST_SIDE:
@@ -363,29 +358,13 @@ class Measured(f.Labelled, Reading):
                     raise EntryError(key, side, text)
         return self
 
-    @model_validator(mode="after")
-    def check_contact(self) -> Self:
-        """Check which measurement is pressed, and that nothing breaks its period."""
-        if self.bem is None:
-            return self
-        measurements = self.measurements or [self]
-        if self.bem.measurement >= len(measurements):
-            text = f"is counted from 0 and must be below {len(measurements)}"
-            raise EntryError("bem.measurement", self.bem.measurement, text)
-        pressed = measurements[self.bem.measurement]
-        breaks = "would break the period that bem.periodic states; give"
-        levelled = pressed.detrend not in ("detect", "mean")
-        if self.bem.periodic and levelled:
-            raise EntryError("detrend", pressed.detrend, f"{breaks} detrend: mean")
-        if self.bem.periodic and pressed.missing == "crop":
-            raise EntryError("missing", "crop", f"{breaks} missing: fill or refuse")
-        return self
 
-
-Surface = Annotated[Measured | SurfaceTexture | SelfAffine, Field(discriminator="kind")]
+AnySurface = Annotated[
+    MeasuredEntry | SurfaceTextureEntry | SelfAffineEntry, Field(discriminator="kind")
+]
 
 
 class Surfaces(Section):
     """The file of real surfaces."""
 
-    surfaces: f.Names[Surface] = needed("real surfaces by name")
+    surfaces: f.Names[AnySurface] = needed("real surfaces by name")

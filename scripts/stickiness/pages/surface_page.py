@@ -116,16 +116,20 @@ def describe_larger(pair: xr.Dataset) -> dict[str, str] | None:
 
 
 def list_doubts(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Doubts about the pairs of these rows, once each; those about a material name it."""
-    doubts = []
-    for row in rows:
-        pair = row["pair"]
+    """Doubts about the pairs of these rows, once each; those about some materials name them."""
+    pairs = [row["pair"] for row in rows]
+    doubts = [pair.doubts.item().splitlines() for pair in pairs]
+    told = []
+    for pair, its_doubts in zip(pairs, doubts, strict=True):
         about_material = pair.material_doubts.item().splitlines()
         reasons = pair.not_judged.item().splitlines()
-        for doubt in pair.doubts.item().splitlines():
-            if doubt not in reasons:
-                doubts.append(f"{row['material']}: {doubt}" if doubt in about_material else doubt)
-    return list(dict.fromkeys(doubts))
+        for doubt in its_doubts:
+            if doubt in reasons:
+                continue
+            is_common = doubt not in about_material and all(doubt in each for each in doubts)
+            name = "" if is_common else f"{pair.material_label.item()}: "
+            told.append(name + wording.tell_doubt(doubt))
+    return list(dict.fromkeys(told))
 
 
 def draw_png(draw: Callable[..., None], *shown: Any) -> dict[str, Any]:

@@ -23,7 +23,7 @@ class Prediction:
 
     Works are over the work of adhesion. The theory has no jumps: approach and separation are both
     the energy gained, and their limits allow for the jumps that were simulated. Limits (low, high)
-    cover 90 % where more than 5 % remains.
+    are calibrated, see `calibration`: they stand for 90 %.
     """
 
     approach: float  #: work at given mean gaps

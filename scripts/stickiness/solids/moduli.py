@@ -37,6 +37,16 @@ class Constant:
         """Return the modulus times a factor."""
         return Constant(factor * self.modulus)
 
+    def relaxation(self, time: ArrayLike) -> float | NDArray:
+        """Modulus [Pa] at times [s] after a step of the strain."""
+        (time,) = positive(time=time)
+        return plain(np.full(time.shape, self.modulus))
+
+    @property
+    def largest(self) -> float:
+        """The modulus [Pa]."""
+        return self.modulus
+
 
 @dataclass(frozen=True)
 class Prony:

@@ -5,7 +5,7 @@ What goes in:
 - `rough_surface`: `Surface`, what is known of a rough surface; `measured_surface`, `analysis` and
   `parametric` make one of measured heights, a drawing or parameters, `surface_variables` lists what
   it stores
-- `material`: `Material`, the solid that touches it, and its adhesion
+- `entries.material.Material`, the solid that touches it, and its adhesion
 
 What happens to them:
 
@@ -24,7 +24,6 @@ __all__ = [
     "curves",
     "judgement",
     "limits",
-    "material",
     "measured_surface",
     "pair_roughness",
     "parametric",

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.criteria.pair import Pair
-from stickiness.verdicts.material import Material
+from stickiness.entries.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness
 
 # Factors on E*, on heights at an unchanged shape of the spectrum, and on the dwell, 1 among them.

@@ -30,6 +30,7 @@ from stickiness.criteria.pair import (
     find_quantities,
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
+from stickiness.entries.material import Material
 from stickiness.limited import Limited
 from stickiness.remaining.roughness import LEAST_LENGTH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
@@ -42,7 +43,6 @@ from stickiness.verdicts.curves import (
     follow_remaining,
 )
 from stickiness.verdicts.limits import HIGH, LIMIT_TEXT, LIMITS, LOW, VALUE
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
 from stickiness.verdicts.parametric import ENDS
 from stickiness.verdicts.rough_surface import Surface
@@ -132,9 +132,9 @@ def judge(
     --------
     >>> from stickiness.spectrum import SelfAffine
     >>> wall = Surface.from_spectrum(SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6))
-    >>> properties = {"poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
-    >>> soft = Material(modulus=2e5, **properties)
-    >>> stiff = Material(modulus=2e9, **properties)
+    >>> adhesion = {"work_of_adhesion": 0.06, "range": 3e-10}
+    >>> soft = Material(youngs_modulus=2e5, **adhesion)
+    >>> stiff = Material(youngs_modulus=2e9, **adhesion)
     >>> verdicts = judge({"soft": soft, "stiff": stiff}, {"wall": wall})
     >>> [WORDS[code] for code in verdicts.verdict.sel(surface="wall").values]
     ['sticks fully', 'does not stick']
@@ -346,7 +346,7 @@ def _arrange(
         "modulus_given": [material.quoted_modulus for material in materials.values()],
         "modulus_quoted": [material.plane_strain_modulus for material in materials.values()],
         "poisson_ratio": [
-            np.nan if material.poisson is None else material.poisson
+            np.nan if material.is_plane_strain else material.poisson_ratio
             for material in materials.values()
         ],
         "dwell": [material.dwell or np.nan for material in materials.values()],
@@ -388,8 +388,10 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
     """Unit, description and, where a value may be missing, what that means, of every variable."""
     unmeasured = "not measured"
     no_longer = "no waves longer than the scan are expected or known"
+    any_modulus = "not judged, or any modulus would do"
     texts: dict[str, tuple[str, ...]] = {
         **LIMITED,
+        **{name: (*LIMITED[name], any_modulus) for name in LIMITED if "modulus" in name},
         **QUANTITIES,
         **THRESHOLDS,
         "material": ("1", "material"),

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from inspect import signature
 from typing import Any
 
+from numpy.typing import NDArray
+
 from stickiness.entries import list_measurements
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
@@ -15,7 +17,8 @@ from stickiness.measured.topography import Profile, Topography
 
 FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
-LIMIT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  #: lengths of `Limits`
+_LIMIT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  # lengths of `Limits`
+_CLEANING = {"missing", "max_missing", "missing_rim", "spikes"}  # of heights in files and arrays
 _READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
 
 
@@ -36,8 +39,20 @@ class Measurement:
         """
         reading = {key: entry[key] for key in _READING if entry.get(key) is not None}
         heights = topography.read(entry["file"], max_missing=_ALL_MISSING, **reading)
-        heights = _doubt_missing(heights, most=entry["max_missing"])
-        lengths = {key: float(entry[key]) for key in LIMIT_KEYS if entry.get(key) is not None}
+        return cls._level(_doubt_missing(heights, most=entry["max_missing"]), entry)
+
+    @classmethod
+    def from_array(
+        cls, heights: NDArray, steps: float | tuple[float, ...], options: Mapping[str, Any]
+    ) -> Measurement:
+        """Take heights on a grid of these steps [m], with checked `options` of an entry."""
+        reading = {key: options[key] for key in _CLEANING}
+        return cls._level(topography.from_array(heights, steps, **reading), options)
+
+    @classmethod
+    def _level(cls, heights: Topography | Profile, entry: Mapping[str, Any]) -> Measurement:
+        """Level heights, and set the limits of their spectrum."""
+        lengths = {key: float(entry[key]) for key in _LIMIT_KEYS if entry.get(key) is not None}
         return cls(
             heights=heights.detrended(entry["detrend"]),
             window=entry["window"],

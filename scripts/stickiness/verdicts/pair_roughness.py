@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair
+from stickiness.entries.material import Material
 from stickiness.limited import Limited
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.solid_response import (
@@ -27,7 +28,6 @@ from stickiness.solids import HALF_SPACE, Skin, Solid
 from stickiness.spectrum import combine
 from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.limits import find_limits
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.parametric import MOMENTS
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.scenarios import ENDS, Scenarios

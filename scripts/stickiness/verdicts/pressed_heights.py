@@ -20,6 +20,7 @@ from scipy.ndimage import maximum_filter1d
 from scipy.special import erfinv
 
 from stickiness import datasets, remaining
+from stickiness.entries.material import Material
 from stickiness.formatting import amount, percent
 from stickiness.measured import periodic
 from stickiness.measured.topography import Topography
@@ -34,7 +35,6 @@ from stickiness.repulsive.solver import Contact, ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import LAWS, TractionLaw, find_strength
 from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.wording import LEAST_SHOWN, tell_material_moment
 

@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 
 from stickiness.arguments import number
+from stickiness.entries.material import Material
 from stickiness.formatting import amount, in_unit, limited
 from stickiness.remaining import sphere
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.verdicts.limits import VALUE
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import combine_roughness
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.scenarios import ENDS

@@ -9,7 +9,7 @@ contain waves that the instrument does not resolve. Verdicts rest on the draws w
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,7 +20,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness import datasets
-from stickiness.arguments import check_length, positive, side, with_gaps
+from stickiness.arguments import check_length, side, with_gaps
 from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
@@ -41,7 +41,7 @@ from stickiness.verdicts.simulated_surface import (
     simulate_on,
 )
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # scripts that open a file of a surface do not read measurements
     from stickiness.verdicts.measured_surface import Measurement
 
 #: What a verdict needs of the file of a surface.
@@ -135,14 +135,15 @@ class Surface:
         length : float or pair of floats
             Side of the map, or its sides along x and y [m].
         **options
-            Keys of a measured surface, see docs/inputs.md, with lengths in m: `detrend`, `missing`,
-            `max_missing`, `missing_rim`, `spikes`, `window`, `fit_from`, `fit_to`, `resolution`,
-            `tip_radius`, `cutoff`, `extend_to`, `contact` and `plausibility`.
+            Keys of a measured surface that do not tell how its file is read, see
+            docs/configuration.md, such as `detrend`, `missing`, `resolution`, `extend_to` and
+            `contact`. Lengths are numbers in m or texts with a unit.
 
         Raises
         ------
         ValueError
-            If the heights are no map, a side is missing, or too many points are missing.
+            If the heights are no map, a side is missing, too many points are missing, or an option
+            is unknown or has a value that cannot be used.
         """
         heights = with_gaps("heights", heights)
         if heights.ndim != 2:
@@ -192,69 +193,42 @@ class Surface:
         doubts: Iterable[str],
     ) -> Surface:
         """Analyse heights on a grid of these steps [m]; warn of `doubts` and keep them."""
-        from stickiness.measured import topography
-        from stickiness.measured.instrument_spectrum import Limits
-        from stickiness.verdicts.analysis import analyse
-        from stickiness.verdicts.measured_surface import LIMIT_KEYS, Measurement
+        from stickiness.entries import check_heights
+        from stickiness.verdicts.measured_surface import Measurement
 
-        options = dict(options)
-        waves = {}
-        for name in ("extend_to", "contact"):
-            wave = options.pop(name, None)
-            waves[name] = None if wave is None else float(positive(**{name: wave})[0])
-        ignore_doubts = options.pop("plausibility", "check") == "ignore"
-        lengths = {key: options.pop(key) for key in LIMIT_KEYS & options.keys()}
-        limits = Limits(**lengths, detect=options.pop("cutoff", "detect") == "detect")
-        window = options.pop("window", "hann")
-        detrend = options.pop("detrend", "detect")
-        levelled = topography.from_array(heights, steps, **options).detrended(detrend)
-        measurement = Measurement(levelled, window=window, limits=limits)
-        data = analyse([measurement], ignore_doubts=ignore_doubts, **waves)
+        options = check_heights(options)
+        surface = cls._analyse([Measurement.from_array(heights, steps, options)], options)
         doubts = list(doubts)
         for doubt in doubts:
             warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
-        data.attrs["remarks"] = "\n".join(filter(None, [*doubts, data.attrs["remarks"]]))
-        return cls(data, measurements=(measurement,))
+        attributes = surface.data.attrs
+        attributes["remarks"] = "\n".join(filter(None, [*doubts, attributes["remarks"]]))
+        return surface
 
     @classmethod
-    def from_drawing(
-        cls,
-        *,
-        Ra: float | tuple[float, float] | None = None,
-        Rq: float | tuple[float, float] | None = None,
-        RSm: float | tuple[float, float] | None = None,
-        lambda_c: float | None = None,
-        shortest_wavelength: float = 1e-9,
-    ) -> Surface:
-        """Describe a surface by the parameters of profiles on a drawing, all in m.
+    def from_drawing(cls, **parameters: Any) -> Surface:
+        """Describe a surface by the parameters of profiles on a drawing.
 
         Parameters
         ----------
-        Ra, Rq : float or (low, high)
-            Arithmetic or rms deviation of the profile; exactly one of them.
-        RSm : float or (low, high), optional
-            Mean width of the profile elements; default 0.04 to 0.5 times `lambda_c`.
-        lambda_c : float, optional
-            Cut-off of the profile filter; default by ISO 4288.
-        shortest_wavelength : float
-            Shortest wavelength of the surface.
+        **parameters
+            Keys of a surface of `kind: surface_texture`, see docs/configuration.md, as numbers in m
+            or texts: `Ra` or `Rq`, one value or (low, high), and `Rz`, `RSm`, `lambda_c` and
+            `shortest_wavelength` if they are known.
 
         Raises
         ------
         ValueError
-            If not exactly one of Ra and Rq is given, or if a value is not positive.
+            If not exactly one of Ra and Rq is given, or if a value cannot be used.
+
+        Examples
+        --------
+        >>> print(f"{Surface.from_drawing(Ra='0.8 um', RSm='0.1 mm').rms_height:.2g} m")
+        1.1e-06 m
         """
-        if (Ra is None) == (Rq is None):
-            raise ValueError("give exactly one of Ra and Rq")
-        lengths = {"Ra": Ra, "Rq": Rq, "RSm": RSm, "lambda_c": lambda_c}
-        lengths["shortest_wavelength"] = shortest_wavelength
-        lengths = {name: value for name, value in lengths.items() if value is not None}
-        for name, value in lengths.items():
-            (ends,) = positive(**{name: value})
-            if ends.ndim and (ends.shape != (2,) or ends[0] > ends[1]):
-                raise ValueError(f"{name} must be a length or (low, high), got {value!r}")
-        lengths = dict.fromkeys(("Ra", "Rq", "RSm", "lambda_c")) | lengths
-        return cls(parametric.read_drawing(lengths))
+        from stickiness.entries import check_drawing
+
+        return cls(parametric.read_drawing(check_drawing(parameters)))
 
     @classmethod
     def read(cls, path: str | Path, **options: Any) -> Surface:
@@ -265,7 +239,7 @@ class Surface:
         path : path
             The file. The rows of a matrix in a text or numpy file run along y, as in an image.
         **options
-            Keys of a measured surface, see docs/inputs.md: those of `from_heights`, and `length`
+            Keys of a measured surface, see docs/configuration.md: those of `from_heights`, `length`
             and `height_unit` of a map, `position_unit` and `height_unit` of a profile, `channel`
             and others. Values with units are texts, or numbers in SI units.
 
@@ -274,7 +248,7 @@ class Surface:
         ValueError
             If the file cannot be read; the message says what to give.
         """
-        from stickiness.entries import check_surface  # needs pydantic, which little else does
+        from stickiness.entries import check_surface
 
         return cls.from_entry(check_surface({"kind": "measured", "file": str(path), **options}))
 
@@ -285,17 +259,22 @@ class Surface:
             return cls(parametric.read_self_affine(entry))
         if entry["kind"] == "surface_texture":
             return cls(parametric.read_drawing(entry))
-        from stickiness.verdicts.analysis import analyse
         from stickiness.verdicts.measured_surface import read_measurements
 
-        measurements = read_measurements(entry)
+        return cls._analyse(read_measurements(entry), entry)
+
+    @classmethod
+    def _analyse(cls, measurements: Sequence[Measurement], entry: Mapping[str, Any]) -> Surface:
+        """Make a surface of its measurements as a checked entry says."""
+        from stickiness.verdicts.analysis import analyse
+
         data = analyse(
             measurements,
             extend_to=entry["extend_to"],
             contact=entry["contact"],
             ignore_doubts=entry["plausibility"] == "ignore",
         )
-        return cls(data, measurements=measurements)
+        return cls(data, measurements=tuple(measurements))
 
     @classmethod
     def open(cls, path: str | Path) -> Surface:

@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 
 from stickiness.criteria.a_v_table import RANGES
 from stickiness.criteria.pair import Pair
+from stickiness.entries.material import Material
 from stickiness.limited import Limited
 from stickiness.persson.theory import Persson
 from stickiness.remaining.thin_layers import find_flow
 from stickiness.solids import Layer, Skin, Solid
 from stickiness.solids.moduli import Modulus
 from stickiness.verdicts.limits import VALUE
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.pair_roughness import PairRoughness
 from stickiness.verdicts.scenarios import ENDS
 

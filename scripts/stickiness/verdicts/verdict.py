@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from stickiness import __version__
 from stickiness.criteria.pair import NOT_JUDGED, REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
+from stickiness.entries.material import Material
 from stickiness.formatting import amount
 from stickiness.limited import Limited
 from stickiness.plausibility import PlausibilityWarning
@@ -22,7 +23,6 @@ from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts import wording
 from stickiness.verdicts.judgement import DECIDED_BY, LARGER, find_pair_doubts, judge
 from stickiness.verdicts.limits import read_limited
-from stickiness.verdicts.material import Material
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
 from stickiness.verdicts.wording import MOST_STRESS
@@ -296,8 +296,8 @@ def verdict(
     wanted_share : float
         Share of the work of adhesion that must remain for a pair to stick, between 0 and 1.
     **properties
-        Parameters of `Material`: at least `modulus`, `work_of_adhesion` and `range`; also
-        `poisson` (0.5 by default), `solid`, `law`, `pressed`, `dwell` and others.
+        Keys of `Material`: at least `youngs_modulus`, `work_of_adhesion` and `range`; also
+        `poisson_ratio` (0.5 by default), `thickness`, `law`, `pressed`, `dwell` and others.
 
     Returns
     -------
@@ -325,7 +325,8 @@ def verdict(
     --------
     >>> from stickiness.spectrum import SelfAffine
     >>> rough = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
-    >>> verdict(rough, modulus=210e9, poisson=0.3, work_of_adhesion=0.1, range=3e-10).word
+    >>> steel = {"youngs_modulus": "210 GPa", "poisson_ratio": 0.3}
+    >>> verdict(rough, **steel, work_of_adhesion=0.1, range=3e-10).word
     'does not stick'
     """
     pair = _read_pair(surface, material, length=length, **properties)
@@ -336,7 +337,7 @@ def verdict(
 class Thresholds:
     """What would make a material stick to a surface, all else being as it is."""
 
-    modulus: Limited  #: sticks below [Pa]; Young's modulus, or E* if `poisson` is None
+    modulus: Limited  #: sticks below [Pa]; Young's modulus, or E* if that was given
     rms_height: Limited  #: sticks below [m]
     thickness: Limited | None  #: sticks above [m]; None of a half-space
     pressure: Limited  #: mean pressure [Pa] that makes the area of contact, without adhesion
@@ -377,7 +378,7 @@ def thresholds(
     --------
     >>> from stickiness.spectrum import SelfAffine
     >>> wall = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6)
-    >>> tape = Material(modulus=2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    >>> tape = Material(youngs_modulus=2e6, work_of_adhesion=0.06, range=3e-10)
     >>> answer = thresholds(wall, tape)
     >>> print(f"sticks below E = {answer.modulus.value / 1e6:.2f} MPa")
     sticks below E = 1.50 MPa
@@ -418,7 +419,7 @@ def _read_pair(
 ) -> _ReadPair:
     """Make a `Material` and a `Surface` of the arguments of `verdict`."""
     if (material is None) == (not properties):
-        raise ValueError("give either a material or its properties, such as modulus=2e5")
+        raise ValueError("give either a material or its properties, such as youngs_modulus=2e5")
     if material is None:
         material = Material(**properties)
     if isinstance(surface, Material | str | Path):

@@ -28,7 +28,7 @@ from stickiness.solids.moduli import REFERENCE_FREQUENCY, Prony, Table
 from stickiness.verdicts.limits import read_limited
 
 if TYPE_CHECKING:
-    from stickiness.verdicts.material import Material
+    from stickiness.entries.material import Material
 
 LEAST_STRESS = 1.0  #: [Pa]; beyond these two nobody can use a stress or a modulus
 MOST_STRESS = 1e13
@@ -132,9 +132,9 @@ def tell_dwell(cell: xr.Dataset) -> str:
     if np.isnan(cell.dwell):
         return ""
     return (
-        f"after a dwell of {float(cell.dwell):g} s: values are for slow separation, high limits "
-        f"for up to {number(cell.instant_ratio, 2)} times the work and stress, the instantaneous "
-        "modulus over the relaxed one"
+        f"after a dwell of {duration(float(cell.dwell))}: values are for slow separation, high "
+        f"limits for up to {number(cell.instant_ratio, 2)} times the work and stress, the "
+        "instantaneous modulus over the relaxed one"
     )
 
 
@@ -192,6 +192,12 @@ def tell_improbable(cell: xr.Dataset) -> str:
     return f"doubtful, for {' and '.join(improbable)}" if improbable else ""
 
 
+def tell_doubt(doubt: str) -> str:
+    """A doubt as readers see it: names of quantities without underscores."""
+    name, equals, rest = doubt.partition(" = ")
+    return f"{name.replace('_', ' ')}{equals}{rest}" if name in LIMITS else doubt
+
+
 def tell_verdict(cell: xr.Dataset) -> str:
     """Word of the verdict on a pair."""
     return WORDS[int(cell.verdict)]
@@ -205,8 +211,8 @@ def is_judged(cell: xr.Dataset) -> bool:
 def describe_material(material: Material) -> str:
     """Properties of a material for readers: modulus, layer, skin and roughness."""
     parts = [_describe_modulus(material)]
-    if material.poisson is not None:
-        parts.append(f"ν = {number(material.poisson)}")
+    if not material.is_plane_strain:
+        parts.append(f"ν = {number(material.poisson_ratio)}")
     solid = material.solid
     if isinstance(solid, Layer):
         slips = ", free to slip" if solid.backing == "slip" else ""
@@ -223,7 +229,7 @@ def describe_material(material: Material) -> str:
 
 def _describe_modulus(material: Material) -> str:
     """Modulus of a material as it was given: a number, a series or a table."""
-    modulus = material.modulus
+    modulus = material.stated_modulus
     if isinstance(modulus, Table):
         ends = [
             f"{amount(float(stiffness), 'Pa')} at {amount(float(frequency), 'Hz')}"
@@ -237,7 +243,7 @@ def _describe_modulus(material: Material) -> str:
         count = len(modulus.terms)
         terms = f"{count} Prony term{'s' if count > 1 else ''}"
         return f"E = {amount(modulus.equilibrium, 'Pa')} at rest, {terms}"
-    symbol = "E*" if material.poisson is None else "E"
+    symbol = "E*" if material.is_plane_strain else "E"
     return f"{symbol} = {amount(float(modulus), 'Pa')}"
 
 

@@ -11,7 +11,8 @@ import pytest
 
 import stickiness
 from stickiness import Material, entries
-from stickiness.entries.material_entry import Materials
+from stickiness.__main__ import TEXTS, read_options
+from stickiness.entries.material import Materials
 from stickiness.solids import HALF_SPACE
 from stickiness.units import Quantity, write_quantities
 
@@ -171,10 +172,26 @@ def test_the_json_schema_knows_that_a_common_material_gives_the_rest():
         assert schema.is_valid({"materials": {"tape": entry}}) == right, entry
 
 
+@pytest.mark.parametrize("kind", ["material", "surface"])
+def test_options_of_the_command_have_the_texts_of_their_keys(kind, capsys):
+    texts = entries.describe_keys(kind)
+    assert TEXTS[kind].keys() < texts.keys()
+    with pytest.raises(SystemExit):
+        read_options(["--help"])
+    shown = " ".join(capsys.readouterr().out.split())
+    for key, option in TEXTS[kind].items():
+        assert f"{option} VALUE {texts[key]}" in shown
+
+
 def test_a_wheel_has_all_files_that_are_no_code():
     project = tomllib.loads((SCRIPTS.parent / "pyproject.toml").read_text(encoding="utf-8"))
-    packed = {*project["tool"]["setuptools"]["package-data"]["stickiness"]}
     package = SCRIPTS / "stickiness"
+    patterns = project["tool"]["setuptools"]["package-data"]["stickiness"]
+    packed = {
+        path.relative_to(package).as_posix()
+        for pattern in patterns
+        for path in package.glob(pattern)
+    }
     files = [path for path in package.rglob("*.*") if path.suffix not in (".py", ".pyc")]
     kept = [path.relative_to(package).as_posix() for path in files if path.is_file()]
     assert {path for path in kept if "__pycache__" not in path} == packed

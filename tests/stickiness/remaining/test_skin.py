@@ -1,7 +1,5 @@
 """Adhesion that remains below a skin: limits, a simulation, and a published observation."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -84,7 +82,7 @@ def test_energy_of_theory_is_that_of_full_contact():
 def test_90_nm_of_acrylic_glass_take_the_adhesion_of_silicone_away(longest, h_rms):
     # Kumar, Gaire, Persson & Dhinojwala, arXiv:2402.15014; all numbers but 90 nm are assumed.
     lens = SelfAffine(hurst=0.8, q0=2 * np.pi / longest, q1=2 * np.pi / 5e-9, h_rms=h_rms)
-    silicone = Material(modulus=2e6, poisson=0.5, work_of_adhesion=0.05, range=3e-10)
-    coated = replace(silicone, solid=Skin(90e-9, 1500.0, 0.37, 0.5))
+    silicone = Material(youngs_modulus=2e6, work_of_adhesion=0.05, range=3e-10)
+    coated = silicone.replace(solid=Skin(90e-9, 1500.0, 0.37, 0.5))
     assert verdict(lens, silicone).remaining > 0.5
     assert verdict(lens, coated).remaining < 0.1

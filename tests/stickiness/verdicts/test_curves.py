@@ -1,6 +1,5 @@
 """What remains along the modulus, the heights and the rate."""
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -20,9 +19,9 @@ pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
 HEIGHTS = np.array([1e-6, 1.5e-6])
 Q0 = 6e4
-TAPE = Material(modulus=0.4e6, poisson=0.5, work_of_adhesion=0.07, range=3e-9)
-SLOW = replace(TAPE, modulus=Prony(0.1e6, ((0.5e6, 0.1), (1e9, 1e-6))))
-RESTED = replace(SLOW, dwell=0.2)
+TAPE = Material(youngs_modulus=0.4e6, work_of_adhesion=0.07, range=3e-9)
+SLOW = TAPE.replace(youngs_modulus_prony=Prony(0.1e6, ((0.5e6, 0.1), (1e9, 1e-6))))
+RESTED = SLOW.replace(dwell=0.2)
 THICK = 40e-6  # of a layer that can take the heights [m]
 THIN = 7e-6  # of one that cannot
 FREQUENCIES = np.geomspace(1e-4, 1e6, 21)
@@ -59,14 +58,14 @@ def judge_on_surface(materials, drawn, frequencies=(1.0,)):
 @cache
 def follow(drawn, thickness=THICK):
     """Curves beside what is stored of the pairs."""
-    layer = replace(TAPE, solid=Layer(thickness, 0.5))
+    layer = TAPE.replace(solid=Layer(thickness, 0.5))
     materials = {"tape": TAPE, "slow": SLOW, "layer": layer, "rested": RESTED}
     return judge_on_surface(materials, drawn, FREQUENCIES)
 
 
 def judge_at(moduli, drawn):
     """Share of the tape at these E* [Pa], with its limits, ``(modulus, limit)``."""
-    tapes = [replace(TAPE, modulus=0.75 * float(modulus)) for modulus in moduli]
+    tapes = [TAPE.replace(youngs_modulus=0.75 * float(modulus)) for modulus in moduli]
     return judge_on_surface(tapes, drawn).remaining
 
 
@@ -116,9 +115,9 @@ def test_curves_cross_the_wanted_share_at_the_threshold(drawn):
 
 
 def test_every_material_has_its_own_law(drawn):
-    hard = replace(TAPE, modulus=100e9, range=30e-9)
+    hard = TAPE.replace(youngs_modulus=100e9, range=30e-9)
     laws = ("exponential", "van_der_waals")
-    materials = {law: replace(hard, law=law) for law in laws} | {"none": hard}
+    materials = {law: hard.replace(law=law) for law in laws} | {"none": hard}
     dataset = judge_on_surface(materials, drawn, FREQUENCIES)
     length = hard.work_of_adhesion / hard.plane_strain_modulus
     for law in laws:
@@ -158,7 +157,7 @@ def test_the_rate_counts_by_the_modulus(drawn):
 @pytest.mark.parametrize("factor", [1e-4, 1.0, 1e3])
 def test_the_dwell_counts_by_the_relaxed_modulus(drawn, factor):
     """Curves of dwells are verdicts of materials with these dwells."""
-    other = replace(RESTED, dwell=0.2 * factor)
+    other = RESTED.replace(dwell=0.2 * factor)
     verdict = judge_on_surface([other], drawn).isel(material=0)
     curve = follow(drawn).sel(material="rested")
     curve = curve.isel(dwell_factor=np.argmin(abs(DWELL_FACTORS - factor)))
@@ -172,7 +171,7 @@ def test_the_dwell_counts_by_the_relaxed_modulus(drawn, factor):
 
 def test_the_curve_of_a_table_ends_where_the_table_does():
     table = Table((0.01, 1.0, 100.0), (0.1e6, 0.2e6, 0.6e6))
-    tape = replace(RESTED, modulus=table, dwell=1.0)
+    tape = RESTED.replace(youngs_modulus_table=table, dwell=1.0)
     dataset = judge_on_surface([tape], drawn=False)
     known = np.isfinite(dataset.remaining_by_dwell.isel(material=0).sel(limit="low"))
     covered = abs(np.log10(DWELL_FACTORS * np.pi**2)) <= 2  # 0.01 to 100 Hz are 10 s to 1 ms
@@ -183,7 +182,7 @@ def test_the_curve_of_a_table_ends_where_the_table_does():
 
 
 def test_limits_of_a_dwell_end_at_the_instantaneous_modulus(drawn):
-    elastic = replace(TAPE, modulus=RESTED.plane_strain_modulus, poisson=None)
+    elastic = TAPE.replace(plane_strain_modulus=RESTED.plane_strain_modulus)
     dataset = judge_on_surface({"rested": RESTED, "elastic": elastic}, drawn)
     low, _, high = dataset.remaining.sel(material="rested").values
     least, _, most = dataset.remaining.sel(material="elastic").values

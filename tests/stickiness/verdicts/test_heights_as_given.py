@@ -42,8 +42,7 @@ def test_the_share_is_that_of_the_heights_as_given(family, shortest):
     modulus = 1e6
     judged = verdict(
         Surface.from_heights(heights, SIDE, extend_to=shortest * pixel),
-        modulus=modulus,
-        poisson=None,
+        plane_strain_modulus=modulus,
         work_of_adhesion=modulus * adhesion_length,
         range=range_,
     )

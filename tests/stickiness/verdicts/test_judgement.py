@@ -43,7 +43,7 @@ def make_surface(h_rms=1e-6):
 
 def judge_one(modulus, reach, h_rms=1e-6):
     """Verdict on a material of a modulus and a range on one surface."""
-    material = Material(modulus=modulus, work_of_adhesion=0.05, range=reach)
+    material = Material(youngs_modulus=modulus, work_of_adhesion=0.05, range=reach)
     dataset = judge([material], [make_surface(h_rms)], frequencies=(1.0, 1e3), thresholds=False)
     return dataset.isel(end=0, surface=0, material=0)
 
@@ -72,7 +72,7 @@ def test_edges_are_classified_by_strength_and_zone(modulus, reach, regime):
 @pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
 @pytest.mark.parametrize(("modulus", "reach"), [(5e3, 1e-9), (1e4, 3e-8), (1e5, 1e-6)])
 def test_verdict_is_the_prediction_of_what_remains(modulus, reach):
-    properties = {"modulus": modulus, "poisson": None, "work_of_adhesion": 0.05, "range": reach}
+    properties = {"plane_strain_modulus": modulus, "work_of_adhesion": 0.05, "range": reach}
     answer = verdict(make_surface(), **properties)
     expected = predict(SPECTRUM, 0.05 / modulus, reach)
     assert answer.remaining == pytest.approx(expected.separation, rel=1e-9)

@@ -18,7 +18,7 @@ Q0 = 6e4  # [1/m]
 SIDE = 8 * np.pi / Q0  # [m]
 SPECTRUM = SelfAffine(hurst=0.8, q0=Q0, q1=8 * Q0, h_rms=1e-6)
 LAYER = Layer(0.5 / Q0, 0.5)
-TAPE = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10, solid=LAYER)
+TAPE = Material(youngs_modulus=0.2e6, work_of_adhesion=0.06, range=3e-10, solid=LAYER)
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning"),
@@ -47,7 +47,7 @@ def test_a_layer_meets_states_of_its_own(wall, heights):
 
 
 def test_materials_of_one_layer_share_a_simulation(wall):
-    stiffer = replace(TAPE, modulus=1e6)
+    stiffer = TAPE.replace(youngs_modulus=1e6)
     first = combine_roughness(TAPE, wall).scenarios.roughness.simulated
     assert combine_roughness(stiffer, wall).scenarios.roughness.simulated is first
 
@@ -63,8 +63,8 @@ def test_what_is_written_simulates_the_same(wall, tmp_path):
 
 def test_verdicts_say_what_decided(wall):
     film = replace(LAYER, backing=Film(1e4, 0.4, 0.3 / Q0))
-    rough = replace(TAPE, surface=Surface.from_spectrum(SPECTRUM))
-    materials = {"layer": TAPE, "film": replace(TAPE, solid=film), "rough": rough}
+    rough = TAPE.replace(surface=Surface.from_spectrum(SPECTRUM))
+    materials = {"layer": TAPE, "film": TAPE.replace(solid=film), "rough": rough}
     verdicts = judge(materials, {"wall": wall}, curves=False, thresholds=False)
     codes = verdicts.decided_by.sel(surface="wall").values.tolist()
     assert codes == [BY_SIMULATION, BY_SHAPED_THEORY, BY_SHAPED_THEORY]

@@ -25,7 +25,7 @@ pytestmark = pytest.mark.usefixtures("coarse_simulation")
 SIDE = 1e-3
 BAND = {"q0": 2 * np.pi / SIDE, "q1": 256 * np.pi / SIDE, "h_rms": 10e-6}
 ROUGH = SelfAffine(hurst=0.8, **BAND)
-TAPE = Material(modulus=1e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+TAPE = Material(youngs_modulus=1e6, work_of_adhesion=0.06, range=3e-10)
 
 
 def take_patch(seed, parts, hurst=0.8, contact=None):
@@ -131,7 +131,7 @@ def test_the_answer_is_continuous_in_the_size_of_the_contact(patch):
 def test_longer_waves_meet_a_layer_draw_by_draw():
     """A layer stiffens the longest waves most: limits contain the energy of the whole surface."""
     layer = Layer(5e-5, poisson=0.5)
-    soft = replace(TAPE, solid=layer)
+    soft = TAPE.replace(solid=layer)
     inside = []
     for seed in (1, 2, 3, 4):
         heights, known = take_patch(seed, parts=3, contact=SIDE)
@@ -164,7 +164,7 @@ def test_the_larger_contact_is_the_answer_for_its_size(patch):
 def test_several_surfaces_are_judged_as_each_alone(patch):
     """Scans of different sizes, and a rough material, which meets the contact of the surface."""
     _, small = take_patch(seed=2, parts=8)
-    rough = replace(TAPE, surface=small)
+    rough = TAPE.replace(surface=small)
     surfaces = {"large": patch, "small": small}
     options = {"curves": False, "thresholds": False}
     together = judge({"tape": TAPE, "rough": rough}, surfaces, **options)

@@ -115,14 +115,14 @@ def test_pairs_of_described_surfaces(wall, texts, tmp_path):
 def test_properties_are_as_good_as_an_entry(tmp_path):
     wall = Surface.from_spectrum(SPECTRUM)
     written = run_workflow(tmp_path, wall, TAPE)
-    answer = verdict(SPECTRUM, modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+    answer = verdict(SPECTRUM, youngs_modulus=0.2e6, work_of_adhesion=0.06, range=3e-10)
     check(answer, written)
 
 
 MAP = surface.synthesise(SPECTRUM, 256, MAP_SIDE, seed=3)
 PROFILE_STEP = 2e-7  # [m]
 PROFILE = surface.synthesise(SPECTRUM, 1024, 1024 * PROFILE_STEP, seed=4)[:, 0]
-MATERIAL = Material(modulus=0.2e6, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+MATERIAL = Material(youngs_modulus=0.2e6, work_of_adhesion=0.06, range=3e-10)
 
 
 @pytest.fixture

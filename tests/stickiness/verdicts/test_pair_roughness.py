@@ -18,14 +18,14 @@ from stickiness.verdicts.pair_roughness import TOO_DIFFERENT, combine_roughness
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
-TAPE = Material(modulus=0.1e6, poisson=0.5, work_of_adhesion=0.07, range=3e-10)
-FILM = Film(3e9 / TAPE.modulus, 0.4, 25e-6)
+TAPE = Material(youngs_modulus=0.1e6, work_of_adhesion=0.07, range=3e-10)
+FILM = Film(3e9 / TAPE.youngs_modulus, 0.4, 25e-6)
 THIN_FILM_MODULUS = 0.1e9  # Young's modulus [Pa]
 
 
 def put_on_layer(thickness, backing="bonded"):
     """The tape as a layer."""
-    return replace(TAPE, solid=Layer(thickness, 0.5, backing))
+    return TAPE.replace(solid=Layer(thickness, 0.5, backing))
 
 
 def layer_factor(k, backing):
@@ -75,7 +75,7 @@ def test_a_tape_on_a_film_takes_less_energy_than_on_a_rigid_base():
 def make_thin_tape(modulus):
     """The tape on a thin film, whose own Young's modulus stays as it is."""
     film = Film(THIN_FILM_MODULUS / modulus, 0.4, 4e-6)
-    return replace(TAPE, modulus=modulus, solid=Layer(40e-6, 0.5, film))
+    return TAPE.replace(youngs_modulus=modulus, solid=Layer(40e-6, 0.5, film))
 
 
 def judge_at_moduli(moduli, draws):
@@ -106,10 +106,10 @@ def test_a_rate_dependent_tape_has_its_film_at_every_rate_and_dwell():
     def put_on_film(material):
         """The ratio of moduli is that to Young's modulus of the verdict."""
         film = Film(THIN_FILM_MODULUS / (0.75 * material.plane_strain_modulus), 0.4, 4e-6)
-        return replace(material, solid=Layer(40e-6, 0.5, film))
+        return material.replace(solid=Layer(40e-6, 0.5, film))
 
-    slow = put_on_film(replace(TAPE, modulus=table))
-    rested = put_on_film(replace(TAPE, modulus=table, dwell=10.0))
+    slow = put_on_film(TAPE.replace(youngs_modulus_table=table))
+    rested = put_on_film(TAPE.replace(youngs_modulus_table=table, dwell=10.0))
     surface = wall()
     dataset = judge(
         {"slow": slow, "rested": rested},
@@ -195,7 +195,7 @@ def test_the_layer_acts_on_draws_as_on_both_ends():
 
 def test_roughness_of_both_solids_adds():
     surface = wall(draws=4)
-    both = combine_roughness(replace(TAPE, surface=surface), surface)
+    both = combine_roughness(TAPE.replace(surface=surface), surface)
     one = combine_roughness(TAPE, surface)
     for name in ("h_rms", "rms_slope"):
         combined = getattr(both.scenarios.ends, name)
@@ -215,7 +215,7 @@ def test_roughness_of_both_solids_adds():
 def test_a_smooth_partner_changes_nothing():
     rough = wall(draws=4)
     smooth = wall(h_rms=1e-11, apart=1.0)  # known exactly
-    both = combine_roughness(replace(TAPE, surface=smooth), rough)
+    both = combine_roughness(TAPE.replace(surface=smooth), rough)
     assert both.scenarios.ends.elastic_energy == pytest.approx(
         rough.scenarios.ends.elastic_energy, rel=1e-6
     )
@@ -226,7 +226,7 @@ def test_a_smooth_partner_changes_nothing():
 @pytest.mark.slow
 def test_solids_of_very_different_scale_are_not_judged():
     steep = fix_a_v(Surface(wall(h_rms=1e-3).data.assign(q0=6e8)))
-    dataset = judge([replace(TAPE, surface=steep)], [steep])
+    dataset = judge([TAPE.replace(surface=steep)], [steep])
     assert dataset.not_judged.item() == TOO_DIFFERENT
     assert WORDS[dataset.verdict.item()] == "not judged"
     assert np.isnan(dataset.remaining).all()
@@ -253,9 +253,9 @@ def test_skewed_heights_of_two_solids_add_as_third_cumulants():
     plateau = wall(**shape)
     gaussian = wall()
     alone = combine_roughness(TAPE, plateau).scenarios.ends
-    first = combine_roughness(replace(TAPE, surface=gaussian), plateau).scenarios.ends
-    second = combine_roughness(replace(TAPE, surface=plateau), gaussian).scenarios.ends
-    twice = combine_roughness(replace(TAPE, surface=plateau), plateau).scenarios.ends
+    first = combine_roughness(TAPE.replace(surface=gaussian), plateau).scenarios.ends
+    second = combine_roughness(TAPE.replace(surface=plateau), gaussian).scenarios.ends
+    twice = combine_roughness(TAPE.replace(surface=plateau), plateau).scenarios.ends
     assert alone.shape == pytest.approx(np.full(2, 0.8))
     # The skewness of one of two equal heights counts 1/sqrt(8).
     assert first.shape == pytest.approx(np.full(2, 0.8 / np.sqrt(8)))
@@ -269,7 +269,7 @@ def test_skewed_heights_of_two_solids_add_as_third_cumulants():
 @pytest.mark.parametrize("own", [{"apart": 1.0}, {"draws": 5}])
 def test_draws_of_two_solids_and_layers_keep_the_shape_of_heights(own):
     plateau = wall(draws=8, shape=0.8, shape_error=0.4)
-    both = combine_roughness(replace(TAPE, surface=wall(**own)), plateau)
+    both = combine_roughness(TAPE.replace(surface=wall(**own)), plateau)
     assert both.scenarios.draws.shape == pytest.approx(np.full(8, 0.8 / np.sqrt(8)))
     layer = combine_roughness(put_on_layer(40e-6), plateau)
     assert (layer.scenarios.ends.shape == 0.8).all()

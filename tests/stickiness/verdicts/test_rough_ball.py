@@ -1,7 +1,5 @@
 """Pull-off force of a rough ball: JKR, the energy of full contact, measured heights."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
@@ -14,7 +12,7 @@ from stickiness.verdicts.rough_ball import pull_off_of_ball
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
-TAPE = Material(modulus=2e5, poisson=0.5, work_of_adhesion=0.06, range=3e-10)
+TAPE = Material(youngs_modulus=2e5, work_of_adhesion=0.06, range=3e-10)
 RADIUS = 1e-3
 LARGE = 0.1  #: beside which the distance of the attraction is small: JKR
 
@@ -83,6 +81,6 @@ def test_a_radius_that_is_none_is_named(radius):
 
 
 def test_a_ball_on_a_layer_is_refused():
-    layer = replace(TAPE, solid=Layer(thickness=1e-5, poisson=0.5))
+    layer = TAPE.replace(solid=Layer(thickness=1e-5, poisson=0.5))
     with pytest.raises(ValueError, match="thickness"):
         pull_off_of_ball(Surface.from_spectrum(wall(1e-6)), layer, RADIUS)

@@ -17,7 +17,7 @@ from stickiness.verdicts.scenarios import Scenarios
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
 MATERIAL = Material(
-    modulus=Prony(1e6, ((1e9, 1e-3),)), poisson=0.5, work_of_adhesion=0.07, range=3e-10
+    youngs_modulus_prony=Prony(1e6, ((1e9, 1e-3),)), work_of_adhesion=0.07, range=3e-10
 )
 ROUGH = Roughness(h_rms=1e-6, q0=1e5, elastic_energy=1e-7)
 SAME = np.ones(4000)
@@ -43,7 +43,7 @@ def find_margins(pair):
 def place_above_threshold(factor):
     """The material with a work of adhesion that is this factor above its threshold on `ROUGH`."""
     work = factor * float(ROUGH.threshold(MATERIAL.range)) * MATERIAL.plane_strain_modulus
-    return replace(MATERIAL, work_of_adhesion=work)
+    return MATERIAL.replace(work_of_adhesion=work)
 
 
 def find_adhesion_length(material):
@@ -79,10 +79,10 @@ def test_draws_know_preload_and_fast_separation():
     tension = one.tension(find_adhesion_length(material), material.range)
     assert median == pytest.approx(tension * material.plane_strain_modulus, rel=0.05)
     strength = material.work_of_adhesion / material.range
-    pressed = replace(material, pressed=material.plane_strain_modulus)
+    pressed = material.replace(pressed=material.plane_strain_modulus)
     _, _, most_pressed = find_limits(meet(pressed, draws).pull_off, draws.weights)
     assert most < 0.01 * strength < most_pressed
-    rested = replace(material, dwell=10.0)
+    rested = material.replace(dwell=10.0)
     ratio = rested.instant_ratio
     assert ratio > 100
     # Half of the draws err to the low side, where separation is slow.

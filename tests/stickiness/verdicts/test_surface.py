@@ -21,7 +21,7 @@ from stickiness.verdicts.simulated_surface import stands_alone
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
 BAND = {"hurst": 0.8, "q0": 6e5, "q1": 6e7}
-TAPE = {"modulus": 2e6, "poisson": 0.5, "work_of_adhesion": 0.06, "range": 3e-10}
+TAPE = {"youngs_modulus": 2e6, "work_of_adhesion": 0.06, "range": 3e-10}
 SIDE = 2 * np.pi / 6e5
 
 
@@ -34,9 +34,9 @@ def measured():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Surface.from_drawing(Ra=(3e-7, 1e-8)), "Ra must be a length or"),
-        (lambda: Surface.from_drawing(Ra=(1e-7, 2e-7, 3e-7)), "Ra must be a length or"),
-        (lambda: Surface.from_drawing(Ra=1e-7, Rq=1e-7), "exactly one of Ra and Rq"),
+        (lambda: Surface.from_drawing(Ra=(3e-7, 1e-8)), "Ra must be .low, high., got"),
+        (lambda: Surface.from_drawing(Ra=(1e-7, 2e-7, 3e-7)), "Ra must have at most 2 values"),
+        (lambda: Surface.from_drawing(Ra=1e-7, Rq=1e-7), "exactly one of: Ra; Rq"),
         (
             lambda: Surface.from_spectrum(
                 SelfAffine(**BAND, h_rms=2e-7), SelfAffine(**BAND, h_rms=1e-7)
@@ -49,7 +49,16 @@ def measured():
             ),
             "rough must have the band",
         ),
-        (lambda: Surface.from_heights(np.ones((8, 8)), SIDE, extend_to="1 nm"), "extend_to must"),
+        (
+            lambda: Surface.from_heights(np.ones((8, 8)), SIDE, extend_to="1 kg"),
+            "is in kg",
+        ),
+        (lambda: Surface.from_heights(np.ones((8, 8)), SIDE, channel=1), "channel: the key is unk"),
+        (
+            lambda: Surface.from_heights(np.ones((8, 8)), SIDE, window="box"),
+            "window must be one of",
+        ),
+        (lambda: Surface.from_drawing(Ra="0.4 mm", RSm="60 um"), "is too narrow"),
         (lambda: judge(Material(**TAPE), [wall()]), "materials must be a list or"),
         (lambda: judge([Material(**TAPE)], [SelfAffine(**BAND, h_rms=1e-7)]), "surfaces must be"),
         (lambda: verdict(Material(**TAPE), wall()), "surface must be a Surface"),
@@ -60,6 +69,12 @@ def measured():
 def test_mistakes_are_named(make, message):
     with pytest.raises(ValueError, match=message):
         make()
+
+
+def test_lengths_of_a_drawing_are_texts_or_numbers():
+    texts = Surface.from_drawing(Ra=("0.4 um", "0.8 um"), lambda_c="0.8 mm")
+    numbers = Surface.from_drawing(Ra=(4e-7, 8e-7), lambda_c=8e-4)
+    xr.testing.assert_allclose(texts.data, numbers.data, rtol=1e-12)
 
 
 @pytest.mark.slow
@@ -95,7 +110,7 @@ def test_profiles_of_a_worn_surface_tell_what_remains_on_it():
     state = solve(heights, length, law, pressure=0.0, start="separation", tol=1e-3)
     share = -state.energy / adhesion_length
     material = Material(
-        modulus=1e6, poisson=0.5, work_of_adhesion=adhesion_length * 4e6 / 3, range=law.range
+        youngs_modulus=1e6, work_of_adhesion=adhesion_length * 4e6 / 3, range=law.range
     )
 
     def find_shares(profile, **shape):

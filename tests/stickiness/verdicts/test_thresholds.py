@@ -16,19 +16,19 @@ from stickiness.verdicts.thresholds import find_rate, find_threshold
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
-TAPE = Material(modulus=1e6, poisson=0.5, work_of_adhesion=0.06, range=3e-9)
+TAPE = Material(youngs_modulus=1e6, work_of_adhesion=0.06, range=3e-9)
 LAYER = Layer(30e-6, 0.5)
 ON_FILM = Layer(30e-6, 0.5, Film(3000.0, 0.4, 25e-6))
 SLOW = Prony(1e5, ((2e6, 0.1), (1e8, 1e-3)))
 MATERIALS = {
     "deep": TAPE,
-    "layer": replace(TAPE, solid=LAYER),
-    "slipping": replace(TAPE, solid=replace(LAYER, backing="slip")),
-    "on a film": replace(TAPE, solid=ON_FILM),
-    "compressible": replace(TAPE, poisson=0.3, solid=Layer(10e-6, 0.3), law="van_der_waals"),
-    "aged": replace(TAPE, solid=Skin(0.05e-6, 30.0, 0.35, 0.5)),
-    "rested": replace(TAPE, modulus=Prony(1e6, ((2e6, 400.0),)), dwell=3600.0),
-    "slow": replace(TAPE, modulus=SLOW),
+    "layer": TAPE.replace(solid=LAYER),
+    "slipping": TAPE.replace(solid=replace(LAYER, backing="slip")),
+    "on a film": TAPE.replace(solid=ON_FILM),
+    "compressible": TAPE.replace(poisson_ratio=0.3, solid=Layer(10e-6, 0.3), law="van_der_waals"),
+    "aged": TAPE.replace(solid=Skin(0.05e-6, 30.0, 0.35, 0.5)),
+    "rested": TAPE.replace(youngs_modulus_prony=Prony(1e6, ((2e6, 400.0),)), dwell=3600.0),
+    "slow": TAPE.replace(youngs_modulus_prony=SLOW),
 }
 WANTED = {"slipping": 0.3}  # shares of the work of adhesion
 
@@ -43,7 +43,7 @@ def make_wall(h_rms=1e-6):
 
 def change_modulus(material, modulus):
     """The material with a Young's modulus of the verdict [Pa] and the same film or skin."""
-    as_judged = 1 - material.poisson**2
+    as_judged = 1 - material.poisson_ratio**2
     ratio = modulus / (as_judged * material.plane_strain_modulus)
     solid = material.solid
     if isinstance(solid, Skin):
@@ -52,8 +52,8 @@ def change_modulus(material, modulus):
     if isinstance(film, Film):
         solid = replace(solid, backing=replace(film, modulus_ratio=film.modulus_ratio / ratio))
     if material.depends_on_rate:
-        return replace(material, modulus=material.modulus.scaled(ratio))
-    return replace(material, modulus=modulus, solid=solid)
+        return material.replace(modulus=material.modulus.scaled(ratio))
+    return material.replace(youngs_modulus=modulus, solid=solid)
 
 
 def judge_again(question, value, material, wanted):
@@ -64,9 +64,9 @@ def judge_again(question, value, material, wanted):
     elif question == "modulus":
         material = change_modulus(material, value)
     elif question == "thickness":
-        material = replace(material, solid=replace(material.solid, thickness=value))
+        material = material.replace(solid=replace(material.solid, thickness=value))
     elif question == "rate":
-        material = replace(material, modulus=float(material.modulus.storage(value)))
+        material = material.replace(youngs_modulus=float(material.modulus.storage(value)))
     return verdict(wall, material, wanted_share=wanted)
 
 
@@ -98,14 +98,14 @@ def test_verdict_at_a_threshold_has_the_wanted_share(name):
 
 def test_no_modulus_sticks_below_a_skin_that_takes_too_much_to_bend():
     assert thresholds(make_wall(), TAPE).modulus.value > 1e4
-    glass = replace(TAPE, solid=Skin(5e-6, 1e5, 0.2, 0.5))
+    glass = TAPE.replace(solid=Skin(5e-6, 1e5, 0.2, 0.5))
     assert tuple(thresholds(make_wall(), glass).modulus) == (0, 0, 0)
 
 
 def test_no_thickness_or_rate_sticks_or_every_one_does():
     table = Table((0.1, 10.0), (1e5, 1e7))
     hard, soft = (
-        thresholds(make_wall(), replace(TAPE, modulus=modulus, solid=LAYER))
+        thresholds(make_wall(), TAPE.replace(youngs_modulus=modulus, solid=LAYER))
         for modulus in (1e9, 1e3)
     )
     assert hard.thickness == (np.inf,) * 3
@@ -113,7 +113,7 @@ def test_no_thickness_or_rate_sticks_or_every_one_does():
     assert soft.thickness.value == soft.thickness.low == 0
     layer = replace(LAYER, thickness=soft.thickness.high)
     assert layer.strain(1e-6, 1.2e5) == pytest.approx(0.3, rel=1e-3)
-    between = thresholds(make_wall(), replace(TAPE, modulus=table, solid=LAYER))
+    between = thresholds(make_wall(), TAPE.replace(youngs_modulus_table=table, solid=LAYER))
     assert table.storage(between.rate.value) == pytest.approx(between.modulus.value, rel=1e-4)
     assert find_rate(table, Limited(value=9e4, low=0.0, high=2e7)) == (0.0, 0.0, np.inf)
     # Within noise a modulus may fall, and be equal to another one several times.
@@ -182,7 +182,7 @@ def test_pressure_of_an_area_of_contact():
     small = thresholds(make_wall(), TAPE, contact_area=0.005).pressure.value
     expected = 0.005 * np.sqrt(np.pi * 5 / 72) * make_spectrum().rms_slope
     assert small / TAPE.plane_strain_modulus == pytest.approx(expected, rel=1e-3)
-    layer = replace(TAPE, solid=Layer(2e-6, 0.5))
+    layer = TAPE.replace(solid=Layer(2e-6, 0.5))
     thin = thresholds(make_wall(), layer, contact_area=area).pressure
     assert thin.low / thin.value < 0.6 < pressure.low / pressure.value
     with pytest.raises(ValueError, match="contact_area must be in 0.005 to 0.35, got 5"):
