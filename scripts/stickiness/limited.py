@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Generic, NamedTuple, TypeVar
 
-from numpy.typing import ArrayLike
+Number = TypeVar("Number")  #: float, or an array
 
 
-class Limited(NamedTuple):
+class Limited(NamedTuple, Generic[Number]):
     """A number, or an array of numbers, with the limits of all that is unknown; they cover 90 %.
 
     0 or infinity in a limit of a threshold means that no value sticks, or every one.
     """
 
-    value: ArrayLike
-    low: ArrayLike
-    high: ArrayLike
+    value: Number
+    low: Number
+    high: Number

@@ -45,7 +45,7 @@ def _registry() -> pint.UnitRegistry:
 
 
 @cache  # a configuration is read more than once: for its checks and for its values
-def _parsed(value: str) -> pint.Quantity | float:
+def _parsed(value: str) -> pint.Quantity:
     return _registry().Quantity(value)
 
 

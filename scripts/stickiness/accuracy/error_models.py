@@ -92,7 +92,7 @@ class ErrorModel:
     pixels: float = 0.0
     tolerance: float = 0.0
     spread: float = 1.0
-    points: int = 0
+    points: float = 0
 
     def __call__(
         self, surface: Surface, pressure: float = 1.0, pixels: float = 1.0, tolerance: float = 1.0

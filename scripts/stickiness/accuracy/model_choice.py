@@ -141,8 +141,8 @@ def choose(entry: Mapping[str, Any], surface: Mapping[str, Any], table: ErrorTab
                 entry["law"],
                 kind.hurst,
                 kind.magnification,
-                pressures[i],
-                ranges[k],
+                float(pressures[i]),
+                float(ranges[k]),
                 strength,
             )
     good = jtb & (error <= (entry["accuracy"] or 0.0))

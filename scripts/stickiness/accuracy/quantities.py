@@ -45,7 +45,8 @@ def slope_within_contact(heights: NDArray, length: float) -> Callable[[NDArray],
     waves = np.fft.rfft2(heights)
     kx = 2 * np.pi / length * np.fft.fftfreq(n, 1 / n)[:, None]
     ky = 2 * np.pi / length * np.fft.rfftfreq(n, 1 / n)[None, :]
-    square = sum(np.fft.irfft2(1j * k * waves, s=heights.shape) ** 2 for k in (kx, ky))
+    squares = [np.fft.irfft2(1j * k * waves, s=heights.shape) ** 2 for k in (kx, ky)]
+    square = np.sum(squares, axis=0)
 
     def measure(gap: NDArray) -> float:
         touching = gap == 0

@@ -243,7 +243,8 @@ def cheapest(
         is_cheap = costs <= SAME_COST * lowest
         if not is_cheap.any():
             continue
-        grid = Settings(pixels, tolerance, fine_numbers[is_cheap], coarse_numbers[is_cheap])
+        cheap_fine, cheap_coarse = fine_numbers[is_cheap], coarse_numbers[is_cheap]
+        grid = Settings(pixels, tolerance, cheap_fine, cheap_coarse)
         errors = joint_error(
             [
                 predicted_error(problem, grid, pressure, column)
@@ -251,7 +252,7 @@ def cheapest(
             ]
         )
         for k in np.flatnonzero(errors <= accuracy):
-            settings = Settings(pixels, tolerance, int(grid.seeds[k]), int(grid.coarse_seeds[k]))
+            settings = Settings(pixels, tolerance, int(cheap_fine[k]), int(cheap_coarse[k]))
             cost = float(costs[is_cheap][k])
             candidates.append(_Candidate(float(errors[k]), cost, settings))
             lowest = min(lowest, cost)

@@ -11,7 +11,7 @@ passes over points one by one, each with a small jump (a Maugis zone always does
 """
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -50,7 +50,7 @@ def path(
     heights: ArrayLike,
     length: float | tuple[float, float],
     law: TractionLaw,
-    values: Iterable[float],
+    values: ArrayLike,
     control: Literal["pressure", "mean_gap"] = "pressure",
     start: str | Adhesion | Contact | ArrayLike | None = None,
     tol: float = 1e-8,
@@ -107,9 +107,9 @@ def path(
     controls = numbers("values", values)
     if controls.ndim != 1 or controls.size < 2 or not np.all(np.isfinite(controls)):
         raise ValueError(f"values must be at least two finite numbers, got {values!r}")
-    values = controls.tolist()
-    if not np.all(np.diff(values)):
-        raise ValueError(f"values must differ from one to the next, got {values!r}")
+    targets = controls.tolist()
+    if not np.all(np.diff(controls)):
+        raise ValueError(f"values must differ from one to the next, got {targets!r}")
     if control not in ("pressure", "mean_gap"):
         raise ValueError(f"control must be 'pressure' or 'mean_gap', got {control!r}")
     sizes = {"balance": balance, "smallest_jump": smallest_jump, "located": located, "steps": steps}
@@ -119,8 +119,8 @@ def path(
         heights,
         length,
         law,
-        pressure=values[0] if control == "pressure" else None,
-        mean_gap=values[0] if control == "mean_gap" else None,
+        pressure=targets[0] if control == "pressure" else None,
+        mean_gap=targets[0] if control == "mean_gap" else None,
         start=start,
         tol=tol,
         max_iterations=max_iterations,
@@ -132,7 +132,7 @@ def path(
         scaled=solver.Scaled.of(grid("heights", heights), last.length, law, solid),
         control=control,
         effort=solver.Effort(tol, max_iterations),
-        span=float(np.ptp(values)),
+        span=float(np.ptp(controls)),
         left=max_states - 1,
         scale=_LEAST_SCALE * law.adhesion_length,
         balance=balance,
@@ -141,7 +141,7 @@ def path(
         steps=steps,
         balanced_below=balanced_below,
     )
-    for target in values[1:]:
+    for target in targets[1:]:
         for point in follower.leg(last, target):
             yield point
             if point.event == "pull-off":

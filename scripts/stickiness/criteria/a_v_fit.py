@@ -73,7 +73,7 @@ def fit_a_v(
     ----------
     Violano et al., J. Adhesion (2019), doi:10.1080/00218464.2019.1685384.
     """
-    eps, pressure, h_rms, q0 = positive(eps=eps, pressure=pressure, h_rms=h_rms, q0=q0)
+    eps, pressure, height, q = positive(eps=eps, pressure=pressure, h_rms=h_rms, q0=q0)
     area = np.asarray(area, dtype=float)
     if eps.ndim != 1 or area.shape != eps.shape or not np.all(np.isfinite(area)):
         raise ValueError(
@@ -85,14 +85,14 @@ def fit_a_v(
     if not 0 <= low < high:
         raise ValueError(f"window must be two increasing limits of eps/h_rms, got {window!r}")
 
-    ratio = eps / h_rms
+    ratio = eps / height
     # A limit that went through unit conversion must still include itself.
     inside = (ratio >= low * (1 - 1e-12)) & (ratio <= high * (1 + 1e-12))
     n = int(np.count_nonzero(inside))
     if n < 2:
         raise ValueError(f"window {window!r} must hold at least two of eps/h_rms, holds {n}")
     # The law is y = a_V x: least squares through the origin.
-    x = (1.5 * pressure / (q0 * h_rms) * ratio ** (2 / 3))[inside]
+    x = (1.5 * pressure / (q * height) * ratio ** (2 / 3))[inside]
     y = area[inside]
     value = np.linalg.lstsq(x[:, None], y)[0][0]
     variance = np.sum((y - value * x) ** 2) / (n - 1) * (1 / np.sum(x**2))

@@ -80,7 +80,7 @@ class SurfaceAv:
     theory: NDArray
     relative_error: float  #: of theory against simulation; widens the limits
 
-    def at(self, range_over_h_rms: ArrayLike) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
+    def at(self, range_over_h_rms: ArrayLike) -> tuple[float | NDArray, ...]:
         """Value, low and high limit at ranges over h_rms, interpolated in logarithms."""
         log_range = np.log(range_over_h_rms)
         log_ranges = np.log(self.ranges)
@@ -166,7 +166,8 @@ class AvTable:
     def __init__(self, table: xr.Dataset):
         #: ends of hurst, magnification, pressure and range (over h_rms) in the table
         self.bounds = {name: (float(table[name].min()), float(table[name].max())) for name in _AXES}
-        self._theory = {name: _interpolate(np.log(table[name]), "cubic") for name in _CUBIC}
+        logarithms = table[list(_CUBIC)].map(np.log)
+        self._theory = {name: _interpolate(logarithms[name], "cubic") for name in _CUBIC}
         self._theory |= {name: _interpolate(table[name]) for name in _LINEAR}
         self._ratio = _hold(np.log(table.simulation_ratio))
         self._ratio_error = _hold(table.simulation_error)

@@ -68,36 +68,36 @@ class Pair:
     """
 
     rough: Roughness  #: that the material meets on the surface
-    modulus: ArrayLike  #: plane-strain modulus E* [Pa]
-    work_of_adhesion: ArrayLike  #: [J/m^2]
-    range: ArrayLike  #: of the attraction [m]
+    modulus: float | NDArray  #: plane-strain modulus E* [Pa]
+    work_of_adhesion: float | NDArray  #: [J/m^2]
+    range: float | NDArray  #: of the attraction [m]
     #: Error of the model of what remains, in units of its limits: -1 and 1 at the low and high one
-    deviation: ArrayLike = 0.0
-    rms_curvature: ArrayLike = np.nan  #: rms Laplacian [1/m]
-    a_v: ArrayLike = np.nan  #: at this range on this surface
-    pressed: ArrayLike = 0.0  #: mean pressure before separation [Pa]
-    constant_a_v: ArrayLike = BROAD_A_V  #: the same for every pair
+    deviation: float | NDArray = 0.0
+    rms_curvature: float | NDArray = np.nan  #: rms Laplacian [1/m]
+    a_v: float | NDArray = np.nan  #: at this range on this surface
+    pressed: float | NDArray = 0.0  #: mean pressure before separation [Pa]
+    constant_a_v: float | NDArray = BROAD_A_V  #: the same for every pair
     wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, that must remain to stick
     #: Strain that conforming demands of a layer: beyond `MOST_STRAIN` low limits are 0
-    layer_strain: ArrayLike = 0.0
+    layer_strain: float | NDArray = 0.0
 
     @property
-    def h_rms(self) -> ArrayLike:
+    def h_rms(self) -> float | NDArray:
         """Rms height [m]."""
         return self.rough.h_rms
 
     @property
-    def q0(self) -> ArrayLike:
+    def q0(self) -> float | NDArray:
         """Wave number of the longest waves that matter [1/m]."""
         return self.rough.q0
 
     @property
-    def rms_slope(self) -> ArrayLike:
+    def rms_slope(self) -> float | NDArray:
         """Rms gradient [1]."""
         return self.rough.rms_slope
 
     @property
-    def elastic_energy(self) -> ArrayLike:
+    def elastic_energy(self) -> float | NDArray:
         """Elastic energy of full contact per nominal area over E* [m]."""
         return self.rough.elastic_energy
 
@@ -120,12 +120,12 @@ class Pair:
         }
         return replace(self, rough=self.rough.take(rows), **taken)
 
-    def scaled(self, factor: ArrayLike) -> Self:
+    def scaled(self, factor: float | NDArray) -> Self:
         """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
         rough = self.rough.scaled(factor)
         return replace(self, rough=rough, layer_strain=self.layer_strain * factor)
 
-    def at_modulus(self, modulus: ArrayLike) -> Self:
+    def at_modulus(self, modulus: float | NDArray) -> Self:
         """Return the same with another E* [Pa]: films and skins keep their stiffness."""
         rough = self.rough.at_modulus(modulus / self.modulus)
         return replace(self, rough=rough, modulus=modulus)

@@ -45,7 +45,7 @@ class Criterion:
             return self.length(pair)
         return pair.adhesion_length * self.margin(pair) ** (-1 / self.power)
 
-    def modulus_threshold(self, pair: Pair) -> NDArray:
+    def modulus_threshold(self, pair: Pair) -> float | NDArray:
         """Plane-strain modulus [Pa] below which the pair sticks."""
         if self.modulus is not None:
             return np.full_like(pair.work_of_adhesion, self.modulus, dtype=float)

@@ -72,7 +72,9 @@ def _written(value: float) -> str:
     return np.format_float_scientific(value) if "e" in text and "." not in text else text
 
 
-def doubt_sizes(heights: NDArray, steps: Sequence[float], are_whole: bool = False) -> Iterator[str]:
+def doubt_sizes(
+    heights: NDArray, steps: Sequence[float] | NDArray, are_whole: bool = False
+) -> Iterator[str]:
     """Doubts about heights [m] on a grid of steps [m]: sides, rms and range of heights, slope.
 
     `are_whole` says that the numbers of which the heights were made are whole.
@@ -117,7 +119,10 @@ def doubt_sizes(heights: NDArray, steps: Sequence[float], are_whole: bool = Fals
 
 
 def doubt_pixels(
-    source: str, shape: Sequence[int], steps: Sequence[float], in_file: float | None = None
+    source: str,
+    shape: Sequence[int],
+    steps: Sequence[float] | NDArray,
+    in_file: float | None = None,
 ) -> Iterator[str]:
     """Doubt about pixels [m] that are not square, unless the file has the same ratio of steps."""
     ratio = steps[0] / steps[1]

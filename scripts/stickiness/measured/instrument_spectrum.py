@@ -123,8 +123,8 @@ def analyse(
     values = numbers("heights", heights.heights)
     if values.size and np.ptp(values) <= 1e-13 * np.max(np.abs(values)):  # equal to rounding
         raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
-    is_map = isinstance(heights, Topography)
-    if is_map:
+    modes: psd.Modes
+    if isinstance(heights, Topography):
         modes = psd.power_spectrum(values, heights.dx, heights.dy, taper=taper)
         line = radial_average(modes, FINE)
         narrow = line
@@ -154,7 +154,7 @@ def analyse(
     enough = demand and alone
 
     def fit_to(q_max: float) -> tuple[RadialPSD, SelfAffineFit]:
-        if is_map:
+        if isinstance(heights, Topography):
             return narrow, fit_rings(narrow, q_min, q_max, demand=enough)
         return _fit_profile(line, q_min, q_max, NYQUIST_SHARE * nyquist, enough)
 
@@ -164,7 +164,7 @@ def analyse(
         cutoff = Cutoff(fit.q_rolloff, reason, detected=True)
         rings, fit = fit_to(cutoff.q)
     narrow = rings
-    if is_map:
+    if isinstance(modes, psd.PowerSpectrum):
         rings = radial_average(modes, RINGS)
         area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
         anisotropy, _ = modes.anisotropy(fit.q_min, fit.q_max)

@@ -81,7 +81,7 @@ def _steps_between_sides(heights: NDArray) -> NDArray:
 
 
 def band_limited(
-    heights: ArrayLike, sides: tuple[float, float], q_max: float, pixels: int
+    heights: ArrayLike, sides: tuple[float, float], q_max: float, pixels: float
 ) -> NDArray:
     """Periodic heights without waves beyond `q_max`, on a grid that resolves the others.
 
@@ -93,7 +93,7 @@ def band_limited(
         Sides of the period along x and y [length].
     q_max : float
         Highest wave number that is kept [1/length].
-    pixels : int
+    pixels : float
         Grid points per shortest wavelength, at least.
 
     Returns

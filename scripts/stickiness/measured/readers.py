@@ -193,8 +193,8 @@ def _read_netcdf(path: Path, variable: str | None) -> Raw:
             data = data.transpose()
     places = None
     place_unit = None
-    coordinates = [dataset.get(dim) for dim in data.dims]
-    if all(c is not None and "units" in c.attrs for c in coordinates):
+    coordinates = [dataset[dim] for dim in data.dims]
+    if all("units" in c.attrs for c in coordinates):
         if data.ndim == 1:
             places = coordinates[0].values.astype(float)
             place_unit = coordinates[0].units
@@ -302,9 +302,10 @@ def _read_text(path: Path) -> Raw:
         places = heights[0] if columns == 2 else None
         heights = heights[-1]
     elif "width" in fields:
-        size = [fields[name] for name in ("width", "height") if name in fields]
-        size = size if len(size) == 2 else size[0]  # without a height the pixels are square
-        size = sides(size, heights.shape, "Width, Height in the header")
+        told = [fields[name] for name in ("width", "height") if name in fields]
+        # Without a height the pixels are square.
+        of_axes = told if len(told) == 2 else told[0]
+        size = sides(of_axes, heights.shape, "Width, Height in the header")
         places = np.divide(size, heights.shape)
         place_unit = "m"
     _check_counts(header, shapes)

@@ -380,7 +380,7 @@ def draw(
         moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
 
     # Waves that are not resolved, up to ends that are spread over the orders of magnitude.
-    furthest: ArrayLike = cutoff
+    furthest: float | NDArray = cutoff
     if extend_to is None and continue_to is not None:
         of_slope = continuation.find_end(steepest**2 - resolved[2])
         furthest = np.clip(of_slope, cutoff, max(continue_to, cutoff))

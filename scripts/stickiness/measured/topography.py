@@ -7,7 +7,7 @@ run along y; such a matrix is transposed on reading.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
 from typing import Self
 
@@ -24,10 +24,13 @@ from stickiness.measured.readers import Length, Raw, metres, sides
 Size = Length | Sequence[Length] | None
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True)
 class _Heights:
     """What maps and profiles have in common."""
 
+    heights: NDArray
+    dx: float
+    _: KW_ONLY
     missing: int = 0  #: number of points that were missing and have been interpolated
     cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
     dropped: int = 0  #: number of points that were measured beside missing ones and not used
@@ -53,7 +56,7 @@ class _Heights:
     @property
     def steps(self) -> tuple[float, ...]:
         """Grid steps along every axis [m]."""
-        return (self.dx, self.dy) if self.heights.ndim == 2 else (self.dx,)
+        return (self.dx,)
 
     @property
     def size(self) -> tuple[float, ...]:
@@ -75,7 +78,7 @@ class _Heights:
 
     def h_rms_as_read(self) -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
-        if not (self.dropped or self.spikes):
+        if self.as_read is None or not (self.dropped or self.spikes):
             return self.h_rms
         return levelling.rms_of_known(self.as_read, self.trend)
 
@@ -90,8 +93,9 @@ class _Heights:
             kind = "plane" if share is None else "quadratic"
             if share is not None:
                 curvature = max(map(abs, levelling.find_curvatures(self.heights, self.steps)))
+                source = self.source  # type: ignore[attr-defined]  # comes after dy in Topography
                 remarks += (
-                    f"{self.source}: a curved form (radius {1 / curvature:.3g} m), which is "
+                    f"{source}: a curved form (radius {1 / curvature:.3g} m), which is "
                     f"{100 * share:.3g} % of the variance of the heights, was subtracted; to keep "
                     "it, give detrend: plane",
                 )
@@ -107,6 +111,17 @@ class Topography(_Heights):
     dx: float  #: grid steps along x and y [m]
     dy: float
     source: str  #: file (and variable or channel) of the heights, for messages
+
+    @property
+    def steps(self) -> tuple[float, float]:
+        """Grid steps along x and y [m]."""
+        return self.dx, self.dy
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Sides along x and y [m]."""
+        nx, ny = self.heights.shape
+        return nx * self.dx, ny * self.dy
 
 
 @dataclass(frozen=True)
@@ -304,12 +319,13 @@ def from_array(
     positions = None
     if heights.ndim == 1:
         heights, positions = _sort_profile(heights, steps, source)
+        spacing = np.diff(positions)
     else:
-        steps = np.broadcast_to(positive(steps=steps)[0], 2)
+        spacing = np.broadcast_to(positive(steps=steps)[0], 2)
 
     remarks: tuple[str, ...] = ()
     if heights.ndim == 2 and np.isfinite(heights).any():
-        heights, steps, remarks = _keep_one_copy(heights, steps, source)
+        heights, spacing, remarks = _keep_one_copy(heights, spacing, source)
 
     # Spikes and points beside missing ones are taken for missing.
     usable, dropped = levelling.without_rims(heights, missing_rim)
@@ -340,12 +356,12 @@ def from_array(
             raise ValueError(f"{source}: a line profile needs two points at least")
         largest_gap = float(np.diff(positions).max())
         filled, step = _resample(filled, positions)
-        steps = (step,)
+        spacing = np.array([step])
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
     known = usable[np.isfinite(usable)]
-    doubts += doubt_sizes(filled, steps, are_whole=bool(np.all(known == np.rint(known))))
+    doubts += doubt_sizes(filled, spacing, are_whole=bool(np.all(known == np.rint(known))))
     record = {
         "missing": filled_count,
         "cropped": 1 - usable.size / heights.size,
@@ -357,8 +373,8 @@ def from_array(
         "remarks": remarks,
     }
     if positions is not None:
-        return Profile(filled, steps[0], source, largest_gap, **record)
-    return Topography(filled, float(steps[0]), float(steps[1]), source, **record)
+        return Profile(filled, float(spacing[0]), source, largest_gap, **record)
+    return Topography(filled, float(spacing[0]), float(spacing[1]), source, **record)
 
 
 def _keep_one_copy(
@@ -388,7 +404,7 @@ def _keep_one_copy(
     return heights, steps, tuple(remarks)
 
 
-def _check_options(missing: Missing, max_missing: float, missing_rim: Rim, spikes: Spikes) -> None:
+def _check_options(missing: str, max_missing: float, missing_rim: object, spikes: str) -> None:
     """Check how missing points and spikes are to be treated."""
     if not 0 <= max_missing < 1:
         raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
@@ -430,6 +446,7 @@ def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape = raw.heights.shape
     if length is None and pixel_size is None:
+        assert raw.places is not None  # `_ask_for_units` has seen to it
         if not np.all(np.isfinite(raw.places)):
             raise ValueError(f"{raw.source}: a position of the profile is missing")
         return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
@@ -446,7 +463,7 @@ def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
 
 def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
     """Name all keys at once that the file leaves open."""
-    unknown = {}
+    unknown: dict[str, tuple[str, ...]] = {}
     if size is None and raw.places is None:
         unknown["its size"] = ("length", "pixel_size")
     elif size is None and raw.place_unit is None and position_unit is None:

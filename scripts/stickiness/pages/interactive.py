@@ -1,5 +1,7 @@
 """Interactive figures in a page of one file that needs no network: Bokeh, written into the page."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from bokeh import models
@@ -36,9 +38,15 @@ TOLD_OF_PAIR = [
 POINTS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "x")
 LEGEND_ROW = 17  # px
 # One column below the figure: long names fit a phone.
-LEGEND = {"location": "left", "label_text_font_size": "12px", "border_line_color": None}
-LEGEND |= {"glyph_height": LEGEND_ROW - 2, "label_height": LEGEND_ROW - 2}
-LEGEND |= {"spacing": 2, "padding": 2}
+LEGEND: dict[str, Any] = {
+    "location": "left",
+    "label_text_font_size": "12px",
+    "border_line_color": None,
+    "glyph_height": LEGEND_ROW - 2,
+    "label_height": LEGEND_ROW - 2,
+    "spacing": 2,
+    "padding": 2,
+}
 FIRST_LOAD = 4  # that the slider shows at first
 SHOW_LOAD = """
 const k = slider.value;

@@ -6,6 +6,7 @@ import base64
 import os
 import re
 import struct
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote, unquote
@@ -51,6 +52,11 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     def href(target: str | Path) -> str:
         return quote(Path(os.path.relpath(target, Path(page).parent)).as_posix())
 
+    def limited(numbers: Iterable[float], unit: str) -> str:
+        value, low, high = map(float, numbers)
+        write = formatting.in_unit(unit) if unit else formatting.in_units_of(1.0)
+        return formatting.limited(value, low, high, write)
+
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader([folder, TEMPLATES]),
         autoescape=lambda name: ".html" in (name or ""),
@@ -62,10 +68,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     )
     environment.filters |= {name: getattr(formatting, name) for name in FORMATS} | {
         "fixed": lambda value, digits=2: f"{float(value):.{digits}f}",
-        "limited": lambda numbers, unit: formatting.limited(
-            *map(float, numbers),
-            formatting.in_unit(unit) if unit else formatting.in_units_of(1.0),
-        ),
+        "limited": limited,
         "typeset": typeset,
         "parameters": datasets.parameters,
         "capital": lambda text: text[0].upper() + text[1:],
@@ -73,7 +76,7 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
         "href": href,
         "place": lambda target: re.sub(r"^(\.\./)+", "", unquote(href(target))),
     }
-    environment.tests["finite"] = np.isfinite
+    environment.tests["finite"] = lambda value: np.isfinite(value)
     environment.globals["np"] = np
     # Codes of verdicts that sentences differ by.
     environment.globals |= {"TOUCHES": TOUCHES, "DEPENDS": DEPENDS}

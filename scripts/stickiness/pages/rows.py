@@ -64,7 +64,7 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
         row["sort"] = dict.fromkeys((*COLUMNS, "verdict"), -1.0)
         return row
     if abs(pair.stiffening - 1).max() >= LEAST_EFFECT:
-        row["stiffening"] = interval(*pair.stiffening.values, 2)
+        row["stiffening"] = _tell_ends(pair.stiffening)
     row |= {
         "remaining": wording.tell_remaining(pair),
         "change": wording.tell_change(pair),
@@ -100,9 +100,9 @@ def describe_cells(pair: xr.Dataset) -> dict[str, tuple[str, Any]]:
         "remaining": (wording.tell_share(*read_limited(pair.remaining)), by_value["remaining"]),
         "pull_off": (wording.tell_pull_off(pair), by_value["pull_off"]),
         "threshold": (wording.tell_threshold(pair), by_value["modulus_threshold"]),
-        "energy_ratio": (interval(*pair.energy_ratio.values, 2), pair.energy_ratio.mean()),
+        "energy_ratio": (_tell_ends(pair.energy_ratio), pair.energy_ratio.mean()),
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
-        "onset": (interval(*onset.values, 2), onset.mean()),
+        "onset": (_tell_ends(onset), onset.mean()),
         "probability": (probability, pair.probability),
         "errors": (errors, np.hypot(pair.error_of_spectrum, pair.error_of_model)),
         "modulus": (wording.tell_modulus(pair), pair.modulus_given),
@@ -148,7 +148,7 @@ def explain(pair: xr.Dataset) -> list[dict[str, Any]]:
                 "criterion": name,
                 "name": CRITERIA[name].label,
                 "answer": answers[int(says.any()) + int(says.all())],
-                "margins": interval(*pair.margin_by_criterion.sel(criterion=name).values, 2),
+                "margins": _tell_ends(pair.margin_by_criterion.sel(criterion=name)),
                 "disagrees": bool((says != sticky.sel(criterion=REMAINING)).any()),
                 "facts": facts,
             }
@@ -161,13 +161,14 @@ def gather_facts(pair: xr.Dataset) -> dict[str, str]:
     rough = pair.sel(end="rough")
     curvature = float(rough.pair_rms_curvature)
     work = float(pair.work_of_adhesion)
+    h_rms = pair.pair_h_rms.values
     intervals = ("attractive_over_contact", "edge_strength", "over_dmt")
     beyond = float(pair.extrapolation.max())
     by_theory = int(pair.decided_by) in (BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY)
-    return {name: interval(*pair[name].values, 2) for name in intervals} | {
+    return {name: _tell_ends(pair[name]) for name in intervals} | {
         "remaining": wording.tell_remaining(pair),
         "regime": " to ".join(dict.fromkeys(REGIMES[int(code)] for code in pair.regime)),
-        "h_rms": quantity(*pair.pair_h_rms.values, "m"),
+        "h_rms": quantity(h_rms[0], h_rms[-1], "m"),
         "q0": number(rough.pair_q0),
         "a_v": number(read_limited(pair.pair_a_v).value, 2),
         "constant_a_v": number(BROAD_A_V, 2),
@@ -191,11 +192,17 @@ def describe_surface(surface: xr.Dataset) -> dict[str, str]:
         height_text = quantity_with_error(height.mean(), height_error, "m")
         slope_text = with_error(slope.mean(), COVERS * np.ptp(slope) / 2)
     else:
-        height_text = quantity(*height, "m")
+        height_text = quantity(height[0], height[-1], "m")
         slope_text = interval(*slope)
     if "C0_reference" in surface:
         line = with_error(surface.C0_reference, surface.C0_reference_total_error)
     else:  # the highest line with H = 0.8 that the spectrum touches
         bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
-        line = bound + interval(*surface.C0_reference_upper.values, 2)
+        line = bound + _tell_ends(surface.C0_reference_upper)
     return {"height": height_text, "slope": slope_text, "line": line}
+
+
+def _tell_ends(numbers: xr.DataArray) -> str:
+    """Interval of a number between both ends of the surface."""
+    smooth, rough = numbers.values
+    return interval(smooth, rough, 2)

@@ -71,9 +71,15 @@ def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
         ax.plot(heights.x * per_x, heights * per_h, color=COLOURS[0], linewidth=0.7)
         ax.set_ylabel(f"height [{unit_h}]")
         return
-    extent = [0, float(heights.x[-1]) * per_x, 0, float(heights.y[-1]) * per_x]
-    look = {"origin": "lower", "extent": extent, "cmap": "cividis", "interpolation": "nearest"}
-    image = ax.imshow(heights.values.T * per_h, vmin=low * per_h, vmax=high * per_h, **look)
+    image = ax.imshow(
+        heights.values.T * per_h,
+        cmap="cividis",
+        vmin=low * per_h,
+        vmax=high * per_h,
+        origin="lower",
+        extent=(0, float(heights.x[-1]) * per_x, 0, float(heights.y[-1]) * per_x),
+        interpolation="nearest",
+    )
     ax.figure.colorbar(image, ax=ax, label=f"height [{unit_h}]", shrink=0.8)
     ax.set_ylabel(f"y [{unit_x}]")
 
@@ -101,9 +107,10 @@ def draw_measured(ax: Axes, surface: xr.Dataset, q: np.ndarray) -> None:
     if "psd_measurement" in surface:  # those behind a stitched spectrum
         names = plotting.name_measurements(surface)
         for index, levels in enumerate(surface.psd_measurement.values):
-            look = {"color": COLOURS[1 + index % (len(COLOURS) - 1)], "linewidth": 0.8}
+            colour = COLOURS[1 + index % (len(COLOURS) - 1)]
             text = names[index] if surface.is_used[index] else f"{names[index]}, not used"
-            ax.plot(surface.wave_number_measured, levels, **look, label=text)
+            q_measured = surface.wave_number_measured
+            ax.plot(q_measured, levels, color=colour, linewidth=0.8, label=text)
     plotting.draw_spectrum(ax, surface, COLOURS[0], "measured")
     fit = surface.psd_fit.where((surface.fitted == 1) | beyond)
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
@@ -111,8 +118,8 @@ def draw_measured(ax: Axes, surface: xr.Dataset, q: np.ndarray) -> None:
     ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)
     # The instrument's cutoff and, if found, the end of the plateau.
     text = "cutoff (found)" if int(surface.cutoff_detected) else "cutoff"
-    look = {"color": COLOURS[1], "linewidth": 0.9, "linestyle": ":"}
-    ax.axvline(float(surface.q_cutoff), **look, label=text)
+    cutoff = float(surface.q_cutoff)
+    ax.axvline(cutoff, color=COLOURS[1], linewidth=0.9, linestyle=":", label=text)
     if "q_rolloff" in surface:
         corner = float(surface.q_rolloff)
         error = float(surface.q_rolloff_total_error)
@@ -225,7 +232,7 @@ def draw_curve(ax: Axes, curve: Curve) -> None:
     marker = MARKERS[curve.place % len(MARKERS)]
     points = curve.points
     plotting.draw_band(ax, points.x, points.low, points.high, colour, alpha=0.15)
-    look = {"color": colour, "linestyle": DASHES[curve.place % SHOWN]}
-    ax.plot(points.x, points.value, **look)
+    dashes = DASHES[curve.place % SHOWN]
+    ax.plot(points.x, points.value, color=colour, linestyle=dashes)
     ax.plot(curve.own.x, curve.own.value, marker, color=colour)
-    ax.plot([], [], **look, marker=marker, label=curve.label)
+    ax.plot([], [], color=colour, linestyle=dashes, marker=marker, label=curve.label)

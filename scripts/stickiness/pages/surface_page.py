@@ -59,10 +59,10 @@ def write_surface_page(
     at_first = own or names[: surface_figures.SHOWN]
     rows = [describe_verdict(pairs.sel(material=name)) | {"mine": name in own} for name in names]
     followed = surface_figures.find_curves(pairs, names, at_first)
-    curves = followed and {
-        "interactive": interactive.embed(interactive.draw_curves(followed)),
-        "still": draw_png(surface_figures.draw_still, followed),
-    }
+    curves: dict[str, Any] = {}
+    if followed:
+        curves["interactive"] = interactive.embed(interactive.draw_curves(followed))
+        curves["still"] = draw_png(surface_figures.draw_still, followed)
     reading = None
     if "heights_as_read" in surface:
         reading = draw_png(surface_figures.draw_reading, surface)

@@ -18,7 +18,7 @@ from importlib import resources
 from stickiness.limited import Limited
 
 
-def find_spread(kind: str, quantity: str) -> Limited:
+def find_spread(kind: str, quantity: str) -> Limited[float]:
     """Spread of simulations about predictions: where the middle of them lies, and 90 %.
 
     Parameters
@@ -42,7 +42,7 @@ def find_spread(kind: str, quantity: str) -> Limited:
 
 
 @cache
-def _read_spreads() -> dict[tuple[str, str], Limited]:
+def _read_spreads() -> dict[tuple[str, str], Limited[float]]:
     """Rows of the table by kind and quantity."""
     with (resources.files("stickiness.remaining") / "calibration.csv").open(
         encoding="utf-8"

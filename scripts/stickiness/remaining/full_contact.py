@@ -51,12 +51,12 @@ def full_contact_energy(
     """
     modulus = number("modulus", modulus)
     solid = check_solid(solid)
-    if (length is None) != isinstance(surface, Spectrum):
+    if isinstance(surface, Spectrum) and length is None:
+        return modulus * surface.elastic_energy(solid)
+    if isinstance(surface, Spectrum) or length is None:
         raise ValueError(
             f"length is of heights, which need it; a spectrum has none, got {length!r}"
         )
-    if isinstance(surface, Spectrum):
-        return modulus * surface.elastic_energy(solid)
     heights = grid("surface", surface)
     dx, dy = np.divide(check_length(length, heights.shape), heights.shape)
     if edges != "given":

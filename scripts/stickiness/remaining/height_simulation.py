@@ -34,7 +34,7 @@ from stickiness.repulsive import solver as repulsive
 from stickiness.repulsive.half_space import half_space, measure_slope
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import HALF_SPACE, Solid
-from stickiness.traction_laws import Exponential
+from stickiness.traction_laws import Exponential, TractionLaw
 
 #: Works of adhesion over the elastic energy of full contact, falling. They are simulated until
 #: hardly anything of them remains: broad tops hold with very little adhesion.
@@ -192,8 +192,8 @@ def find_trial_states(
     if not is_stiffer:
         return trial_states
     # Where a state was not followed to its end, that for another work of adhesion may be deeper.
-    deepest = trial_states.share(lengths, ranges)
-    return replace(trial_states, simulated_share=np.maximum(shares, deepest))
+    of_deepest = trial_states.share(lengths, ranges)
+    return replace(trial_states, simulated_share=np.maximum(shares, of_deepest))
 
 
 def _shorten_range(
@@ -239,7 +239,7 @@ def _pull_off(
     # may withstand a tension that tore them apart before.
     step = FIRST_STEP
     while step > LAST_STEP:
-        further = pull(tension * step, withstood)
+        further = pull(tension * step, withstood or state)
         if further is None:
             step = np.sqrt(step)
         else:
@@ -287,7 +287,7 @@ def _press(
 def _adhere(
     heights: NDArray,
     sides: tuple[float, float],
-    law: Exponential,
+    law: TractionLaw,
     solid: Solid,
     starts: tuple[str | NDArray | adhesive.Adhesion, ...],
     is_stiffer: bool,

@@ -113,7 +113,7 @@ def measure(
     """
     heights = grid("heights", heights)
     squeeze = number("squeeze", squeeze)
-    steps = number("steps", steps)
+    number("steps", steps)
     check_law(law)
     pixel = check_length(length, heights.shape)[0] / heights.shape[0]
     resolution = edge_zone.resolution(pixel, law.maugis_range, law.adhesion_length)

@@ -142,7 +142,7 @@ def predict(
         approach_limits=(least_share * late, most_share),
         separation_limits=(least_share, most_separation),
         pull_off_limits=(least_tension, most_tension),
-        energy_ratio=length / rough.elastic_energy,
+        energy_ratio=float(length / rough.elastic_energy),
         tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * maugis_range**3))),
-        anisotropy_error_factor=rough.anisotropy_error_factor,
+        anisotropy_error_factor=float(rough.anisotropy_error_factor),
     )

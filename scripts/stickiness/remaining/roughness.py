@@ -55,38 +55,38 @@ UNLIKE = 2.0
 class Roughness:
     """What the prediction needs to know of a surface; numbers or arrays, lengths in one unit."""
 
-    h_rms: ArrayLike
-    q0: ArrayLike  #: of the longest waves, or of the roll-off
-    elastic_energy: ArrayLike  #: of full contact per nominal area over E* [length]
-    q1: ArrayLike = np.inf  #: of the finest waves; infinite: many decades of waves
-    relative_compliance: ArrayLike = 1.0  #: see `find_relative_compliance`
-    flow: ArrayLike = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
+    h_rms: float | NDArray
+    q0: float | NDArray  #: of the longest waves, or of the roll-off
+    elastic_energy: float | NDArray  #: of full contact per nominal area over E* [length]
+    q1: float | NDArray = np.inf  #: of the finest waves; infinite: many decades of waves
+    relative_compliance: float | NDArray = 1.0  #: see `find_relative_compliance`
+    flow: float | NDArray = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
     #: Energy of a half-space, which bounds that of a layer or skin; NaN: it does not.
-    half_space_energy: ArrayLike = np.nan
-    is_skin: ArrayLike = False  #: whether the compliance is that of a skin, not of a layer
-    anisotropy_error_factor: ArrayLike = 1.0  #: see `find_anisotropy_error_factor`
-    waves: ArrayLike = np.inf  #: longest waves along a side of the contact
-    rms_slope: ArrayLike = np.inf  #: infinite: without adhesion the area in contact vanishes
-    law: ArrayLike = EXPONENTIAL  #: name in `traction_laws.LAWS`
+    half_space_energy: float | NDArray = np.nan
+    is_skin: bool | NDArray = False  #: whether the compliance is that of a skin, not of a layer
+    anisotropy_error_factor: float | NDArray = 1.0  #: see `find_anisotropy_error_factor`
+    waves: float | NDArray = np.inf  #: longest waves along a side of the contact
+    rms_slope: float | NDArray = np.inf  #: infinite: without adhesion the area in contact vanishes
+    law: str | NDArray = EXPONENTIAL  #: name in `traction_laws.LAWS`
     #: `FilmResponse`, or an array of these, by which elastic energy and compliance depend on the
     #: modulus of a layer on a film, or below a skin; None without these
     film_response: Any = None
     #: ln of the factor by which heights that are not Gaussian change the energy ratio at which a
     #: share remains, and its error: see `height_shape`
-    shape: ArrayLike = 0.0
-    shape_error: ArrayLike = 0.0
+    shape: float | NDArray = 0.0
+    shape_error: float | NDArray = 0.0
     #: `SimulatedHeights`, or an array of these, which replace the theory of share, area and
     #: distance; None where there are none
     simulated: Any = None
     #: Energy of full contact of waves that are not simulated, over that of the others
-    lacking: ArrayLike = 0.0
-    height_factor: ArrayLike = 1.0  #: on the heights simulated
+    lacking: float | NDArray = 0.0
+    height_factor: float | NDArray = 1.0  #: on the heights simulated
     #: Instantaneous modulus over E* after a dwell, by which fast separation may exceed the share
-    instant_ratio: ArrayLike = 1.0
+    instant_ratio: float | NDArray = 1.0
 
-    def at_modulus(self, factor: ArrayLike) -> Self:
+    def at_modulus(self, factor: float | NDArray) -> Self:
         """Return the same with E* times a factor: films and skins keep their stiffness."""
-        if not np.any(np.not_equal(self.film_response, None)):
+        if not np.any(np.not_equal(self.film_response, np.array(None))):
             return self
         factor, responses = np.broadcast_arrays(factor, self.film_response)
         energy_ratio = np.ones(factor.shape)
@@ -103,7 +103,7 @@ class Roughness:
             relative_compliance=self.relative_compliance * compliance_ratio,
         )
 
-    def scaled(self, factor: ArrayLike) -> Self:
+    def scaled(self, factor: float | NDArray) -> Self:
         """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
         return replace(
             self,
@@ -114,7 +114,7 @@ class Roughness:
             height_factor=self.height_factor * factor,
         )
 
-    def take(self, rows: ArrayLike) -> Self:
+    def take(self, rows: ArrayLike | slice) -> Self:
         """Return some rows of the arrays; a number is that of all rows."""
         return replace(
             self,
@@ -226,10 +226,10 @@ class Roughness:
         self, quantity: str, by_theory, adhesion_length, range, *others
     ) -> float | NDArray:
         """Values by theory, replaced where there are simulated heights; `others` as of these."""
-        if not np.any(np.not_equal(self.simulated, None)):
+        if not np.any(np.not_equal(self.simulated, np.array(None))):
             return plain(by_theory)
         # One row per pair. Heights times a factor take the factor squared of all energies.
-        values, simulated, law, lacking, length, row_range, *others = (
+        values, simulated, law, lacking, length, row_range, *rest = (
             np.array(column)
             for column in np.broadcast_arrays(
                 by_theory,
@@ -249,7 +249,7 @@ class Roughness:
                     row_range[rows],
                     str(name),
                     lacking[rows],
-                    *(x[rows] for x in others),
+                    *(x[rows] for x in rest),
                 )
         return plain(values)
 
@@ -400,7 +400,7 @@ class Roughness:
         length = np.asarray(adhesion_length)
         deviation = np.asarray(deviation)
         share = np.asarray(self.share(length, range, deviation))
-        is_theory = np.equal(self.simulated, None)
+        is_theory = np.equal(self.simulated, np.array(None))
         of_theory = find_spread("spectrum", "ln_tension")
         of_states = find_spread("states", "ln_tension")
         value, low, high = (
@@ -452,11 +452,8 @@ class Roughness:
         )
         # One row per pair: the root search runs over rows. Without a length to start from, the film
         # under a layer is taken as it is.
-        surface = self
-        start = adhesion_length
-        if adhesion_length is None:
-            surface = replace(self, film_response=None)
-            start = np.nan
+        surface = replace(self, film_response=None) if adhesion_length is None else self
+        start = np.nan if adhesion_length is None else adhesion_length
         columns = (range, deviation, share, start)
         shape = np.broadcast_shapes(surface.shape_of_arrays, *map(np.shape, columns))
         pairs = PairRows(
@@ -473,7 +470,7 @@ class Roughness:
         # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
         # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
         # A film may raise the energy on the way there.
-        energy = pairs.rough.elastic_energy
+        energy = np.asarray(pairs.rough.elastic_energy)
         most_energy = pairs.rough.at_modulus(SOFTEST).elastic_energy
         lowest = np.log(LEAST_LENGTH * energy)
         highest = np.log(20 * most_energy / (1 - pairs.wanted_share))

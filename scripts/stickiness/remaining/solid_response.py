@@ -42,8 +42,9 @@ class FilmResponse:
         energies = [(1 / self.solid.factor(q, modulus)) @ energy for q, energy in self._waves]
         energy = np.exp(np.mean(np.log(energies), axis=0))
         # See `find_relative_compliance`.
-        is_skin = isinstance(self.solid, Skin)
-        compliance = 1 / energy if is_skin else self.solid.factor(self.q0, modulus[:, 0])
+        compliance = 1 / energy
+        if not isinstance(self.solid, Skin):
+            compliance = np.asarray(self.solid.factor(self.q0, modulus[:, 0]))
         return energy[1:] / energy[0], compliance[1:] / compliance[0]
 
 

@@ -90,9 +90,7 @@ def maugis_parameter(radius: ArrayLike, adhesion_length: ArrayLike, range: Array
     return 2 * np.cbrt(9 / (16 * np.pi)) * tabor
 
 
-def maugis_curve(
-    angle: ArrayLike, parameter: float
-) -> tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike]:
+def maugis_curve(angle: ArrayLike, parameter: float) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     """Contact radius a, cohesive radius c, force and indentation of Maugis' sphere.
 
     At an angle arccos(a/c), the condition that the gap be the range at c is quadratic in c. Radii

@@ -115,7 +115,7 @@ def standardise(
         for along_x in (slice(None, half_x), slice(-half_x, None))
         for along_y in (slice(None, half_y), slice(-half_y, None))
     ]
-    mirrored_sides = tuple(2 * side for side in sides)
+    mirrored_sides = 2 * sides[0], 2 * sides[1]
     return StandardHeights(
         whole=thin(heights),
         quarters=tuple(quarters),

@@ -48,7 +48,7 @@ def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
         # independent ones, of which 1/n is the mean of the squared correlation. That of a sample is
         # twice as much, for its noise is as large.
         chance += parts * np.mean(_correlate(slope) ** 2) / len(slopes) ** 2
-    return float(np.sqrt(max(np.var(logs, ddof=1) - chance, 0.0)))
+    return float(np.sqrt(max(float(np.var(logs, ddof=1)) - chance, 0.0)))
 
 
 def _difference(heights: NDArray, axis: int, lag: int) -> NDArray:

@@ -66,13 +66,13 @@ class PowerLawSegments(Spectrum):
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
         mean = self.averaged()
-        q = np.clip(nonnegative(q=q)[0], mean.q0, mean.q1)
+        q = nonnegative(q=q)[0].clip(mean.q0, mean.q1)
         i = mean._segment(q)
         return mean._below_knots(power)[i] + mean._integral(i, mean._knots[i], q, power)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
         mean = self.averaged()
-        q = np.clip(nonnegative(q=q)[0], mean.q0, mean.q1)
+        q = nonnegative(q=q)[0].clip(mean.q0, mean.q1)
         i = mean._segment(q)
         after = np.append(np.cumsum(mean._whole_segments(power)[::-1])[::-1], 0.0)
         return after[i + 1] + mean._integral(i, q, mean._knots[i + 1], power)
@@ -187,10 +187,11 @@ class SelfAffine(PowerLawSegments):
             band = f"q0 = {q0!r} and q1 = {q1!r}"
             raise ValueError(f"q_rolloff must lie between {band}, got {q_rolloff!r}")
         self.ellipse = Ellipse(anisotropy, angle)
-        if (h_rms is None) == (C0 is None):
+        given = [size for size in (h_rms, C0) if size is not None]
+        if len(given) != 1:
             raise ValueError(f"give one of h_rms and C0, got h_rms={h_rms!r} and C0={C0!r}")
         name = "h_rms" if C0 is None else "C0"
-        size = number(name, h_rms if C0 is None else C0)
+        size = number(name, given[0])
         self.hurst = hurst
         self.q_rolloff = q_rolloff
         self.prescribed = name
@@ -384,7 +385,7 @@ class Sum(Spectrum):
 
     def psd(self, q: ArrayLike) -> NDArray:
         """C(q) [length^4], averaged over directions; zero off all bands."""
-        return sum(part.psd(q) for part in self.parts)
+        return np.sum([part.psd(q) for part in self.parts], axis=0)
 
     def averaged(self) -> Spectrum:
         return self if self.isotropic else Sum(*(part.averaged() for part in self.parts))
@@ -393,10 +394,10 @@ class Sum(Spectrum):
         return sum(part.total_variance(power) for part in self.parts)
 
     def variance_below(self, q: ArrayLike, power: float = 0) -> NDArray:
-        return sum(part.variance_below(q, power) for part in self.parts)
+        return np.sum([part.variance_below(q, power) for part in self.parts], axis=0)
 
     def variance_above(self, q: ArrayLike, power: float = 0) -> NDArray:
-        return sum(part.variance_above(q, power) for part in self.parts)
+        return np.sum([part.variance_above(q, power) for part in self.parts], axis=0)
 
     def _cut(self, q1: float) -> Spectrum:
         kept = [part for part in self.parts if part.q0 < q1]

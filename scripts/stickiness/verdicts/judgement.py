@@ -293,7 +293,7 @@ def _list_doubts(material: Material, surface: Surface, cell: Mapping[str, Any]) 
     yield from find_pair_doubts(material, surface)
     reasons = cell["not_judged"].splitlines()
     remarks = list(surface.remarks)
-    if cell["larger_verdict"] == DEPENDS:
+    if surface.larger is not None and cell["larger_verdict"] == DEPENDS:
         remarks += [text for text in surface.larger.remarks if text not in remarks]
     yield from (text for text in remarks if text not in reasons)
     strain = float(np.max(cell["layer_strain"]))

@@ -8,6 +8,7 @@ cover 90 %. Files hold them along the dimension `limit`.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -52,8 +53,8 @@ def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = Tru
     return np.moveaxis(np.concatenate([low, value_and_high]), 0, -1)
 
 
-def read_limited(numbers: xr.DataArray) -> Limited:
-    """Read a number with limits along the dimension `limit`."""
+def read_limited(numbers: xr.DataArray) -> Limited[Any]:
+    """Read a number with limits along `limit`: floats, arrays if it has other dimensions."""
     value, low, high = (numbers.sel(limit=name, drop=True) for name in ("value", "low", "high"))
     if numbers.ndim == 1:
         return Limited(float(value), float(low), float(high))

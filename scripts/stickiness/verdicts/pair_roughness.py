@@ -47,7 +47,7 @@ class PairRoughness:
     rms_curvature: NDArray  #: at both ends [1/m], ``(2,)``
     spectra: tuple[Spectrum, ...]  #: of both ends, of both solids if both are rough
     stiffening: NDArray  #: energy of full contact over that of a half-space, ``(2,)``
-    a_v: Limited  #: at both ends of the surface, ``(2,)`` each
+    a_v: Limited[NDArray]  #: at both ends of the surface, ``(2,)`` each
     not_judged: str  #: why the pair is not judged, a line each; empty if it is
 
     def meet(self, material: Material, wanted_share: float) -> Pair:
@@ -80,7 +80,7 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
     own = material.surface
     solid = material.solid
     scenarios = surface.scenarios
-    spectra = surface.spectra
+    spectra: tuple[Spectrum, ...] = surface.spectra
     rms_curvature = _curvature(surface)
     doubts = [surface.not_judged]
 
@@ -105,11 +105,11 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
     ends = scenarios.ends
     a_v, doubt = _find_a_v(material, surface, ends, rms_curvature, spectra)
     doubts.append(doubt)
-    doubts.append(_doubt_smoothness(material.range, h_rms=float(ends.h_rms[0])))
+    doubts.append(_doubt_smoothness(material.range, h_rms=float(np.asarray(ends.h_rms)[0])))
     return PairRoughness(
         scenarios=scenarios,
         rms_curvature=rms_curvature,
-        spectra=tuple(spectra),
+        spectra=spectra,
         stiffening=stiffening,
         a_v=a_v,
         not_judged="\n".join(filter(None, doubts)),
@@ -137,12 +137,12 @@ def _find_a_v(
     ends: Roughness,
     rms_curvature: NDArray,
     spectra: tuple[Spectrum, ...],
-) -> tuple[Limited, str]:
+) -> tuple[Limited[NDArray], str]:
     """a_V of the pair at both ends, and why it is not known; then that of the surface alone."""
     a_v: tuple[SurfaceAv, ...] = surface.a_v
     doubt = ""
     if material.surface is not None:
-        moments = zip(ends.q0, ends.h_rms, ends.rms_slope, rms_curvature, strict=True)
+        moments = np.transpose([ends.q0, ends.h_rms, ends.rms_slope, rms_curvature])
         try:
             a_v = tuple(
                 surface_a_v(spectrum, dict(zip(("q0", *MOMENTS), values, strict=True)))
@@ -150,10 +150,9 @@ def _find_a_v(
             )
         except ValueError:  # attractive areas vanish within rounding
             doubt = TOO_DIFFERENT
-    limited = [
-        end_a_v.at(material.range / h_rms) for end_a_v, h_rms in zip(a_v, ends.h_rms, strict=True)
-    ]
-    return Limited(*np.transpose(limited)), doubt
+    ranges = material.range / np.asarray(ends.h_rms)
+    limited = [end_a_v.at(ratio) for end_a_v, ratio in zip(a_v, ranges, strict=True)]
+    return Limited(*np.array(limited).T), doubt
 
 
 def _add_surfaces(surface: Surface, own: Surface, solid: Solid) -> Scenarios:
@@ -217,7 +216,7 @@ def _put_on_layer(
     The spectra of draws are not kept: the layer acts on them as on both ends.
     """
     rough = scenarios.roughness
-    q0 = float(rough.q0[0])
+    q0 = float(np.asarray(rough.q0)[0])
     compliance = np.array([find_relative_compliance(each, solid, q0) for each in spectra])
     changes = np.append(stiffening - 1, 1 - compliance)
     is_on_film_or_below_skin = is_on_film(solid) or isinstance(solid, Skin)

@@ -38,7 +38,8 @@ from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.wording import LEAST_SHOWN, tell_material_moment
 
-PERIODISATION = "smooth"  # a tapered rim is flat: it sticks better than the surface
+# A tapered rim is flat: it sticks better than the surface.
+PERIODISATION: periodic.Periodisation = "smooth"
 MOST_PIXELS = 8  # per shortest wavelength
 LEAST_PIXELS = 4
 ROUNDING = 1e-9
@@ -220,7 +221,7 @@ def press(rough: PeriodicHeights, q0: float, q_cutoff: float) -> xr.Dataset:
     fields = {"contact": [state.gap == 0 for state in fine], "gap": [state.gap for state in fine]}
     fields["contact_pressure"] = [state.pressure for state in fine]
     for name, states in fields.items():
-        data[name] = ("pressure", "x", "y"), np.float32([halve(field) for field in states])
+        data[name] = ("pressure", "x", "y"), np.array([halve(x) for x in states], np.float32)
     measures = {"area_fraction": find_area, "mean_gap": lambda state: state.mean_gap}
     for name, measure in measures.items():
         values, coarser = (np.array([measure(state) for state in grid]) for grid in (fine, coarse))
@@ -238,7 +239,7 @@ def press(rough: PeriodicHeights, q0: float, q_cutoff: float) -> xr.Dataset:
         cutoff_wavelength=2 * np.pi / q_cutoff,
         change=rough.change,
     )
-    data = data.assign_coords(pressure=loads / (q0 * h_rms), **rough.centres(2))
+    data = data.assign_coords({"pressure": loads / (q0 * h_rms), **rough.centres(2)})
     for name in (*fields, "heights"):
         data[name].encoding = {"zlib": True}
     texts = {

@@ -104,8 +104,7 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
     low, _, high = rough.limit(pair.modulus * with_errors.force, pair)
     value = rough.limit(pair.modulus * exact.force, pair)[VALUE]
 
-    rough_end = ENDS[-1]
-    waves = 2 * exact.zone_radius[rough_end] * pair.q0[rough_end] / (2 * np.pi)
+    waves = 2 * np.asarray(exact.zone_radius * pair.q0)[ENDS[-1]] / (2 * np.pi)
     if rough.not_judged:
         low = value = high = np.nan
     return BallPullOff(

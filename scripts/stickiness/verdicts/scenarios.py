@@ -13,10 +13,12 @@ What a layer, a second rough solid or longer waves change, they change in every 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from stickiness.remaining.roughness import Roughness
 from stickiness.statistics import COVERS
@@ -82,7 +84,7 @@ class Scenarios:
         """Roughness of the draws; None of a surface that was not measured."""
         return self.roughness.take(slice(len(ENDS), None)) if self.is_drawn else None
 
-    def between(self, at_ends: NDArray) -> NDArray:
+    def between(self, at_ends: Sequence[float] | NDArray) -> NDArray:
         """A positive number of every row, by the numbers at both ends: of draws the geometric mean.
 
         It stands for what is known of spectra alone, which draws do not keep.
@@ -90,7 +92,7 @@ class Scenarios:
         smooth, rough = at_ends
         return smooth ** (1 - self.place) * rough**self.place
 
-    def with_roughness(self, **changed: ArrayLike) -> Scenarios:
+    def with_roughness(self, **changed: Any) -> Scenarios:
         """The same with other columns of the roughness."""
         return replace(self, roughness=replace(self.roughness, **changed))
 

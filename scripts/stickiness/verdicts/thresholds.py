@@ -59,10 +59,10 @@ def find_thresholds(
     material: Material,
     rough: PairRoughness,
     pair: Pair,
-    moduli: Limited,
+    moduli: Limited[float],
     contact_area: float,
     rms_height: float | None = None,
-) -> dict[str, Limited]:
+) -> dict[str, Limited[float]]:
     """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply.
 
     `moduli` is the threshold of E* [Pa]. `rms_height` [m] is the one that readers know, if it is
@@ -78,17 +78,19 @@ def find_thresholds(
     }
 
 
-def _find_rate_of(material: Material, moduli: Limited) -> Limited:
+def _find_rate_of(material: Material, moduli: Limited[float]) -> Limited[float]:
     """Frequency below which a material sticks; NaN of an elastic solid, and after a dwell."""
     if not material.depends_on_rate or material.dwell is not None:
         return UNKNOWN
     return find_rate(material.plane_strain, moduli)
 
 
-def find_rms_height(pair: Pair, rough: PairRoughness, rms_height: float | None = None) -> Limited:
+def find_rms_height(
+    pair: Pair, rough: PairRoughness, rms_height: float | None = None
+) -> Limited[float]:
     """Find the rms height [m] below which the wanted share remains; see `find_thresholds`."""
     # Of draws it is that between both ends.
-    h_rms = float(rough.limit(rough.scenarios.between(pair.h_rms[ENDS]), pair)[VALUE])
+    h_rms = float(rough.limit(rough.scenarios.between(np.asarray(pair.h_rms)[ENDS]), pair)[VALUE])
 
     def remain(height: NDArray) -> NDArray:
         scaled = pair.scaled(height[:, None] / h_rms)
@@ -104,7 +106,7 @@ def find_rms_height(pair: Pair, rough: PairRoughness, rms_height: float | None =
     return Limited(*(scale * height for height in found))
 
 
-def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited:
+def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited[float]:
     """Find the thickness [m] of a layer above which the wanted share remains; NaN of others."""
     if not isinstance(solid, Layer):
         return UNKNOWN
@@ -147,7 +149,7 @@ def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited:
     )
 
 
-def find_rate(storage: Modulus, moduli: Limited) -> Limited:
+def find_rate(storage: Modulus, moduli: Limited[float]) -> Limited[float]:
     """Find the frequency [Hz] up to which a storage modulus stays below each of other moduli.
 
     It is searched within a table, and over all frequencies of a Prony series.
@@ -155,7 +157,7 @@ def find_rate(storage: Modulus, moduli: Limited) -> Limited:
     frequencies = getattr(storage, "frequencies", (LOWEST_FREQUENCY, HIGHEST_FREQUENCY))
     by_limit = np.sort([moduli.low, moduli.value, moduli.high])
     return find_threshold(
-        lambda f: by_limit / storage.storage(f)[:, None],
+        lambda f: by_limit / np.asarray(storage.storage(f))[:, None],
         start=frequencies[0],
         stop=frequencies[-1],
         wanted=1.0,
@@ -164,7 +166,7 @@ def find_rate(storage: Modulus, moduli: Limited) -> Limited:
 
 def find_threshold(
     remain: Callable[[NDArray], NDArray], start: float, stop: float, wanted: float
-) -> Limited:
+) -> Limited[float]:
     """Find where shares fall below the wanted one from `start`, where they are large, to `stop`.
 
     0 or infinity if that is beyond the start or the stop. `remain` makes shares ``(n, limit)``, low
@@ -218,12 +220,12 @@ def _find_crossings(
 
 def find_pressure(
     pair: Pair, rough: PairRoughness, solid: Solid, area: float = CONTACT_AREA
-) -> Limited:
+) -> Limited[float]:
     """Find the mean pressure [Pa] at an area of contact, without adhesion.
 
     It is that of both ends: draws do not keep their spectra.
     """
-    q0 = float(np.mean(pair.q0[ENDS]))
+    q0 = float(np.mean(np.asarray(pair.q0)[ENDS]))
     error = min(AREA_ERROR * float(np.mean(pair.rough.anisotropy_error_factor)), MOST_AREA_ERROR)
     if isinstance(solid, Skin):
         error = max(error, AREA_ERROR_SKIN)

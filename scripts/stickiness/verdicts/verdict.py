@@ -33,9 +33,9 @@ class LargerContact(NamedTuple):
 
     contact: float  #: side of the contact [m]
     word: str  #: verdict
-    remaining: Limited  #: share of the work of adhesion
-    modulus_threshold: Limited  #: as of `StickinessVerdict` [Pa]
-    plane_strain_modulus_threshold: Limited  #: [Pa]
+    remaining: Limited[float]  #: share of the work of adhesion
+    modulus_threshold: Limited[float]  #: as of `StickinessVerdict` [Pa]
+    plane_strain_modulus_threshold: Limited[float]  #: [Pa]
 
 
 @dataclass(frozen=True, eq=False)
@@ -337,11 +337,11 @@ def verdict(
 class Thresholds:
     """What would make a material stick to a surface, all else being as it is."""
 
-    modulus: Limited  #: sticks below [Pa]; Young's modulus, or E* if that was given
-    rms_height: Limited  #: sticks below [m]
-    thickness: Limited | None  #: sticks above [m]; None of a half-space
-    pressure: Limited  #: mean pressure [Pa] that makes the area of contact, without adhesion
-    rate: Limited | None  #: sticks below [Hz]; None of an elastic solid, and after a dwell
+    modulus: Limited[float]  #: sticks below [Pa]; Young's modulus, or E* if that was given
+    rms_height: Limited[float]  #: sticks below [m]
+    thickness: Limited[float] | None  #: sticks above [m]; None of a half-space
+    pressure: Limited[float]  #: mean pressure [Pa] that makes the area of contact, without adhesion
+    rate: Limited[float] | None  #: sticks below [Hz]; None of an elastic solid, and after a dwell
 
 
 def thresholds(
@@ -386,7 +386,7 @@ def thresholds(
     pair = _read_pair(surface, material, length=length, **properties)
     cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
 
-    def collect(name: str) -> Limited | None:
+    def collect(name: str) -> Limited[float] | None:
         threshold = read_limited(cell[name])
         return None if np.isnan(threshold).all() else threshold
 
@@ -395,9 +395,9 @@ def thresholds(
         return Thresholds(moduli, UNKNOWN, None, UNKNOWN, None)
     return Thresholds(
         modulus=moduli,
-        rms_height=collect("rms_height_threshold"),
+        rms_height=read_limited(cell.rms_height_threshold),
         thickness=collect("thickness_threshold"),
-        pressure=collect("contact_pressure"),
+        pressure=read_limited(cell.contact_pressure),
         rate=collect("rate_threshold"),
     )
 
@@ -447,7 +447,7 @@ def _judge_one(pair: _ReadPair, **settings: Any) -> xr.Dataset:
     return dataset.isel(material=0, surface=0)
 
 
-def _drop_unbounded(moduli: Limited) -> Limited:
+def _drop_unbounded(moduli: Limited[float]) -> Limited[float]:
     """Moduli with NaN in place of those that no material reaches: there any modulus sticks."""
     return Limited(*(modulus if modulus <= MOST_STRESS else np.nan for modulus in moduli))
 

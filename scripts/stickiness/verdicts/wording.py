@@ -211,7 +211,7 @@ def is_judged(cell: xr.Dataset) -> bool:
 def describe_material(material: Material) -> str:
     """Properties of a material for readers: modulus, layer, skin and roughness."""
     parts = [_describe_modulus(material)]
-    if not material.is_plane_strain:
+    if material.poisson_ratio is not None and not material.is_plane_strain:
         parts.append(f"ν = {number(material.poisson_ratio)}")
     solid = material.solid
     if isinstance(solid, Layer):
