@@ -81,8 +81,10 @@ def mock(
 
     Examples
     --------
-    >>> part = mock("solve_repulsive", case="mine", part="1-8")  # doctest: +SKIP
-    >>> figure = mock("results/standard/figures/fig3.png")  # doctest: +SKIP
+    A job of a finished run, by its rule or by its file::
+
+        part = mock("answer_case", case="mine")
+        figure = mock("results/standard/figures/fig3.png")
     """
     from snakemake.target_jobs import TargetSpec
 

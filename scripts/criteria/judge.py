@@ -115,8 +115,8 @@ def tabulate_pairs(rows):
             "entry": "yours" if row["mine"] else "other",
             "verdict": row["word"],
             "judged": row["moment"],
-            "E [MPa]": float(pair.modulus_given) / MPA if has_poisson else np.nan,
-            "E* [MPa]": float(pair.modulus_quoted) / MPA,
+            "E [MPa]": float(pair.quoted_modulus) / MPA if has_poisson else np.nan,
+            "E* [MPa]": float(pair.plane_strain_modulus) / MPA,
             "w/U_full": float(pair.energy_ratio.sel(end="rough")),
         }
         for name, (head, unit, size) in TABULATED.items():

@@ -191,9 +191,9 @@ def test_the_page_tells_what_would_make_pairs_stick(page, folder):
             page.check(tell(pair, "rate_threshold", "Hz"))
         assert np.isnan(pair.rate_threshold).all() == (name != "gel")
         assert law["material"] == entry["label"]
-        assert law["plane_strain_modulus"]["value"] == float(pair.modulus_quoted)
+        assert law["plane_strain_modulus"]["value"] == float(pair.plane_strain_modulus)
         youngs = law.get("youngs_modulus", {}).get("value")
-        assert youngs == (float(pair.modulus_given) if name == "gel" else None)
+        assert youngs == (float(pair.quoted_modulus) if name == "gel" else None)
         _, *limits = read_limited(pair.remaining * pair.work_of_adhesion)
         work = law["effective_work_of_adhesion"]
         assert [work["low"], work["high"]] == pytest.approx(limits)
@@ -315,7 +315,7 @@ def test_curves_pass_through_the_pair_as_it_is(pairs):
     assert shown == {"modulus": both, "roughness": both, "rate": ["gel <soft>"]}
     assert axes["modulus"].label == "modulus E or E*, as given [MPa]"
     pair = pairs.sel(material="gel")
-    actual = {"modulus": float(pair.modulus_given) / 1e6, "roughness": 1.0, "rate": 1.0}
+    actual = {"modulus": float(pair.quoted_modulus) / 1e6, "roughness": 1.0, "rate": 1.0}
     for name, axis in axes.items():
         assert axis.wanted == DEFAULT_SHARE
         drawn = axis.curves[-1].own

@@ -179,7 +179,8 @@ def test_presets_are_what_the_rule_gives():
         for name in ("config.yaml", "campaigns/tradeoff.yaml")
     )
     asked, seeds = trade["presets"], config["sampling"]["descriptor_seeds"]
-    entry = config["model_surfaces"][asked["surface"]]
+    case = config["cases"][config["roles"][asked["surface"]]]
+    entry = config["model_surfaces"][case["surface"]]
     rough = Surface.of(ModelSurface(**entry).model_dump())
     ours = Problem(read_models(LAWS), rough, asked["pressures"], (), seeds)
     for name in asked["accuracy"]:

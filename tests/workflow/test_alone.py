@@ -12,8 +12,8 @@ DESCRIBE = """
 import json
 from common.job import mock
 
-job = mock("solve_coarse", configfiles=["config/tiny.yaml"], case="H0.7_zeta64", part="1-32")
-print(json.dumps([list(job.output), job.wildcards.case, job.params.seeds, job.config["fidelity"]]))
+job = mock("answer_case", configfiles=["config/tiny.yaml"], case="H0.7_zeta64")
+print(json.dumps([job.output.answer, job.wildcards.case, job.config["fidelity"]]))
 """
 
 
@@ -25,14 +25,14 @@ def run_alone(workflow, script, *files):
 @pytest.mark.parametrize(
     ("script", "file"),
     [
-        ("contact/solve_repulsive.py", "contact/H0.7_zeta64/seeds1-2.nc"),
+        ("contact/solve_repulsive.py", "contact/H0.7_zeta64@*/seeds1-2_*.nc"),
         ("figures/plot_fig4.py", "figures/fig4.png"),
     ],
 )
 def test_a_script_alone_makes_what_it_makes_in_a_run(copy_of_finished, script, file):
-    path = copy_of_finished / "results/tiny" / file
+    (path,) = (copy_of_finished / "results/tiny").glob(file)
     made = path.rename(path.with_name(f"of_run{path.suffix}"))
-    done = run_alone(copy_of_finished, script, f"results/tiny/{file}")
+    done = run_alone(copy_of_finished, script, path.relative_to(copy_of_finished.folder))
     assert done.returncode == 0, done.stderr
     if path.suffix == ".png":
         assert path.read_bytes() == made.read_bytes()
@@ -65,5 +65,5 @@ def test_what_a_script_alone_cannot_make(fresh, file, message):
 def test_a_rule_with_wildcards_gives_its_job(finished):
     done = finished.python("-c", DESCRIBE)
     assert done.returncode == 0, done.stderr
-    output = "results/tiny/contact/H0.7_zeta64/coarse1-32.nc"
-    assert json.loads(done.stdout) == [[output], "H0.7_zeta64", 32, "tiny"]
+    output = "results/tiny/cases/H0.7_zeta64.nc"
+    assert json.loads(done.stdout) == [output, "H0.7_zeta64", "tiny"]

@@ -16,6 +16,7 @@ ANSWERING = {"answer_case", "answer_by_theory"}
 # What shows answers of cases, and the theory that goes with a case.
 SHOWING = {"persson_lattice", "compare_theory", "tabulate_a_v", "average_adhesive", "map_criterion"}
 SHOWING |= {"compare_criteria", "check_claims", "write_report", "write_findings"}
+SHOWING |= {"persson_sweep"}  # at the Hurst exponents of cases that have a role
 SHOWING |= {f"plot_fig{number}" for number in range(1, 14)}
 
 
@@ -211,10 +212,15 @@ def test_a_new_surface_a_material_and_a_case_that_goes_solve_nothing_else(copy_o
     # A case of the configuration that every run includes.
     text = "  H0.9_zeta64:\n    surface: H0.9_zeta64\n    pressures: *short\n"
     copy_of_finished.edit("config/config.yaml", text, "")
+    copy_of_finished.edit(
+        "config/config.yaml", "high_hurst: H0.9_zeta64", "high_hurst: H0.7_zeta64"
+    )
     assert plan_changes(copy_of_finished) == ({}, set())
     copy_of_finished.edit(
         "config/config.yaml", "  H0.7_zeta64:\n    surface", "  renamed:\n    surface"
     )
+    for role in ("low_hurst", "high_hurst"):
+        copy_of_finished.edit("config/config.yaml", f"{role}: H0.7_zeta64", f"{role}: renamed")
     assert plan_changes(copy_of_finished) == ({}, {"renamed"})
 
     before = copy_of_finished.outputs()

@@ -54,8 +54,8 @@ def test_what_runs_once_for_each_case_or_surface_is_grouped():
         if output and re.search(r"{{(case|model_surface|real_surface)}}", output[1]):
             repeated.add(name[1] or name[2])
     groups = dict(entry.split("=") for entry in PROFILE["groups"])
-    # Maps are wanted for a few cases, and contact of measured heights takes long.
-    assert repeated - groups.keys() == {"contact_maps", "contact_measured"}
+    # Maps are wanted for a few cases.
+    assert repeated - groups.keys() == {"contact_maps"}
     # A job that reads all cases would put them all into one Slurm job.
     assert groups["compare_theory"] not in {groups[name] for name in repeated & groups.keys()}
 

@@ -21,6 +21,9 @@ def take_old_names(keys: Mapping[str, Any]) -> dict[str, Any]:
     table, and E* itself if `poisson` is None.
     """
     renamed = {key: value for key, value in keys.items() if key not in OLD_NAMES}
+    for old, new in OLD_NAMES.items():
+        if old in keys and new in keys:
+            raise ValueError(f"{old} is an old name of {new}: give one of them")
     is_plane_strain = "poisson" in keys and keys["poisson"] is None
     if "modulus" in keys:
         name = _BY_KIND.get(type(keys["modulus"]), OLD_NAMES["modulus"])

@@ -105,7 +105,7 @@ def describe_cells(pair: xr.Dataset) -> dict[str, tuple[str, Any]]:
         "onset": (_tell_ends(onset), onset.mean()),
         "probability": (probability, pair.probability),
         "errors": (errors, np.hypot(pair.error_of_spectrum, pair.error_of_model)),
-        "modulus": (wording.tell_modulus(pair), pair.modulus_given),
+        "modulus": (wording.tell_modulus(pair), pair.quoted_modulus),
     }
 
 
@@ -179,7 +179,7 @@ def gather_facts(pair: xr.Dataset) -> dict[str, str]:
         "energy": f"{number(work / float(rough.energy_ratio), 2)} J/m²",
         "work_of_adhesion": f"{number(work, 2)} J/m²",
         "extrapolation": number(beyond, 2) if beyond > 0 and by_theory else "",
-        "modulus": amount(pair.modulus_quoted, "Pa", 2),
+        "modulus": amount(pair.plane_strain_modulus, "Pa", 2),
     }
 
 

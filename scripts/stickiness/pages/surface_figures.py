@@ -158,7 +158,7 @@ def find_curves(
         return {}
     # Moduli are in the unit of those shown at first, as they were given.
     first = [judged[name] for name in at_first if name in judged] or list(judged.values())
-    per_pascal, unit = unit_for(max(float(cell.modulus_given) for cell in first), "Pa")
+    per_pascal, unit = unit_for(max(float(cell.quoted_modulus) for cell in first), "Pa")
     symbols = {name_modulus(cell) for cell in judged.values()}
     symbol = MODULI[symbols.pop()] if len(symbols) == 1 else "modulus E or E*, as given"
     axes = {}
@@ -187,7 +187,7 @@ def follow(axis: str, pair: xr.Dataset, per_pascal: float) -> tuple[pd.DataFrame
     share = pair[f"remaining_by_{axis}"]
     (dim,) = set(share.dims) - {"limit"}
     factor = pair[dim].values  # a rate of 1 Hz, at which the modulus is quoted, counts as 1
-    scale = {"modulus": float(pair.modulus_given) * per_pascal, "dwell": float(pair.dwell)}
+    scale = {"modulus": float(pair.quoted_modulus) * per_pascal, "dwell": float(pair.dwell)}
     x = factor * scale.get(axis, 1.0)
     percents = 100 * share.transpose(dim, "limit").values
     points = pd.DataFrame(percents, index=x, columns=list(LIMITS)).rename_axis("x").reset_index()

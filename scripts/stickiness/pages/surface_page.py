@@ -181,7 +181,7 @@ def list_loads(contact: xr.Dataset, suited: xr.Dataset) -> list[dict[str, Any]]:
     for name in suited.material.values:
         pair = suited.sel(material=name)
         label = f"{pair.material_label.item()} {wording.tell_moment(pair)}".strip()
-        moduli[label] = float(pair.modulus_quoted)
+        moduli[label] = float(pair.plane_strain_modulus)
     rows = []
     for index in range(contact.sizes["pressure"]):
         load = contact.isel(pressure=index)

@@ -1,8 +1,9 @@
 """`judge`: every material on every surface. It is the only place where a pair becomes numbers.
 
-The steps are those of the reasoning: what roughness a material meets on a surface; what every
-criterion says at both ends of what is known of the surface; what the draws of a measured surface
-add; and the limits, from which the verdict follows. Results are codes and numbers in SI units.
+The steps are those of the reasoning: what roughness a material meets on a surface; what remains on
+it, with limits over all that the surface may be; what the draws of a measured surface add; what
+every criterion says at both ends of what is known of the surface; and the verdict, which follows
+from the limits. Results are codes and numbers in SI units.
 """
 
 from __future__ import annotations
@@ -153,7 +154,7 @@ def judge(
                 cell |= follow_remaining(pair, rough, material, axes)
             if thresholds:
                 moduli = Limited(*cell["plane_strain_modulus_threshold"][[VALUE, LOW, HIGH]])
-                # Of two rough solids no one knows the rms height, but that of the pair.
+                # Of two rough solids only the rms height of the pair is defined.
                 known = surface.rms_height if material.surface is None else None
                 found = find_thresholds(material, rough, pair, moduli, contact_area, known)
                 for name, limited in found.items():
@@ -191,14 +192,13 @@ def _name(argument: str, items: Mapping | Sequence, kind: type) -> dict:
 
 def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[str, Any]:
     """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
-    # What has limits, in the rows of what the surface may be.
-    threshold = pair.remaining_threshold
-    margins = pair.adhesion_length / threshold
+    # What has limits: a row for each surface that it may be, both ends first and then the draws.
+    length_threshold = pair.remaining_threshold
     in_rows = {
         "remaining": pair.remaining,
         "pull_off": pair.pull_off,
-        "margin": margins,
-        "plane_strain_modulus_threshold": pair.work_of_adhesion / threshold,
+        "margin": pair.adhesion_length / length_threshold,
+        "plane_strain_modulus_threshold": pair.work_of_adhesion / length_threshold,
     }
     cell: dict[str, Any] = {name: rough.limit(values, pair) for name, values in in_rows.items()}
     cell |= describe_draws(rough.scenarios, pair)
@@ -207,24 +207,25 @@ def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[st
     ends = rough.take_ends(pair)
     cell |= find_quantities(ends)
 
-    # Thresholds of the modulus, of E* and of the modulus as it was given.
+    # Thresholds of E*, and of the modulus as it was given. Where the search for the adhesion length
+    # ends, any modulus would do.
+    stiffest = 0.99 * pair.modulus * cell["energy_ratio"][-1] / LEAST_LENGTH
     moduli = cell["plane_strain_modulus_threshold"]
-    # An adhesion length that keeps the wanted share at the rough end, however stiff the solid is.
-    full_contact_energy = pair.work_of_adhesion / cell["energy_ratio"][-1]
-    any_modulus = 0.99 * pair.modulus * pair.work_of_adhesion / (LEAST_LENGTH * full_contact_energy)
-    moduli = np.where(moduli < any_modulus, moduli, np.inf)
+    moduli = np.where(moduli < stiffest, moduli, np.inf)
     moduli = np.where(moduli < LEAST_MODULUS, 0.0, moduli)
     cell["plane_strain_modulus_threshold"] = moduli
     cell["modulus_threshold"] = moduli * material.quoted_modulus / material.plane_strain_modulus
+
+    # What every criterion says, at both ends.
     by_criterion = {
         name: np.broadcast_to(criterion.margin(ends), len(ENDS))
         for name, criterion in CRITERIA.items()
     }
     sticky = {name: margin > 1 for name, margin in by_criterion.items()}
-    moduli = [criterion.modulus_threshold(ends) for criterion in CRITERIA.values()]
+    modulus_by_criterion = [criterion.modulus_threshold(ends) for criterion in CRITERIA.values()]
     cell["margin_by_criterion"] = np.transpose(list(by_criterion.values()))
     cell["threshold_by_criterion"] = np.transpose(
-        [np.broadcast_to(modulus, len(ENDS)) for modulus in moduli]
+        [np.broadcast_to(modulus, len(ENDS)) for modulus in modulus_by_criterion]
     )
     cell["stiffening"] = rough.stiffening
     cell["pair_a_v"] = [rough.a_v.low.min(), rough.a_v.value[-1], rough.a_v.high.max()]
@@ -243,7 +244,7 @@ def describe_draws(scenarios: Scenarios, pair: Pair) -> dict[str, float]:
     if not scenarios.is_drawn:
         return dict.fromkeys(DRAW_STATISTICS, np.nan)
     margins = pair.adhesion_length / pair.remaining_threshold
-    # By the model as it is, margins scatter with the spectrum alone.
+    # Without the error of the model, margins scatter with the spectrum alone.
     exact = replace(pair, deviation=0.0)
     by_spectrum = np.log(exact.adhesion_length / exact.remaining_threshold)
     by_model = np.log(margins) - by_spectrum
@@ -264,7 +265,7 @@ def _find_decider(rough: PairRoughness, pair: Pair) -> int:
     simulated = pair.rough.simulated
     if simulated is None:
         return BY_SHAPED_THEORY
-    # Enough may remain without what attraction does to the contact.
+    # Is enough left in contact without adhesion already, by its low limit?
     pressed = replace(pair, rough=replace(pair.rough, simulated=simulated.without_adhesion()))
     is_enough = rough.limit(pressed.remaining, pair)[LOW] >= pair.wanted_share
     return BY_BOUND if is_enough else BY_SIMULATION
@@ -273,7 +274,7 @@ def _find_decider(rough: PairRoughness, pair: Pair) -> int:
 def _judge_larger(material: Material, surface: Surface, wanted_share: float) -> dict[str, Any]:
     """Verdict, and `LARGER` with limits, of a contact that is larger than a scan.
 
-    "not judged" and NaN where no longer waves may follow, or nothing is known of them.
+    "not judged" and NaN where longer waves are not expected, or not known.
     """
     larger = surface.larger
     if larger is None:
@@ -343,8 +344,8 @@ def _arrange(
             int(material.solid == HALF_SPACE and material.surface is None)
             for material in materials.values()
         ],
-        "modulus_given": [material.quoted_modulus for material in materials.values()],
-        "modulus_quoted": [material.plane_strain_modulus for material in materials.values()],
+        "quoted_modulus": [material.quoted_modulus for material in materials.values()],
+        "plane_strain_modulus": [material.plane_strain_modulus for material in materials.values()],
         "poisson_ratio": [
             np.nan if material.is_plane_strain else material.poisson_ratio
             for material in materials.values()
@@ -418,7 +419,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
         "wanted_share": ("1", "share of the work of adhesion that must remain to stick"),
         "material_label": ("1", "name of the material for readers"),
-        "material_doubts": ("1", "those of them that are about the material"),
+        "material_doubts": ("1", "doubts about the material, a line each"),
         "properties": ("1", "properties of the material for readers"),
         "law": ("1", "traction law"),
         "range": ("m", "range of the attraction"),
@@ -427,8 +428,14 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "half_space": ("1", "1 of a material that is deep, without a skin, and smooth itself"),
         "stiffening": ("1", "energy of full contact over that of a half-space"),
         "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
-        "modulus_quoted": ("Pa", "plane-strain modulus at 1 Hz or after the dwell, of all margins"),
-        "modulus_given": ("Pa", "the same as it was given: Young's, or E* without Poisson's ratio"),
+        "plane_strain_modulus": (
+            "Pa",
+            "plane-strain modulus at 1 Hz or after the dwell, which all margins are for",
+        ),
+        "quoted_modulus": (
+            "Pa",
+            "the same as it was given: Young's, or E* without Poisson's ratio",
+        ),
         "poisson_ratio": ("1", "Poisson's ratio", "E* is given"),
         "dwell": ("s", "time for which contact is made", "judged at one frequency"),
         "instant_ratio": ("1", "instantaneous modulus over that after the dwell, 1 without one"),
@@ -438,7 +445,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
             "1",
             "decided by: " + ", ".join(f"{i} {x}" for i, x in enumerate(DECIDED_BY)),
         ),
-        "disagrees": ("1", "1 where a criterion says the opposite of the verdict"),
+        "disagrees": ("1", "1 where a criterion disagrees with what remains, at either end"),
         "not_judged": ("1", "why a pair is not judged, a line each; empty if it is"),
         "doubts": ("1", "why the answer is probably to another question, a line each"),
         "rms_height": (

@@ -253,7 +253,8 @@ def press(rough: PeriodicHeights, q0: float, q_cutoff: float) -> xr.Dataset:
 def _describe(data: xr.Dataset, tolerance: float, **texts: tuple[str, str]) -> xr.Dataset:
     """Describe the variables, and say of every state whether it is solved to the tolerance."""
     data["converged"] = (data.residual <= tolerance).astype("i1")
-    texts["converged"] = ("1", f"1 where the residual is at most {tolerance:g}")
+    converged = f"1 where the residual is at most {tolerance:g}, 0 where there is no state"
+    texts["converged"] = ("1", converged)
     known = {name: text for name, text in (TEXTS | texts).items() if name in data.variables}
     return datasets.annotate(data, **known)
 

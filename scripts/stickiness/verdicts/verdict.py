@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -45,7 +45,11 @@ class StickinessVerdict:
     Numbers are NaN if the pair is not judged; every pair of limits is (low, high).
     """
 
-    cell: xr.Dataset = field(repr=False)  #: of `judge`, at one material and one surface
+    cell: xr.Dataset  #: of `judge`, at one material and one surface
+
+    def __repr__(self) -> str:
+        share = wording.tell_share(*read_limited(self.cell.remaining))
+        return f"StickinessVerdict({self.word!r}, remaining: {share})"
 
     @property
     def word(self) -> str:
@@ -110,6 +114,11 @@ class StickinessVerdict:
     def plane_strain_modulus_threshold(self) -> float:
         """Plane-strain modulus E* [Pa] below which the wanted share remains."""
         return self._value("plane_strain_modulus_threshold")
+
+    @property
+    def plane_strain_modulus_threshold_limits(self) -> tuple[float, float]:
+        """Limits of that threshold [Pa]."""
+        return self._limits("plane_strain_modulus_threshold")
 
     @property
     def regime(self) -> str:
@@ -207,6 +216,8 @@ class StickinessVerdict:
             **self._describe_moduli(),
             "work_of_adhesion": {"value": work, "unit": "J/m^2"},
             "range": {"value": float(cell.range), "unit": "m"},
+            "dwell": _quantity_of(float(cell.dwell), "s"),
+            "material_properties": cell.properties.item(),
             "rms_height": {"value": float(cell.rms_height), "unit": "m"},
             "wanted_share": self.wanted_share,
             **self._describe_remaining(""),
@@ -225,11 +236,11 @@ class StickinessVerdict:
 
     def _describe_moduli(self) -> dict[str, Any]:
         """Moduli of the material that are known."""
-        plane_strain = {"value": float(self.cell.modulus_quoted), "unit": "Pa"}
+        plane_strain = {"value": float(self.cell.plane_strain_modulus), "unit": "Pa"}
         if np.isnan(self.cell.poisson_ratio):
             return {"plane_strain_modulus": plane_strain}
         return {
-            "youngs_modulus": {"value": float(self.cell.modulus_given), "unit": "Pa"},
+            "youngs_modulus": {"value": float(self.cell.quoted_modulus), "unit": "Pa"},
             "poisson_ratio": float(self.cell.poisson_ratio),
             "plane_strain_modulus": plane_strain,
         }
@@ -445,6 +456,11 @@ def _judge_one(pair: _ReadPair, **settings: Any) -> xr.Dataset:
     for doubt in find_pair_doubts(pair.material, pair.surface):
         warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
     return dataset.isel(material=0, surface=0)
+
+
+def _quantity_of(value: float, unit: str) -> dict[str, Any] | None:
+    """One number with its unit; None if it is not known."""
+    return {"value": value, "unit": unit} if np.isfinite(value) else None
 
 
 def _drop_unbounded(moduli: Limited[float]) -> Limited[float]:

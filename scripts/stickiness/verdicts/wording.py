@@ -72,7 +72,7 @@ def name_modulus(cell: xr.Dataset) -> str:
 
 def tell_modulus(cell: xr.Dataset) -> str:
     """Modulus of the material, at the rate or after the dwell of the verdict."""
-    return f"{name_modulus(cell)} = {amount(float(cell.modulus_given), 'Pa')}"
+    return f"{name_modulus(cell)} = {amount(float(cell.quoted_modulus), 'Pa')}"
 
 
 def tell_threshold(cell: xr.Dataset, name: str = "modulus_threshold") -> str:
@@ -105,7 +105,7 @@ def tell_change(cell: xr.Dataset) -> str:
         sticks = f"at no modulus, or below {symbol} = {amount(high, 'Pa')}"
     else:
         sticks = f"below {tell_threshold(cell)}"
-    return f"sticks {sticks}; it is {amount(float(cell.modulus_given), 'Pa')}"
+    return f"sticks {sticks}; it is {amount(float(cell.quoted_modulus), 'Pa')}"
 
 
 def tell_contact(cell: xr.Dataset) -> str:

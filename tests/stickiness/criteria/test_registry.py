@@ -42,7 +42,7 @@ def test_an_entry_is_all_that_a_new_criterion_needs(made_up):
     # l_a = 0.5 um: work of adhesion over modulus, over heights of 1 and 2 um.
     np.testing.assert_allclose(pair.margin_by_criterion, [0.25, 0.0625], rtol=1e-6)
     np.testing.assert_allclose(pair.threshold_by_criterion, [50e3, 25e3], rtol=1e-6)
-    assert "Made & Up" in describe_page(verdicts, {"gel": ENTRY}, {"wall": "wall"})["others"]
+    assert "Made & Up" in describe_page(verdicts, {"wall": "wall"})["others"]
     assert "Made & Up" in find_disagreements(verdicts)
 
 

@@ -113,7 +113,7 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
     words = np.array(WORDS)[verdicts.verdict.values]
     assert set(words.ravel()) == set(WORDS[:5])
     agree(verdicts.remaining >= DEFAULT_SHARE, verdicts.margin >= 1)
-    thresholds = verdicts.margin * verdicts.modulus_quoted
+    thresholds = verdicts.margin * verdicts.plane_strain_modulus
     # Where any modulus would do, no number is a threshold.
     found = verdicts.plane_strain_modulus_threshold
     is_number = np.isfinite(found)
@@ -121,9 +121,9 @@ def test_share_margin_threshold_and_probability_say_the_same(judged):
     np.testing.assert_allclose(
         found.where(is_number), thresholds.where(is_number), rtol=1e-12, atol=LEAST_MODULUS
     )
-    given = found * verdicts.modulus_given / verdicts.modulus_quoted
+    given = found * verdicts.quoted_modulus / verdicts.plane_strain_modulus
     np.testing.assert_allclose(verdicts.modulus_threshold, given, rtol=1e-12)
-    agree(value >= DEFAULT_SHARE, thresholds.sel(limit="value") >= verdicts.modulus_quoted)
+    agree(value >= DEFAULT_SHARE, thresholds.sel(limit="value") >= verdicts.plane_strain_modulus)
     sticks = np.isin(words, ["sticks", "sticks fully"])
     fails = np.isin(words, ["does not stick", "adheres locally, does not hold"])
     agree(sticks, low >= DEFAULT_SHARE)
