@@ -166,7 +166,6 @@ REFUSED = {
     "flat": (np.ones((N, N)), {}, "all heights are 1e-06 m; nothing to analyse"),
     "all missing": (np.full((N, N), np.nan), {}, "16384 points, which are all, are missing"),
     "missing": (HALF, {"missing": "refuse"}, "more than the 0.0 % that are filled"),
-    "three dimensions": (np.ones((3, 4, 5)), {}, "two-dimensional array or a profile"),
     "no npz": (b"not binary at all", {"name": "a.npz", **ENTRY}, "not a readable numpy file"),
     "torn": (b"DIGITAL SURF\0\0\0\1\2", {"name": "a.sur"}, TORN),
     "half a file": (HDF5[: len(HDF5) // 2], {"name": "a.dat"}, TORN),

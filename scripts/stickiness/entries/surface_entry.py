@@ -182,7 +182,7 @@ LengthUnit = Annotated[str, AfterValidator(_check_length_unit)]
 class MeasuredFile(Section):
     """A measured file, and what it does not tell itself."""
 
-    file: f.Text = needed("file of any instrument, .nc, .npz, .npy or text")
+    file: f.Text = needed("file of any instrument, .nc, .npz, .npy, .mat, .h5 or text")
     format: f.Maybe[f.Text] = optional(
         "netcdf, numpy, text, instrument or a format of SurfaceTopography, if the name misleads"
     )
@@ -198,7 +198,7 @@ class MeasuredFile(Section):
     )
     height_unit: f.Maybe[LengthUnit] = optional('unit of the heights, e.g. "nm"')
     position_unit: f.Maybe[LengthUnit] = optional(
-        'unit of the positions of a line profile, e.g. "um"'
+        'unit of positions on a line, or of the steps of a map, e.g. "um"'
     )
     missing_value: f.Maybe[float] = optional("number that marks missing points besides NaN")
 
@@ -220,11 +220,12 @@ class Analysis(Section):
     )
     detrend: Literal["detect", "mean", "plane", "quadratic"] = optional(
         "what to subtract from the heights; default detect: a plane, or the form of a lens where "
-        "that is nearly all of the heights",
+        "that is nearly all of the heights, or the mean of heights that a file calls periodic",
         "detect",
     )
-    window: Literal["none", "hann", "hann_radial"] = optional(
-        "taper; none for periodic heights", "hann"
+    window: Literal["detect", "none", "hann", "hann_radial"] = optional(
+        "taper; default detect: none if the file says that the heights are periodic, else hann",
+        "detect",
     )
     fit_from: f.Maybe[f.Length] = optional(
         "longest wavelength of the fit; default a quarter of the side"

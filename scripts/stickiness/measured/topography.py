@@ -42,6 +42,7 @@ class _Heights:
     contradictions: tuple[str, ...] = ()  #: what the caller said otherwise than the file
     remarks: tuple[str, ...] = ()  #: what was done to the heights that the caller did not ask for
     trend: Detrend = "mean"  #: what was subtracted from the heights
+    periodic: bool = False  #: whether the heights go on periodically, as the file says
 
     @property
     def h_rms(self) -> float:
@@ -85,10 +86,13 @@ class _Heights:
     def detrended(self, kind: Detrend = "plane") -> Self:
         """Return the same measurement less its mean, plane (line) or quadratic trend.
 
-        "detect" chooses a plane, or a quadratic trend with a remark; see `levelling.find_form`.
+        "detect" chooses a plane, or a quadratic trend with a remark; see `levelling.find_form`. Of
+        periodic heights it subtracts the mean alone, for less a plane they are periodic no more.
         """
         remarks = self.remarks
-        if kind == "detect":
+        if kind == "detect" and self.periodic:
+            kind = "mean"
+        elif kind == "detect":
             share = levelling.find_form(self.heights)
             kind = "plane" if share is None else "quadratic"
             if share is not None:
@@ -100,7 +104,8 @@ class _Heights:
                     "it, give detrend: plane",
                 )
         levelled = levelling.detrend(self.heights, kind)
-        return replace(self, heights=levelled, trend=kind, remarks=remarks)
+        periodic = self.periodic and kind == "mean"
+        return replace(self, heights=levelled, trend=kind, remarks=remarks, periodic=periodic)
 
 
 @dataclass(frozen=True)
@@ -183,7 +188,8 @@ def read(
     Parameters
     ----------
     path : str or Path
-        NetCDF (.nc), numpy (.npz, .npy), text, or a file as an instrument wrote it.
+        NetCDF (.nc), numpy (.npz, .npy), MATLAB, HDF5, text, a map as another program wrote it, or
+        a file of an instrument.
     length : length or pair of lengths, optional
         Side of the measured area, along x and y: "10 um", ("10 um", "20 um") or metres. A single
         value is the side along x, the pixels are square. Overrides what the file says.
@@ -261,7 +267,14 @@ def read(
         source=raw.source,
         scale=scale,
     )
-    return replace(measurement, others=raw.others, contradictions=contradictions)
+    is_whole = measurement.heights.shape == heights.shape
+    return replace(
+        measurement,
+        others=raw.others,
+        contradictions=contradictions,
+        remarks=raw.remarks + measurement.remarks,
+        periodic=raw.periodic and is_whole,
+    )
 
 
 def from_array(

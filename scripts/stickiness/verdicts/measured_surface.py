@@ -53,9 +53,20 @@ class Measurement:
     def _level(cls, heights: Topography | Profile, entry: Mapping[str, Any]) -> Measurement:
         """Level heights, and set the limits of their spectrum."""
         lengths = {key: float(entry[key]) for key in _LIMIT_KEYS if entry.get(key) is not None}
+        levelled = heights.detrended(entry["detrend"])
+        window = entry["window"]
+        if window == "detect":
+            window = "none" if levelled.periodic else "hann"
+        if levelled.periodic:
+            taper = "without a taper" if window == "none" else f"with the taper {window}"
+            remark = (
+                f"{levelled.source}: the file says that the heights are periodic; they were "
+                f"analysed less their mean and {taper} (to change it, give detrend or window)"
+            )
+            levelled = replace(levelled, remarks=(*levelled.remarks, remark))
         return cls(
-            heights=heights.detrended(entry["detrend"]),
-            window=entry["window"],
+            heights=levelled,
+            window=window,
             limits=Limits(**lengths, detect=entry["cutoff"] == "detect"),
         )
 

@@ -197,7 +197,8 @@ class PeriodicHeights:
 def prepare(measured: MeasuredMap, points: int) -> PeriodicHeights:
     """`PeriodicHeights` on at most `points` along the longer side, fewer if all waves are there."""
     heights = measured.heights
-    whole = periodic.periodise(heights.heights, PERIODISATION)
+    kind = "given" if heights.periodic else PERIODISATION
+    whole = periodic.periodise(heights.heights, kind)
     waves = max(heights.size) / (2 * np.pi)  # per wave number along the longer side
     nyquist = np.pi / max(heights.dx, heights.dy)
     q_max = min(measured.cutoff, nyquist, points / (LEAST_PIXELS * waves)) * (1 - ROUNDING)

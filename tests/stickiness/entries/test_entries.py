@@ -62,7 +62,7 @@ def test_measurements_share_the_keys_beside_their_list():
     assert (first["file"], first["detrend"], first["length"]) == ("a", "quadratic", None)
     assert (second["file"], second["detrend"], second["length"]) == ("b", "mean", [1e-6, 2e-6])
     (single,) = entries.list_measurements(entries.check_surface({"kind": "measured", "file": "a"}))
-    assert (single["file"], single["window"], single["max_missing"]) == ("a", "hann", 0.1)
+    assert (single["file"], single["window"], single["max_missing"]) == ("a", "detect", 0.1)
 
 
 @pytest.mark.parametrize(

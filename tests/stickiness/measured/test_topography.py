@@ -236,7 +236,6 @@ def test_arguments_that_do_not_fit_the_file(tmp_path, counts, arguments, message
     ("name", "content", "arguments", "message"),
     [
         ("a.txt", "1 2 3\n4 5 6\n", {"channel": "Height"}, "a text file has no channels"),
-        ("a.txt", "0 1\n1 2\n1 3\n", {"position_unit": "m"}, "must all differ"),
         ("a.nc", "not binary at all", {}, "a.nc: not a readable NetCDF file"),
         ("a.txt", "1\n2\n3\n", {"length": ["1 m", "2 m"]}, "one length for a line profile"),
     ],

@@ -1,0 +1,305 @@
+"""Files of arrays: NetCDF, numpy, MATLAB and HDF5.
+
+A matrix has its rows along y in all of them, as in text, unless positions beside it or names of
+dimensions say otherwise.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.measured.readers.instruments import (
+    HEIGHTS,
+    NO_HEIGHTS,
+    open_reader,
+    read_channel,
+)
+from stickiness.measured.readers.points import map_points
+from stickiness.measured.readers.raw import Raw, find_step, is_length, metres
+
+_POSITION = re.compile(r"(?:^|.*[/_])([xy])[-_]?([xy]|s|v|i|grid|mesh|data|pos\w*|coord\w*|axis)?$")
+_UNITS = ("units", "unit")  # attributes
+_MATLAB = b"MATLAB"
+
+
+def read_netcdf(path: Path, variable: str | None) -> Raw:
+    """Read a variable of a NetCDF file."""
+    import xarray as xr  # only this format needs it
+
+    try:
+        dataset = xr.load_dataset(path)
+    except (OSError, ValueError) as error:
+        raise ValueError(f"not a readable NetCDF file ({error})") from error
+    if variable in (None, "heights") and _is_of_contact_engineering(dataset):
+        return replace(read_channel(path, open_reader(path, "nc")), source=f"{path}: heights")
+    name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
+    data = dataset[name].astype(float)
+    if data.ndim == 2:
+        first, second = (str(dim).lower() for dim in data.dims)
+        first_is_x = first in ("x", "lon", "longitude", "easting")
+        second_is_y = second in ("y", "lat", "latitude", "northing")
+        if not (first_is_x or second_is_y):
+            data = data.transpose()
+    places = None
+    place_unit = None
+    coordinates = [dataset[dim] for dim in data.dims]
+    units = [unit for each in coordinates if (unit := _find_unit(each.attrs)) is not None]
+    if len(units) == len(coordinates):
+        if data.ndim == 1:
+            places = coordinates[0].values.astype(float)
+            place_unit = units[0]
+        elif all(map(is_length, units)):  # not degrees or pixels: the caller must say
+            places = np.array(
+                [
+                    find_step(each.values, str(each.name)) * metres(f"1 {unit}", str(each.name))
+                    for each, unit in zip(coordinates, units, strict=True)
+                ]
+            )
+            place_unit = "m"
+    return Raw(
+        heights=np.array(data.values),
+        source=f"{path}: {name}",
+        unit=_find_unit(data.attrs),
+        others=others,
+        places=places,
+        place_unit=place_unit,
+    )
+
+
+def _is_of_contact_engineering(dataset) -> bool:
+    """Whether a dataset is a topography as SurfaceTopography and contact.engineering write it."""
+    if "heights" not in dataset.variables:
+        return False
+    told = dataset["x"].attrs if "x" in dataset.variables else {}
+    return "length" in told or "periodic" in told or dataset["heights"].dims == ("n",)
+
+
+def _find_unit(attributes: Mapping) -> str | None:
+    values = [attributes[name] for name in _UNITS if name in attributes]
+    if not values:
+        return None
+    return values[0].decode() if isinstance(values[0], bytes) else str(values[0])
+
+
+def _choose(
+    arrays: Mapping, candidates: Mapping, wanted: str | None, what: str
+) -> tuple[str, tuple[str, ...]]:
+    """Array to read: the one wanted; else the only map or the only profile, and the others."""
+    if wanted is not None:
+        if wanted not in arrays:
+            raise ValueError(f"no {what} {wanted!r}; the file has {sorted(arrays)}")
+        if arrays[wanted].ndim not in (1, 2):
+            raise ValueError(f"{what} {wanted!r} is neither a map (2D) nor a profile (1D)")
+        return wanted, ()
+    usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
+    usable = [
+        name for name in usable if not NO_HEIGHTS.search(name) or HEIGHTS.search(name)
+    ] or usable
+    eligible = [name for name in usable if arrays[name].ndim == 2] or usable
+    named = [name for name in eligible if HEIGHTS.search(name) or name.lower() in ("z", "zz")]
+    if len(named) == 1:
+        eligible = named
+    if len(eligible) != 1:
+        raise ValueError(
+            f"needs one two-dimensional {what}, or one profile, found {sorted(eligible)}; name "
+            f"one as {'channel' if what == 'channel' else 'variable'}"
+        )
+    chosen = eligible[0]
+    return chosen, tuple(name for name in usable if name != chosen)
+
+
+def read_numpy(path: Path, variable: str | None) -> Raw:
+    """Read an array of a numpy file, or an archive of them."""
+    try:
+        loaded = np.load(path, allow_pickle=False)
+    except (OSError, ValueError) as error:
+        # numpy takes what it does not know for a pickle, and advises to load it all the same.
+        reason = "it holds no plain array" if "pickle" in str(error) else error
+        raise ValueError(f"not a readable numpy file ({reason})") from error
+    if isinstance(loaded, np.ndarray):
+        if loaded.dtype.names:
+            arrays = {name: loaded[name] for name in loaded.dtype.names}
+            if not {"x", "y", "z"} <= {name.lower() for name in arrays} and len(arrays) > 1:
+                raise ValueError(
+                    f"a structured array with the fields {', '.join(arrays)}: save that of the "
+                    "heights as a plain array, or call them x, y and z"
+                )
+            return read_arrays(arrays, str(path))
+        heights = _squeeze(loaded)
+        if heights.ndim not in (1, 2):
+            raise ValueError(
+                f"needs a two-dimensional array or a profile, got shape {loaded.shape}; save one "
+                "map of them"
+            )
+        return Raw(_as_real(heights, "the array").T, str(path))
+    with loaded:
+        arrays = dict(loaded)
+    return read_arrays(arrays, str(path), variable, "key")
+
+
+def _squeeze(array: NDArray) -> NDArray:
+    """Array without leading or trailing axes of one, as long as it is no map."""
+    while array.ndim > 2 and 1 in (array.shape[0], array.shape[-1]):
+        array = array[0] if array.shape[0] == 1 else array[..., 0]
+    return array
+
+
+def _as_real(array: NDArray, name: str) -> NDArray:
+    if array.dtype.kind not in "biuf":
+        raise ValueError(f"{name} holds no real numbers (it is of {array.dtype})")
+    return np.array(array, dtype=float)
+
+
+def read_arrays(
+    arrays: Mapping[str, NDArray],
+    source: str,
+    wanted: str | int | None = None,
+    what: str = "key",
+    units: Mapping[str, str] | None = None,
+) -> Raw:
+    """Find the heights among named arrays, and the positions that belong to them.
+
+    Parameters
+    ----------
+    arrays : mapping of arrays
+        All arrays of a file by name; those that hold no numbers are left out.
+    source : str
+        The file, for messages.
+    wanted : str or int, optional
+        Array of the heights, by name or by its number among the maps.
+    what : str
+        What the format calls its arrays.
+    units : mapping of str, optional
+        Units by name of the array.
+    """
+    units = units or {}
+    arrays = {name: _squeeze(np.asarray(array)) for name, array in arrays.items()}
+    if isinstance(wanted, int):
+        maps = [name for name, array in arrays.items() if array.ndim == 2]
+        if not 0 <= wanted < len(maps):
+            raise ValueError(f"no {what} {wanted!r}; the file has {sorted(arrays)}")
+        wanted = maps[wanted]
+    positions = _find_positions(arrays)
+    candidates = {
+        name: array
+        for name, array in arrays.items()
+        if array.dtype.kind in "biuf" and name not in positions.values() and array.size > 1
+    }
+    name, others = _choose(arrays, candidates, wanted, what)
+    heights = _as_real(arrays[name], f"{what} {name!r}")
+    source = f"{source}: {name}"
+    unit = units.get(name)
+    x, y = (arrays[positions[axis]] if axis in positions else None for axis in "xy")
+    place_units = {units.get(positions[axis]) for axis in positions} - {None}
+    place_unit = place_units.pop() if len(place_units) == 1 else None
+    if heights.ndim == 1:
+        same = [each for each in (x, y) if each is not None and each.shape == heights.shape]
+        if len(same) == 2:
+            points = np.stack([*same, heights]).astype(float)
+            grid = map_points(points)
+            remarks = tuple(f"{source}: {text}" for text in grid.remarks)
+            return Raw(grid.heights, source, unit, others, grid.steps, place_unit, remarks=remarks)
+        places = np.array(same[0], dtype=float) if same else None
+        return Raw(heights, source, unit, others, places, place_unit if same else None)
+    heights = heights if _first_is_x(heights.shape, x, y) else heights.T
+    line_x, line_y = _line(x, heights.shape[0]), _line(y, heights.shape[1])
+    if line_x is None or line_y is None:
+        return Raw(heights, source, unit, others)
+    steps = np.array([find_step(line_x, "x"), find_step(line_y, "y")])
+    return Raw(heights, source, unit, others, steps, place_unit)
+
+
+def _find_positions(arrays: Mapping[str, NDArray]) -> dict[str, str]:
+    """Arrays of positions along x and y, by their names; maps only if they are none of heights."""
+    found: dict[str, str] = {}
+    for name, array in arrays.items():
+        match = _POSITION.match(name.lower())
+        if match and array.dtype.kind in "biuf" and (array.ndim == 1 or _is_mesh(array)):
+            found.setdefault(match[1], name)
+    return found
+
+
+def _is_mesh(array: NDArray) -> bool:
+    """Whether a matrix holds positions, which change along one axis only."""
+    if array.ndim != 2 or min(array.shape) < 2:
+        return False
+    return any(
+        np.allclose(lines, lines[:1], rtol=1e-9, atol=0) and lines[0, 0] != lines[0, -1]
+        for lines in (array, array.T)
+    )
+
+
+def _first_is_x(shape: tuple[int, int], x: NDArray | None, y: NDArray | None) -> bool:
+    """Whether positions say that the first axis of a matrix is x."""
+    if x is not None and x.ndim == 2:
+        return x[0, 0] != x[-1, 0]
+    if x is None or y is None:
+        return False
+    return (x.size, y.size) == shape != shape[::-1]
+
+
+def _line(positions: NDArray | None, points: int) -> NDArray | None:
+    """Positions along an axis of so many points; None if these are not theirs."""
+    if positions is None:
+        return None
+    if positions.ndim == 2:
+        positions = positions[0] if positions[0, 0] != positions[0, -1] else positions[:, 0]
+    return positions if positions.size == points else None
+
+
+def read_matlab(path: Path, wanted: str | int | None) -> Raw:
+    """Read a matrix of a MATLAB file."""
+    with path.open("rb") as file:
+        head = file.read(10)
+    if head == _MATLAB + b" 7.3":
+        arrays, units = _load_hdf5(path)
+        # MATLAB stores columns first.
+        arrays = {name: array.T for name, array in arrays.items()}
+    else:
+        import scipy.io
+
+        units = {}
+        arrays = {
+            name: array
+            for name, array in scipy.io.loadmat(path).items()
+            if isinstance(array, np.ndarray) and array.dtype.kind in "biuf"
+        }
+    arrays = {name: array.ravel() if 1 in array.shape else array for name, array in arrays.items()}
+    if not arrays:
+        raise ValueError("the file holds no matrix of numbers; save one, e.g. save('map.mat', 'Z')")
+    return read_arrays(arrays, str(path), wanted, "channel", units)
+
+
+def read_hdf5(path: Path, wanted: str | int | None) -> Raw:
+    """Read a dataset of an HDF5 file."""
+    arrays, units = _load_hdf5(path)
+    if not arrays:
+        raise ValueError("the file holds no matrix of numbers; export one as text, .nc or .npy")
+    return read_arrays(arrays, str(path), wanted, "channel", units)
+
+
+def _load_hdf5(path: Path) -> tuple[dict[str, NDArray], dict[str, str]]:
+    """All arrays of numbers in an HDF5 file, and their units."""
+    import h5py  # SurfaceTopography needs it, too
+
+    arrays: dict[str, NDArray] = {}
+    units: dict[str, str] = {}
+
+    def take(name: str, node) -> None:
+        is_text = node.attrs.get("MATLAB_class") == b"char"
+        if not isinstance(node, h5py.Dataset) or is_text or name.startswith("#"):
+            return
+        if node.dtype.kind in "biuf" and node.ndim in (1, 2, 3) and node.size > 1:
+            arrays[name] = node[...]
+            if (unit := _find_unit(node.attrs)) is not None:
+                units[name] = unit
+
+    with h5py.File(path, "r") as file:
+        file.visititems(take)
+    return arrays, units

@@ -1,0 +1,65 @@
+"""What readers of files return, and lengths in them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.units import si
+
+Length = str | float  # "10 um", or metres
+
+
+@dataclass(frozen=True)
+class Raw:
+    """Content of a file; what the file does not tell is None."""
+
+    heights: NDArray  #: (nx, ny), the first axis along x, or a line profile (n,); NaN where missing
+    source: str  #: file, and variable or channel
+    unit: str | None = None  #: of the heights
+    others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
+    places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
+    place_unit: str | None = None
+    periodic: bool = False  #: whether the file says that the heights go on periodically
+    remarks: tuple[str, ...] = ()  #: what was done to the content that nobody asked for
+
+
+def metres(value: Length, name: str) -> float:
+    """Convert "10 um", or a number of metres, to metres; errors name `name`."""
+    try:
+        length = value if isinstance(value, int | float) else si(value, "m")
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+    if not (np.isfinite(length) and length > 0):
+        raise ValueError(f"{name} must be positive and finite, got {value!r}")
+    return float(length)
+
+
+def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -> tuple[float, ...]:
+    """Sides along every axis [m]; a single value is that along x, with square pixels."""
+    if isinstance(value, str | int | float):
+        x = metres(value, name)
+        return tuple(x * n / shape[0] for n in shape)
+    if len(value) != len(shape):
+        many = "one length or two (x, y)" if len(shape) == 2 else "one length for a line profile"
+        raise ValueError(f"{name} must be {many}, got {value!r}")
+    return tuple(metres(v, name) for v in value)
+
+
+def is_length(unit: str) -> bool:
+    """Whether a text is a unit of length."""
+    try:
+        return si(f"1 {unit}", "m") > 0
+    except ValueError:
+        return False
+
+
+def find_step(positions: NDArray, name: str) -> float:
+    """Step of evenly spaced positions; errors name the axis."""
+    steps = np.diff(np.asarray(positions, dtype=float))
+    if not len(steps) or not np.ptp(steps) <= 1e-3 * abs(steps.mean()):
+        raise ValueError(f"{name!r} is not evenly spaced; resample the heights to a regular grid")
+    return abs(float(steps.mean()))

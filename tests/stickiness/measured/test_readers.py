@@ -1,0 +1,371 @@
+"""One map in the files of many programs: read as from .npy, or refused in one line that helps."""
+
+import struct
+import warnings
+
+import h5py
+import numpy as np
+import pytest
+import scipy.io
+from PIL import Image, TiffImagePlugin
+
+from stickiness import Surface
+from stickiness.measured import topography
+
+pytestmark = pytest.mark.processors
+
+NX, NY, STEP = 24, 16, 2.0  # um
+MAP = np.random.default_rng(4).normal(size=(NY, NX)).round(5)  # um, rows along y
+X, Y = STEP * np.arange(NX), STEP * np.arange(NY)
+MESH = np.meshgrid(X, Y)
+POINTS = np.stack([*MESH, MAP], axis=-1).reshape(-1, 3)
+JITTER = np.random.default_rng(0).normal(0, 0.03, (NX * NY, 2))
+
+UNIT = {"height_unit": "um"}
+PLACED = UNIT | {"position_unit": "um"}
+SIZED = UNIT | {"length": "48 um"}
+
+
+def lines(table, separator=" ", form="{:.5f}"):
+    return "\n".join(separator.join(form.format(v) for v in row) for row in table) + "\n"
+
+
+def beside(*columns):
+    """The points with more columns."""
+    return np.column_stack([POINTS, *columns])
+
+
+def surface_topography():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of what it imports
+        import SurfaceTopography
+    return SurfaceTopography
+
+
+def contact_engineering(path, unit="um", periodic=False):
+    surface_topography().Topography(
+        MAP.T, (NX * STEP, NY * STEP), unit=unit, periodic=periodic
+    ).to_netcdf(str(path))
+
+
+def line_of_contact_engineering(path):
+    surface_topography().NonuniformLineScan(X, MAP[0], unit="um").to_netcdf(str(path))
+
+
+def matlab_7_3(path, **arrays):
+    with h5py.File(path, "w", userblock_size=512) as file:
+        for name, array in arrays.items():
+            file.create_dataset(name, data=np.transpose(np.atleast_2d(array))).attrs[
+                "MATLAB_class"
+            ] = np.bytes_("double")
+    head = b"MATLAB 7.3 MAT-file".ljust(124) + struct.pack("<H", 0x200) + b"IM"
+    with path.open("r+b") as file:
+        file.write(head)
+
+
+def hdf5(path, units=None, **arrays):
+    with h5py.File(path, "w") as file:
+        for name, array in arrays.items():
+            file[name] = array
+            if units:
+                file[name].attrs["units"] = units
+
+
+def tiff(path, description=None, values=MAP):
+    tags = TiffImagePlugin.ImageFileDirectory_v2()
+    if description:
+        tags[270], tags[282], tags[283] = description, 1 / STEP, 1 / STEP
+    values = values.astype("f4") if values is MAP else values
+    Image.fromarray(values).save(path, tiffinfo=tags)
+
+
+def component(name, kind, content):
+    return name.encode() + b"\0" + kind.encode() + content
+
+
+def packed(name, *components):
+    content = b"".join(components)
+    return name.encode() + b"\0" + struct.pack("<I", len(content)) + content
+
+
+def gwyddion(path, unit=""):
+    """A .gwy file of one channel, lengths in m and heights without a unit."""
+    field = packed(
+        "GwyDataField",
+        component("xres", "i", struct.pack("<i", NX)),
+        component("yres", "i", struct.pack("<i", NY)),
+        component("xreal", "d", struct.pack("<d", NX * STEP * 1e-6)),
+        component("yreal", "d", struct.pack("<d", NY * STEP * 1e-6)),
+        component("si_unit_xy", "o", packed("GwySIUnit", component("unitstr", "s", b"m\0"))),
+        component(
+            "si_unit_z", "o", packed("GwySIUnit", component("unitstr", "s", unit.encode() + b"\0"))
+        ),
+        component("data", "D", struct.pack("<I", MAP.size) + MAP.astype("<f8").tobytes()),
+    )
+    title = component("/0/data/title", "s", b"Z\0")
+    content = packed("GwyContainer", title, component("/0/data", "o", field))
+    path.write_bytes(b"GWYP" + content)
+
+
+def simple_field(path, fields=""):
+    head = f"Gwyddion Simple Field 1.0\nXRes = {NX}\nYRes = {NY}\n{fields}".encode()
+    head += b"\0" * (4 - len(head) % 4)
+    path.write_bytes(head + MAP.astype("<f4").tobytes())
+
+
+ENDS = (0, X[-1], 0, Y[-1], MAP.min(), MAP.max())
+ZYGO = (
+    'Zygo {} Data File - Format {}\n{} 8 1 0 "date"\n0 0 0 0 0 0\n0 0 24 16\n"a"\n"b"\n"c"\n'
+    '0 0.5 6.328e-07 0 1 0 2e-06 0\n24 16 0 0 0 0 "lens"\n0 0 0 0 0 0 0 0 0 0\n'
+    '1 0 0 0 0 0 0 0 0\n0 ""\n1 0\n""\n#\n'
+)
+WAVES = np.rint(MAP * 1e-6 / (0.5 * 6.328e-7 / 32768)).astype(int)
+KEYENCE = (
+    '"Model","VK-X3000 Series"\n"XY Calibration","2000","nm"\n"Horizontal","24"\n'
+    '"Vertical","16"\n"Unit","um"\n\n"Height"\n'
+)
+NANOSCOPE = (
+    "\\Samps/line: 24\n\\Number of lines: 16\n\\Scan Size: 48 32 ~m\n"
+    "\\@2:Z scale: V [Sens. Zsens] (0.0067 V/LSB) 5 V\nHeight(um)\n"
+)
+ESRI = "ncols 24\nnrows 16\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -9999\n"
+GSF = "XReal = 48e-6\nYReal = 32e-6\nXYUnits = m\n"
+STRUCTURED = np.rec.fromarrays(POINTS.T, names="x,y,z")
+
+# What is read as the map in .npy is: name of the file; a text, an array or what writes it; options.
+READ = {
+    "contact.engineering": ("a.nc", contact_engineering, {}),
+    "contact.engineering, no unit": ("a.nc", lambda p: contact_engineering(p, None), PLACED),
+    "MATLAB": ("a.mat", lambda p: scipy.io.savemat(p, {"Z": MAP}), SIZED),
+    "MATLAB, positions": (
+        "a.mat",
+        lambda p: scipy.io.savemat(p, {"X": X, "Y": Y, "Z": MAP}),
+        PLACED,
+    ),
+    "MATLAB, meshgrid": (
+        "a.mat",
+        lambda p: scipy.io.savemat(p, {"X": MESH[0], "Y": MESH[1], "h": MAP}),
+        PLACED,
+    ),
+    "MATLAB 7.3": ("a.mat", lambda p: matlab_7_3(p, X=MESH[0], Y=MESH[1], Z=MAP), PLACED),
+    "HDF5": ("a.h5", lambda p: hdf5(p, data=MAP), SIZED),
+    "HDF5 with units": ("a.h5", lambda p: hdf5(p, "um", x=X, y=Y, z=MAP), {}),
+    "npz, the first axis along x": (
+        "a.npz",
+        lambda p: np.savez(p, x=MESH[0].T, y=MESH[1].T, z=MAP.T),
+        PLACED,
+    ),
+    "npz of points": (
+        "a.npz",
+        lambda p: np.savez(p, x=POINTS[:, 0], y=POINTS[:, 1], z=POINTS[:, 2]),
+        PLACED,
+    ),
+    "leading axis": ("a.npy", MAP[None], SIZED),
+    "structured array": ("a.npy", STRUCTURED, PLACED),
+    "float TIFF": ("a.tif", tiff, SIZED),
+    "TIFF of ImageJ": ("a.tif", lambda p: tiff(p, "ImageJ=1.54\nunit=micron\n"), UNIT),
+    "gwy without a unit": ("a.gwy", gwyddion, UNIT),
+    "simple field": ("a.gsf", lambda p: simple_field(p, GSF), UNIT),
+    "simple field without a size": ("a.gsf", simple_field, SIZED),
+    "Surfer": (
+        "a.grd",
+        "DSAA\n24 16\n{} {}\n{} {}\n{} {}\n".format(*ENDS) + lines(MAP),
+        PLACED,
+    ),
+    "Surfer, binary": (
+        "a.grd",
+        lambda p: p.write_bytes(
+            b"DSBB" + struct.pack("<2h6d", NX, NY, *ENDS) + MAP.astype("<f4").tobytes()
+        ),
+        PLACED,
+    ),
+    "ESRI": ("a.asc", ESRI + lines(MAP), PLACED),
+    "Zygo, points": ("a.xyz", ZYGO.format("XYZ", 1, 1) + lines(POINTS / (2, 2, 1)) + "#\n", {}),
+    "Zygo, points of others": ("a.xyz", ZYGO.format("XYZ", 1, 0) + lines(POINTS / (2, 2, 1)), UNIT),
+    "Zygo, phase": (
+        "a.asc",
+        ZYGO.format("ASCII", 2, 1) + "#\n" + lines(WAVES, form="{}") + "#\n",
+        {},
+    ),
+    "Keyence": ("a.csv", KEYENCE + lines(MAP, ",", '"{:.5f}"'), {}),
+    "NanoScope": ("a.txt", NANOSCOPE + lines(MAP.reshape(-1, 1)), {}),
+    "named columns": (
+        "a.csv",
+        "X (mm),Y (mm),Z (nm)\n" + lines(POINTS * (1e-3, 1e-3, 1e3), ",", "{:.8f}"),
+        {},
+    ),
+    "units below names": (
+        "a.txt",
+        "z\tx\ty\n[um]\t[um]\t[um]\n" + lines(POINTS[:, [2, 0, 1]], "\t"),
+        {},
+    ),
+    "quoted": ("a.csv", '"Height","um"\n' + lines(MAP, ",", '"{:.5f}"'), {"length": "48 um"}),
+    "quoted decimal commas": (
+        "a.csv",
+        lines(MAP, ",", '"{:.5f}"').replace(".", ","),
+        SIZED,
+    ),
+    "points and colours": ("a.xyz", lines(beside(*np.full((3, MAP.size), 200))), PLACED),
+    "points with an index": (
+        "a.xyz",
+        "# i x y z\n" + lines(np.column_stack([np.arange(MAP.size), POINTS])),
+        PLACED,
+    ),
+    "a count before points": ("a.xyz", f"{MAP.size}\n" + lines(POINTS), PLACED),
+    "counts before a matrix": ("a.txt", f"{NX} {NY}\n" + lines(MAP), SIZED),
+    "lines of a scan": (
+        "a.xyz",
+        "\n".join(lines(block) for block in POINTS.reshape(NY, NX, 3)),
+        PLACED,
+    ),
+    "one column, counts": ("a.txt", "# nx: 24\n# ny: 16\n" + lines(MAP.reshape(-1, 1)), SIZED),
+    "one column, sides": (
+        "a.txt",
+        "# Width: 48 um\n# Height: 32 um\n# Value units: um\n" + lines(MAP.reshape(-1, 1)),
+        {},
+    ),
+    "points beside a grid": ("a.xyz", lines(POINTS + np.c_[JITTER, 0 * JITTER[:, 0]]), PLACED),
+}
+
+
+def write(folder, name, content):
+    path = folder / name
+    if callable(content):
+        content(path)
+    elif isinstance(content, str):
+        path.write_text(content)
+    elif isinstance(content, bytes):
+        path.write_bytes(content)
+    else:
+        np.save(path, content)
+    return path
+
+
+@pytest.mark.parametrize("kind", READ)
+def test_every_file_of_a_map_gives_what_npy_gives(tmp_path, kind):
+    name, content, options = READ[kind]
+    same = topography.read(write(tmp_path, "same.npy", MAP), **SIZED)
+    found = topography.read(write(tmp_path, name, content), **options)
+    assert found.heights.shape == same.heights.shape == (NX, NY)
+    tolerance = 2e-3 if kind == "points beside a grid" else 1e-6
+    assert found.steps == pytest.approx(same.steps, rel=tolerance)
+    np.testing.assert_allclose(found.heights, same.heights, atol=2e-11)
+    assert found.contradictions == ()
+    told = {"points and colours", "points with an index", "points beside a grid"}
+    assert bool(found.remarks) == (kind in told)
+
+
+SCATTERED = np.random.default_rng(1).random((500, 3))
+LINE = lines(np.column_stack([X, X % 7]))
+# What is refused: name of the file, content, options, words of the error.
+REFUSED = {
+    "two maps": ("a.txt", lines(MAP) + "\n" + lines(MAP), SIZED, "two blocks of 16 rows; give one"),
+    "two profiles": ("a.txt", LINE + "# next\n" + LINE, PLACED, "two blocks of 24 rows"),
+    "scattered points": ("a.xyz", lines(SCATTERED), PLACED, "resample them to a regular grid"),
+    "a cloud of points": (
+        "a.xyz",
+        lines(np.column_stack([SCATTERED, SCATTERED])),
+        PLACED,
+        "a table of 500 rows in 6 columns is no map",
+    ),
+    "a wrong count": ("a.xyz", "99\n" + lines(POINTS), PLACED, "counts 99 points, but 384 follow"),
+    "repeated positions": ("a.txt", LINE + LINE, PLACED, "24 occur twice or more"),
+    "units of positions": (
+        "a.txt",
+        "X (mm)\tY (um)\tZ (um)\n" + lines(POINTS, "\t"),
+        {},
+        "in mm and um; write both in one unit",
+    ),
+    "fields": ("a.npy", np.rec.fromarrays([X, X], names="a,b"), SIZED, "with the fields a, b"),
+    "many maps": ("a.npy", np.stack([MAP, MAP]), SIZED, "got shape (2, 16, 24); save one map"),
+    "complex numbers": ("a.npy", MAP * 1j, SIZED, "holds no real numbers"),
+    "two matrices": (
+        "a.mat",
+        lambda p: scipy.io.savemat(p, {"a": MAP, "b": MAP}),
+        SIZED,
+        "found ['a', 'b']; name one as channel",
+    ),
+    "uneven positions": ("a.h5", lambda p: hdf5(p, x=X**2, y=Y, z=MAP), UNIT, "'x' is not evenly"),
+    "no matrix": ("a.mat", lambda p: scipy.io.savemat(p, {"a": "text"}), SIZED, "no matrix of"),
+    "colours": ("a.tif", lambda p: tiff(p, values=np.zeros((9, 9, 3), "u1")), SIZED, "colours or"),
+    "half a simple field": (
+        "a.gsf",
+        b"Gwyddion Simple Field 1.0\nXRes = 9\nYRes=9\n\0",
+        SIZED,
+        "its end is missing",
+    ),
+    "another unit": (
+        "a.gwy",
+        lambda p: gwyddion(p, "V"),
+        SIZED,
+        "no channel of heights: it has 'Z' (V)",
+    ),
+    "half a grid": ("a.grd", "DSAA\n24 16\n0 1\n0 1\n0 1\n1 2 3\n", PLACED, "has 3 heights, but"),
+    "half of Zygo's": (
+        "a.xyz",
+        "Zygo XYZ Data File - Format 1\n0 0\n",
+        {},
+        "Zygo's software cannot",
+    ),
+    "a picture": (
+        "a.png",
+        b"\x89PNG\r\n\x1a\n",
+        SIZED,
+        "a picture (PNG), no map of heights; export",
+    ),
+    "a mesh": ("a.stl", "solid a\nfacet normal 0 0 1\n", SIZED, "a mesh of triangles (STL)"),
+    "an unknown file": (
+        "a.dat",
+        b"\1\0\2" * 99,
+        SIZED,
+        "no reader takes it; export the heights as",
+    ),
+    "a square of unknown bytes": ("a.dat", b"\1\0" * 1201**2, SIZED, "no reader knows its first"),
+}
+
+
+@pytest.mark.parametrize("kind", REFUSED)
+def test_other_files_are_refused_in_one_line_that_helps(tmp_path, kind):
+    name, content, options, words = REFUSED[kind]
+    path = write(tmp_path, name, content)
+    with pytest.raises(ValueError, match=name) as caught:
+        topography.read(path, **options)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("kind", "wanted"),
+    [
+        ("gwy without a unit", {"height_unit"}),
+        ("ESRI", {"height_unit", "position_unit"}),
+        ("Surfer", {"height_unit", "position_unit"}),
+        ("MATLAB", {"height_unit", "length"}),
+        ("quoted", {"length"}),
+    ],
+)
+def test_only_what_a_file_lacks_is_asked_for(tmp_path, kind, wanted):
+    name, content, _ = READ[kind]
+    with pytest.raises(topography.UntoldError) as caught:
+        topography.read(write(tmp_path, name, content))
+    assert {keys[0] for keys in caught.value.unknown.values()} == wanted
+
+
+def test_an_uneven_line_of_contact_engineering(tmp_path):
+    line_of_contact_engineering(tmp_path / "a.nc")
+    found = topography.read(tmp_path / "a.nc")
+    np.testing.assert_allclose(found.heights, 1e-6 * MAP[0], rtol=1e-12)
+    assert found.dx == pytest.approx(STEP * 1e-6)
+
+
+def test_periodic_heights_are_analysed_as_such_unless_told_otherwise(tmp_path):
+    contact_engineering(tmp_path / "a.nc", periodic=True)
+    same = write(tmp_path, "same.npy", MAP)
+    as_file = Surface.read(tmp_path / "a.nc").data
+    by_hand = Surface.read(same, **SIZED, window="none", detrend="mean").data
+    np.testing.assert_allclose(as_file.psd, by_hand.psd, rtol=1e-6)
+    assert "periodic; they were analysed less their mean and without a taper" in as_file.remarks
+    # Less a plane they are periodic no more.
+    levelled = Surface.read(tmp_path / "a.nc", detrend="plane").data
+    np.testing.assert_allclose(levelled.psd, Surface.read(same, **SIZED).data.psd, rtol=1e-6)
+    assert "periodic" not in levelled.remarks
