@@ -51,6 +51,7 @@ LIMITS = {
     "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),
     "skin_thickness": Limits(1e-10, 1e-3, 1.0, "oxides have 1 nm to 30 um, paints 0.3 mm", "m"),
 }
+LIMITS["plane_strain_modulus"] = LIMITS["youngs_modulus"]
 
 
 class PlausibilityWarning(UserWarning):

@@ -452,7 +452,8 @@ class Material(ElasticPair, f.Labelled):
     @property
     def doubts(self) -> tuple[str, ...]:
         """Sentences about values that hardly any real pair has."""
-        values = {"youngs_modulus": self.quoted_modulus, "range": self.range}
+        name = "plane_strain_modulus" if self.is_plane_strain else "youngs_modulus"
+        values = {name: self.quoted_modulus, "range": self.range}
         if self.poisson_ratio is not None:
             values["poisson_ratio"] = self.poisson_ratio
         if not self.work_on_smooth:

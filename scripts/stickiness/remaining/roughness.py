@@ -471,7 +471,9 @@ class Roughness:
         # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
         # A film may raise the energy on the way there.
         energy = np.asarray(pairs.rough.elastic_energy)
-        most_energy = pairs.rough.at_modulus(SOFTEST).elastic_energy
+        most_energy = np.asarray(pairs.rough.at_modulus(SOFTEST).elastic_energy)
+        if self.simulated is not None:  # whose energy may exceed that of a spectrum that is drawn
+            most_energy = np.maximum(most_energy, self.simulated.whole.full_contact_energy)
         lowest = np.log(LEAST_LENGTH * energy)
         highest = np.log(20 * most_energy / (1 - pairs.wanted_share))
 

@@ -194,11 +194,15 @@ def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[st
     """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
     # What has limits: a row for each surface that it may be, both ends first and then the draws.
     length_threshold = pair.remaining_threshold
+    # Where the search for the adhesion length ends, any modulus would do.
+    holds_always = length_threshold < 1.01 * LEAST_LENGTH * pair.elastic_energy
     in_rows = {
         "remaining": pair.remaining,
         "pull_off": pair.pull_off,
         "margin": pair.adhesion_length / length_threshold,
-        "plane_strain_modulus_threshold": pair.work_of_adhesion / length_threshold,
+        "plane_strain_modulus_threshold": np.where(
+            holds_always, np.inf, pair.work_of_adhesion / length_threshold
+        ),
     }
     cell: dict[str, Any] = {name: rough.limit(values, pair) for name, values in in_rows.items()}
     cell |= describe_draws(rough.scenarios, pair)
@@ -207,11 +211,8 @@ def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[st
     ends = rough.take_ends(pair)
     cell |= find_quantities(ends)
 
-    # Thresholds of E*, and of the modulus as it was given. Where the search for the adhesion length
-    # ends, any modulus would do.
-    stiffest = 0.99 * pair.modulus * cell["energy_ratio"][-1] / LEAST_LENGTH
+    # Thresholds of E*, and of the modulus as it was given.
     moduli = cell["plane_strain_modulus_threshold"]
-    moduli = np.where(moduli < stiffest, moduli, np.inf)
     moduli = np.where(moduli < LEAST_MODULUS, 0.0, moduli)
     cell["plane_strain_modulus_threshold"] = moduli
     cell["modulus_threshold"] = moduli * material.quoted_modulus / material.plane_strain_modulus
@@ -389,7 +390,7 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
     """Unit, description and, where a value may be missing, what that means, of every variable."""
     unmeasured = "not measured"
     no_longer = "no waves longer than the scan are expected or known"
-    any_modulus = "not judged, or any modulus would do"
+    any_modulus = "not judged; infinite where any modulus would do"
     texts: dict[str, tuple[str, ...]] = {
         **LIMITED,
         **{name: (*LIMITED[name], any_modulus) for name in LIMITED if "modulus" in name},

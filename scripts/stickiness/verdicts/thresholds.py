@@ -44,7 +44,11 @@ _NOT_BRACKETED = -1
 
 UNKNOWN = Limited(np.nan, np.nan, np.nan)
 THRESHOLDS = {  #: unit, description, and why a value may be missing
-    "rms_height_threshold": ("m", "rms height below which the wanted share remains", "not known"),
+    "rms_height_threshold": (
+        "m",
+        "rms height below which the wanted share remains; of two rough solids that of the pair",
+        "not known",
+    ),
     "thickness_threshold": ("m", "thickness above which the wanted share remains", "no layer"),
     "rate_threshold": ("Hz", "frequency below which the wanted share remains", "elastic, or dwell"),
     "contact_pressure": (

@@ -9,7 +9,8 @@
     const cell = row.cells[column];
     const given = cell.dataset.value;
     if (given === undefined) return cell.textContent.trim();
-    return given === "" || Number.isNaN(Number(given)) ? null : Number(given);
+    const number = Number(given.replace("inf", "Infinity"));
+    return given === "" || Number.isNaN(number) ? null : number;
   };
 
   const compare = (a, b) =>
