@@ -29,6 +29,8 @@ def start(names: dict[str, Any]) -> Any:
     place = PROJECT if os.access(PROJECT, os.W_OK) else Path()
     compiled = Path(place, ".snakemake", "loops", platform.node()).absolute()
     os.environ.setdefault("NUMBA_CACHE_DIR", str(compiled))
+    # Files are written whole, under names of their own; locks only fail where there are none.
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
     if "snakemake" not in names:
         job = read_command(Path(names["__file__"]), sys.argv[1:])
         logging.basicConfig(**STYLE)

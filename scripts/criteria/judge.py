@@ -108,9 +108,9 @@ def tabulate_pairs(rows):
         pair = row["pair"]
         has_poisson = bool(np.isfinite(pair.poisson_ratio))
         cells = {
-            "material": row["material"],
+            "material": keep_text(row["material"]),
             "material key": row["key"],
-            "surface": row["surface"],
+            "surface": keep_text(row["surface"]),
             "surface key": row["name"],
             "entry": "yours" if row["mine"] else "other",
             "verdict": row["word"],
@@ -131,6 +131,11 @@ def tabulate_pairs(rows):
             cells[f"{head}, high limit [{unit}]"] = high
         table.append(cells | row["keeps"])
     return pd.DataFrame(table)
+
+
+def keep_text(label):
+    """A label that no program of tables takes for a formula."""
+    return f"'{label}" if label.startswith(("=", "+", "-", "@")) else label
 
 
 def compare_thresholds(dataset, others, labels):

@@ -16,9 +16,10 @@ from functools import partial
 from importlib.metadata import version
 from itertools import count
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TextIO
 
 from stickiness import __version__
+from stickiness.formatting import printable
 
 SURFACE = "surface"  #: name of the one that is judged, in files
 TEXTS = tomllib.loads(Path(__file__).with_name("command.toml").read_text(encoding="utf-8"))
@@ -31,6 +32,9 @@ def main() -> None:
     # Before numpy is loaded: on such grids the threads of linear algebra wait more than they work.
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")
+    # Files are written whole under names of their own; locks only fail where there are none.
+    os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+    sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
     try:
         answer()
         sys.stdout.flush()
@@ -39,6 +43,13 @@ def main() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         if not isinstance(error, BrokenPipeError):  # whoever reads the output has read enough
             fail(str(error))
+    except MemoryError as error:
+        fail(f"not enough memory ({error}): take a part of the heights, or every second point")
+
+
+def say(text: str, file: TextIO | None = None) -> None:
+    """Print a text for readers."""
+    print(printable(text), file=file)
 
 
 def answer() -> None:
@@ -54,7 +65,7 @@ def answer() -> None:
     progress = sys.stderr if options.json else sys.stdout
     if is_example:
         write_example(options.file)
-        print(f"Example: python -m stickiness {shlex.join(arguments)}", file=progress)
+        say(f"Example: python -m stickiness {shlex.join(arguments)}", file=progress)
     for path in filter(None, [options.file, options.tape]):
         if not path.is_file():
             fail(f"{path}: {'a folder; give a file' if path.is_dir() else 'no such file'}")
@@ -69,10 +80,10 @@ def answer() -> None:
     if not options.json:
         for choice in surface.choices:
             source, others = choice.split(" | ")
-            print(f"This is {source}; the file also holds {others} (--channel, --variable)")
+            say(f"This is {source}; the file also holds {others} (--channel, --variable)")
     if not options.no_page:
         page = make_page(options, surface, entry, materials, verdicts)
-        print(f"Page: {page}", file=progress)
+        say(f"Page: {page}", file=progress)
 
 
 def print_materials() -> None:
@@ -80,7 +91,7 @@ def print_materials() -> None:
     from stickiness.entries import list_common_materials
 
     for name, entry in list_common_materials().items():
-        print(
+        say(
             f"{name:<24} E = {entry['youngs_modulus']}, nu = {entry['poisson_ratio']:g}, "
             f"work = {entry['work_of_adhesion']}, range = {entry['range']}; "
             + ". ".join(filter(None, (entry["source"], entry["note"])))
@@ -89,7 +100,7 @@ def print_materials() -> None:
 
 def fail(text: str) -> NoReturn:
     """End the command with one line."""
-    sys.exit(f"stickiness: {text}")
+    sys.exit(printable(f"stickiness: {text}"))
 
 
 def spell_out_example(arguments: list[str]) -> list[str]:
@@ -154,13 +165,23 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
             if key in TEXTS["defaults"]:
                 text = f"{text} (default: {TEXTS['defaults'][key]})"
             group.add_argument(option, dest=key, type=kind, metavar="VALUE", help=text)
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(join_negative(arguments))
     used = [OPTIONS[key] for key in choose_given(options, "material")]
     if options.tape and used:
         fail(f"--tape describes the material: leave out {', '.join(used)}")
     if not (options.tape or options.common) and not {"--modulus", "--work"} <= {*used}:
         fail('give --modulus "0.2 MPa" and --work "60 mJ/m^2", --material or --tape; see --help')
     return options
+
+
+def join_negative(arguments: list[str]) -> list[str]:
+    """Join options to negative numbers behind them, which else look like options themselves."""
+    joined: list[str] = []
+    for word in arguments:
+        if re.match(r"-\.?\d", word) and joined and re.fullmatch(r"--[a-z-]+", joined[-1]):
+            word = f"{joined.pop()}={word}"
+        joined.append(word)
+    return joined
 
 
 def describe_version() -> str:
@@ -184,11 +205,13 @@ def read_radius(text: str) -> float:
 
 
 def read_value(text: str) -> Any:
-    """Return a number, a list of two values around an x, or the text."""
+    """Return a number, a list of two values around an x that is not before 10^5, or the text."""
     try:
         return json.loads(text)
     except ValueError:
-        sides = re.split(r"\s*[x×]\s*(?=\d)", text)
+        if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", text, re.IGNORECASE):
+            return float(text)  # .5, which is no JSON
+        sides = re.split(r"\s*[x×]\s*(?=\d)(?!10\s*(?:\^|\*\*|[⁻⁰¹²³⁴-⁹]))", text)
         return sides if len(sides) == 2 else text
 
 
@@ -211,7 +234,18 @@ def one_line() -> Iterator[None]:
     except UntoldError as error:
         fail(error.tell(OPTIONS))
     except (ValueError, OSError) as error:
-        fail(" ".join(str(error).split()))
+        fail(name_options(" ".join(str(error).split())))
+
+
+def name_options(text: str) -> str:
+    """Return advice on a surface with options in place of the keys that it names.
+
+    Keys that are words, too, are told by what stands before them.
+    """
+    keys = "|".join(sorted(TEXTS["surface"], key=len, reverse=True))
+    before = "(?<=give )|(?<=correct )|(?<=or )|(?<=by )|(?<=leave )"
+    named = rf"(?:\b(?=\w+_)|{before})({keys})\b(?:: (\S+))?"
+    return re.sub(named, lambda m: " ".join(filter(None, (OPTIONS[m[1]], m[2]))), text)
 
 
 def read_materials(options: argparse.Namespace) -> dict[str, Any]:
@@ -235,8 +269,8 @@ def analyse(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     # Texts name the file, and should not tell of the machine.
     file = os.path.relpath(options.file) if options.file.is_absolute() else options.file
     described = {
-        "label": options.file.stem,
-        "source": options.file.name,
+        "label": name_page(options.file),
+        "source": printable(options.file.name),
         "kind": "measured",
         "file": str(file),
     }
@@ -257,7 +291,8 @@ def judge(materials: dict[str, Any], surface: Any, with_page: bool) -> Any:
 def tell_entry_error(error: Any) -> str:
     """Return what is wrong with a value, by the option that gave it."""
     option = OPTIONS.get(error.key)
-    return str(error) if option is None else f"{option} {error.value!r}: {error.message}"
+    message = name_options(error.message)
+    return str(error) if option is None else f"{option} {error.value!r}: {message}"
 
 
 def find_balls(surface: Any, materials: dict[str, Any], radius: float | None) -> list:
@@ -285,14 +320,15 @@ def print_verdicts(verdicts: Any, balls: list, as_json: bool) -> None:
         verdict = StickinessVerdict(cell)
         label = cell.material_label.item()
         if not as_json:
-            print(f"{label[0].upper()}{label[1:]}: {verdict}")
+            say(f"{label[0].upper()}{label[1:]}: {name_options(str(verdict))}")
             if ball:
-                print(ball)
+                say(ball)
         name = {"material": label} if len(balls) > 1 else {}
         listed.append(name | verdict.to_dict() | ({"ball": ball.to_dict()} if ball else {}))
     if as_json:
         contents: Any = listed if len(listed) > 1 else listed[0]
-        print(json.dumps(contents, indent=1, ensure_ascii=False, allow_nan=False))
+        is_unicode = sys.stdout.encoding.lower().startswith("utf")
+        say(json.dumps(contents, indent=1, ensure_ascii=not is_unicode, allow_nan=False))
 
 
 def make_page(
@@ -323,7 +359,7 @@ def make_page(
     }
     with hold_folder(options.output):
         try:
-            name = find_name(options.output, options.file.stem, source)
+            name = find_name(options.output, name_page(options.file), source)
             files = {each: options.output / name / f"{each}.nc" for each in contents}
             for each, path in files.items():
                 title = f"{each.replace('_', ' ')} of {name}"
@@ -340,6 +376,11 @@ def make_page(
         except OSError as error:
             fail(f"no page: --output {options.output}: {error}")
     return page
+
+
+def name_page(file: Path) -> str:
+    """Return the name of a file without its ending, unless that is a number, as of scan.001."""
+    return printable(file.name if file.suffix[1:].isdigit() else file.stem)
 
 
 def find_name(folder: Path, stem: str, source: str) -> str:

@@ -1,6 +1,7 @@
 """Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
 
 import math
+import re
 from collections.abc import Callable, Sequence
 
 NOTHING = "–"
@@ -10,7 +11,15 @@ _PLAIN = range(-3, 5)  # decimal exponents written without a power of ten
 _LEAST_SHARE = 1e-4  # that a percentage tells from none
 FAR = 1e3  #: ratio of limits beyond which a value between them says nothing
 
+# Control characters, those that turn the direction of writing, and halves of characters.
+_UNPRINTABLE = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+
 Write = Callable[[Sequence[float]], tuple[list[str], str]]  # texts of values, and their unit
+
+
+def printable(text: str) -> str:
+    """Text without what terminals obey instead of showing it."""
+    return _UNPRINTABLE.sub("", text)
 
 
 def number(value: float, digits: int = 3) -> str:

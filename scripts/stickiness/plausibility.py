@@ -36,7 +36,7 @@ _OF_SLOPE = "small slopes are assumed; give heights and lengths both in m"
 _OF_WORK = (
     "solids other than clean metals have up to 0.1 J/m^2; is it in mJ/m^2, or an energy of "
     "peeling, which includes dissipation? If it was measured on smooth surfaces, set "
-    "work_on_smooth: true (--work-on-smooth true)"
+    "work_on_smooth: true"
 )
 _OF_HEIGHT = "atoms are larger than 0.05 nm; give heights in m (1e-6 for 1 um)"
 #: By the name of the argument, or of the key in the configuration.

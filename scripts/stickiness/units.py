@@ -1,14 +1,17 @@
-"""Values with units as strings in the configuration, parsed by pint into SI."""
+"""Numbers with units in texts, of the configuration, the command, Python and files, to SI.
+
+The number is read here, and the unit alone by pint. Pint takes "1 500 um" for a product of two
+numbers, drops the comma of "2,5 nm", and divides by the 25 of "N/25mm".
+"""
 
 from __future__ import annotations
 
-import contextlib
 import difflib
 import math
 import os
 import re
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # else where it is used: most jobs read no units, and importing takes 0.3 s
@@ -34,19 +37,64 @@ _ASKED_BACK = {
 _SECONDS = r"\s*[*·⋅\s]\s*s(?:econds?)?(?![A-Za-z])"  # behind mPa: a viscosity, where it is common
 
 
+# A number, whose groups of three digits may have a blank, an apostrophe or an underscore between
+# them; a fraction, or times a power of ten.
+_NUMBER = re.compile(
+    r"""(?P<digits>[-+]?
+            (?: nan | inf
+              | (?: [0-9]{1,3} (?P<mark>[ '_])[0-9]{3} (?:(?P=mark)[0-9]{3})* (?![0-9]) | [0-9]+ )
+                (?: \.[0-9]* )?
+              | \.[0-9]+ )
+            (?: e[-+]?[0-9]+ )? )
+        (?: /(?P<divisor>[1-9][0-9]*)(?=[ ]) )?
+        (?: [ ]?[x*·⋅][ ]?10(?:\^|\*\*)\(?(?P<power>[-+]?[0-9]+)\)? )?""",
+    re.IGNORECASE | re.VERBOSE,
+)
+_TYPED = str.maketrans("−×’\t\u00a0\u2009\u202f", "-*'    ")
+_RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺"
+_LOWERED = str.maketrans(_RAISED, "0123456789-+")
+# Names that pint should know as well, and spellings that it takes for something else.
+_ALIASES = {
+    "psi": "PSI = Psi",
+    "angstrom": "Angstrom = Ang",
+    "micron": "mu",
+    "force_kilogram": "kp",
+}
+_SPELLINGS = (
+    (r"\bmils?\b", "thou"),  # of an inch; an angle in pint
+    (r"(?<=[^\W\d_])([-+]?[0-9])(?!\w)", r"^\1"),  # N/mm2, J m-2
+    (r"(?<=[^\W\d_])\.(?=[^\W\d_])", "*"),  # N.m
+)
+# What may be measured in place of what is wanted: the force of peeling a strip, and hardness.
+_PEELING = re.compile(
+    r"(?<![a-z])(?:[mck]?n|newtons?|k?gf?|kp|lbs?f?|ozf?) ?/ ?(?:[0-9]|(?:in|inch|[cm]m)(?![\w^]))"
+    r"|\bpli\b",
+    re.IGNORECASE,
+)
+_SHORE = re.compile(r"\b(?:shore|sh\.?) ?-?(a|d|o+|0+)\b", re.IGNORECASE)
+
+
 @cache
 def _registry() -> pint.UnitRegistry:
     import pint
 
-    # Folder in which pint keeps units, ready made.
-    with contextlib.suppress(Exception):  # no such variable, a folder or file that is of no use
-        return pint.UnitRegistry(cache_folder=os.environ["STICKINESS_UNITS"])
-    return pint.UnitRegistry()
+    spellings = [partial(re.sub, typed, meant) for typed, meant in _SPELLINGS]
+    try:  # a folder in which pint keeps units, ready made
+        folder = os.environ["STICKINESS_UNITS"]
+        registry: pint.UnitRegistry = pint.UnitRegistry(
+            cache_folder=folder, preprocessors=spellings.copy()
+        )
+    except Exception:  # no such variable, a folder or file that is of no use
+        registry = pint.UnitRegistry(preprocessors=spellings.copy())
+    for unit, names in _ALIASES.items():
+        registry.define(f"@alias {unit} = {names}")
+    return registry
 
 
 @cache  # a configuration is read more than once: for its checks and for its values
-def _parsed(value: str) -> pint.Quantity:
-    return _registry().Quantity(value)
+def _parse_unit(text: str) -> pint.Unit:
+    """Return a unit, of which pint takes no numbers but powers and a 1 above the stroke."""
+    return _registry().parse_units(f"1{text}" if text.startswith("/") else text)
 
 
 class Quantity(float):
@@ -104,7 +152,8 @@ def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
     A ValueError says which kind of quantity the value is and which is wanted. It suggests a unit
-    for one that does not exist, and asks back for units that are nearly always typing errors.
+    for one that does not exist, and asks back for what can mean two things or is nearly always a
+    typing error. Angular frequencies become frequencies: 1 rad/s is 0.159 Hz, 60 rpm are 1 Hz.
     """
     import pint
 
@@ -113,22 +162,27 @@ def si(value: str, unit: str) -> float:
     wanted = f"{words} is wanted, e.g. {example!r}"
     if not isinstance(value, str):
         raise ValueError(f"{value!r} has no unit: {wanted}, as a text with its unit")
-    if "," in value:  # a comma would be dropped, and 2,5 nm become 25 nm
-        raise ValueError(f"{value!r} holds a comma: write the number with a decimal point")
-    if not re.match(r"\s*[-+]?(\.?\d|nan|inf)", value):
+    text = _write_plainly(value)
+    if question := _ask_back(text, unit):
+        raise ValueError(f"{value!r}{question}")
+    match = _NUMBER.match(text)
+    if match is None:
         raise ValueError(f"{value!r} does not begin with a number: {wanted}")
-    if re.search(r"[±~\[\]]|\+/-|\d\s*[-–]\s*\d", value):
+    number, written = match[0].strip(), text[match.end() :]
+    if re.search(r"[±~\[\]]|\+/-|[0-9] ?[-–] ?[0-9]", text) or re.match(
+        r"[.'_]| ?[0-9](?! ?/)", written
+    ):
         raise ValueError(f"{value!r} is no single number with a unit: {wanted}")
-    for typed, (meaning, meant, instead) in _ASKED_BACK.items():
-        if re.search(rf"(?<![A-Za-z]){typed}(?![A-Za-z])(?!{_SECONDS})", value):
-            raise ValueError(
-                f"{value!r}: {typed} is {meaning}; did you mean {value.replace(typed, meant)!r}? "
-                f"If not, write it in SI units, e.g. {instead!r}"
-            )
     try:
-        quantity = _parsed(value)
+        quantity = _find_number(match) * _parse_unit(written.strip())
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
-        raise ValueError(f"{value!r} cannot be read: {_meant(value, units) or wanted}") from None
+        meant = _find_unit(written.strip(), units)
+        what = f"did you mean '{number} {meant}'?" if meant else wanted
+        raise ValueError(f"{value!r} cannot be read: {what}") from None
+    if _registry().get_group("Printer").members & dict(quantity.unit_items()).keys():
+        raise ValueError(f"{value!r} is in points of a screen or of print: {wanted}")
+    if unit == "Hz" and "radian" in dict(quantity.to_root_units().unit_items()):
+        unit = "turn/s"
     try:
         magnitude = float(quantity.to(unit).magnitude)
     except pint.DimensionalityError:
@@ -136,11 +190,29 @@ def si(value: str, unit: str) -> float:
         kind = f"is {other[1]}" if other else f"is in {quantity.units:~P}"
         kind = "has no unit" if quantity.dimensionless else kind
         raise ValueError(f"{value!r} {kind}; {wanted}") from None
-    except (AttributeError, TypeError):  # a number without a unit is a float
-        raise ValueError(f"{value!r} has no unit; {wanted}") from None
     if not math.isfinite(magnitude):
         raise ValueError(f"{value!r} is not finite: {wanted}")
     return magnitude
+
+
+def si_of_unit(text: str, unit: str) -> float:
+    """Magnitude of a unit, as files and keys name it, in the SI unit `unit`; see `si`.
+
+    It may have a factor, as of heights in units of "0.1 nm".
+    """
+    return si(text if re.match(r"\s*[-+.0-9]", text) else f"1 {text}", unit)
+
+
+def _write_plainly(value: str) -> str:
+    """Write signs, blanks and raised digits as a keyboard has them."""
+    raised = re.sub(f"[{_RAISED}]+", lambda match: "^" + match[0].translate(_LOWERED), value)
+    return " ".join(raised.translate(_TYPED).split())
+
+
+def _find_number(match: re.Match) -> float:
+    digits, mark, divisor, power = match.group("digits", "mark", "divisor", "power")
+    number = float(digits.replace(mark, "") if mark else digits) / float(divisor or 1)
+    return number * 10.0 ** int(power) if power else number
 
 
 @cache
@@ -150,12 +222,56 @@ def _known(dimension: Any) -> tuple[str, str, str, str] | None:
     return next((q for q in _QUANTITIES if units(q[0]).dimensionality == dimension), None)
 
 
-def _meant(value: str, units: str) -> str | None:
-    """Ask whether the closest unit of the wanted kind is meant, if one is close."""
-    match = re.fullmatch(r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(\S.*?)\s*", value)
-    if match is None:
-        return None
-    number, written = match.groups()
+def _ask_back(text: str, unit: str) -> str:
+    """Ask what is meant by a text that can mean two things, or usually means another; or nothing.
+
+    The answer goes on after the text.
+    """
+    if "," in text:
+        return _ask_for_comma(text)
+    if unit == "J/m^2" and _PEELING.search(text):
+        return (
+            " is a force of peeling per width, which is mostly dissipation: give the work of "
+            "adhesion between smooth surfaces, e.g. '50 mJ/m^2'"
+        )
+    if unit == "Pa" and (shore := _SHORE.search(text)):
+        number = re.search(r"[0-9.]+", text.replace(shore[0], ""))
+        hardness = float(number[0]) if number else 0.0
+        is_a = shore[1].lower() == "a" and 20 <= hardness <= 90
+        about = f" (by Gent's relation about {_soften(hardness):.2g} MPa)" if is_a else ""
+        return f" is a hardness: give Young's modulus{about}"
+    for typed, (meaning, meant, instead) in _ASKED_BACK.items():
+        if re.search(rf"(?<![A-Za-z]){typed}(?![A-Za-z])(?!{_SECONDS})", text):
+            return (
+                f": {typed} is {meaning}; did you mean {text.replace(typed, meant)!r}? "
+                f"If not, write it in SI units, e.g. {instead!r}"
+            )
+    return ""
+
+
+def _soften(shore: float) -> float:
+    """Young's modulus [MPa] of a rubber of this Shore A hardness, by Gent (1958)."""
+    return 0.0981 * (56 + 7.62336 * shore) / (0.137505 * (254 - 2.54 * shore))
+
+
+def _ask_for_comma(text: str) -> str:
+    """Ask which number with a decimal point is meant by one with commas."""
+    written = re.match(r"[-+0-9.,]*", text)
+    number, rest = (written[0], text[written.end() :]) if written else ("", text)
+    readings = []
+    if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", number):
+        readings.append(number.replace(",", "."))
+    if re.fullmatch(r"[-+]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]*)?", number):
+        readings.append(number.replace(",", ""))
+    if re.fullmatch(r"[-+]?[1-9][0-9]{0,2}(\.[0-9]{3})+,[0-9]+", number):
+        readings.append(number.replace(".", "").replace(",", "."))
+    asked = " or ".join(f"'{reading}{rest}'" for reading in readings)
+    meant = f"; did you mean {asked}?" if asked else ""
+    return f" holds a comma, where a decimal point is wanted{meant}"
+
+
+def _find_unit(written: str, units: str) -> str | None:
+    """Return the unit of the wanted kind that is close to what is written, if one is."""
     # A power that is written is meant: N/m2 is no N/m.
     spellings = {
         known.lower().replace("^", ""): known
@@ -163,4 +279,4 @@ def _meant(value: str, units: str) -> str | None:
         if ("2" in known) == ("2" in written)
     }
     close = difflib.get_close_matches(written.lower().replace("^", ""), spellings, n=1, cutoff=0.6)
-    return f"did you mean '{number} {spellings[close[0]]}'?" if close else None
+    return spellings[close[0]] if close else None

@@ -47,6 +47,12 @@ def written(tmp_path):
     return outputs
 
 
+def test_no_label_is_a_formula():
+    labels = ["=1+1", "+1", "-1", "@sum", "|x", "a=b", "gel"]
+    kept = [judge.keep_text(label) for label in labels]
+    assert kept == ["'=1+1", "'+1", "'-1", "'@sum", "|x", "a=b", "gel"]
+
+
 def test_rows_are_sorted_and_say_what_the_verdicts_say(written):
     frame, dataset = pd.read_csv(written["csv"]), datasets.read(written["dataset"])
     assert len(frame) == len(MATERIALS) * len(SURFACES)

@@ -9,11 +9,13 @@ import warnings
 import zipfile
 
 import h5py
+import netCDF4
 import numpy as np
 import openpyxl
 import pytest
 import xarray as xr
 
+import stickiness
 from stickiness import Surface, surface
 from stickiness.measured import topography
 from stickiness.pages.rendering import make_environment
@@ -74,11 +76,11 @@ def netcdf(z="um", x="mm", y="mm"):
     return xr.Dataset({"z": (("x", "y"), ROUGH, {"units": z})}, coordinates)
 
 
-def archive(name):
+def archive(name, content="1 2 3"):
     """A zip archive with one file."""
     raw = io.BytesIO()
-    with zipfile.ZipFile(raw, "w") as zipped:
-        zipped.writestr(name, "1 2 3")
+    with zipfile.ZipFile(raw, "w", zipfile.ZIP_DEFLATED) as zipped:
+        zipped.writestr(name, content)
     return raw.getvalue()
 
 
@@ -117,6 +119,29 @@ def mitutoyo():
     return raw.getvalue()
 
 
+def promise(folder=None):
+    """A numpy file whose header promises more than there is; in an archive of a folder."""
+    raw = io.BytesIO()
+    header = {"descr": "<f8", "fortran_order": False, "shape": (10**6, 10**7)}
+    np.lib.format.write_array_header_1_0(raw, header)
+    content = raw.getvalue() + bytes(800)
+    return content if folder is None else archive(folder, content)
+
+
+def endless():
+    """A workbook that unpacks to more than its reader can take."""
+    return archive("xl/workbook.xml", bytes(70_000_000))
+
+
+def unfilled():
+    """A NetCDF file of many points, none of which is written."""
+    file = netCDF4.Dataset("memory.nc", "w", memory=1)
+    for axis, count in (("x", 10**6), ("y", 10**7)):
+        file.createDimension(axis, count)
+    file.createVariable("z", "f8", ("x", "y"), chunksizes=(1000, 1000), zlib=True).units = "um"
+    return bytes(file.close())
+
+
 def hdf5(**arrays):
     """An HDF5 file, which SurfaceTopography reads as an instrument's."""
     raw = io.BytesIO()
@@ -134,6 +159,22 @@ NO_UNITS = "unit of position or the unit of height; give position_unit and heigh
 LINE = "\n".join(f"{i} {z}" for i, z in enumerate(ROUGH[0]))
 HALF = np.where(ROUGH > 0, np.nan, ROUGH)
 REFUSED = {
+    "an array shorter than its header": (promise(), {"name": "a.npy", **ENTRY}, "shorter than its"),
+    "an archive of such an array": (
+        promise("z.npy"),
+        {"name": "a.npz", **ENTRY},
+        "more memory than",
+    ),
+    "a workbook that unpacks to more": (
+        endless(),
+        {"name": "a.xlsx"},
+        "unpacks to 70 MB, more than",
+    ),
+    "too many points": (
+        unfilled(),
+        {"name": "a.nc", **ENTRY},
+        "1000000 x 10000000 points are more",
+    ),
     "other rows": ("# rows: 256\n" + table(), ENTRY, "128 rows"),
     "x y z of other columns": ("# nx: 64 ny: 128\n" + points(), ENTRY, "128 columns"),
     "decimal commas": (table(ROUGH + 9, ",", comma=True), ENTRY, "256 columns"),
@@ -381,3 +422,26 @@ def test_remarks_name_what_is_wrong(tmp_path):
     noise = analyse(tmp_path, NOISE).assign(anisotropy=0.8)
     # On the exponent, the direction and the roll-off, beside those on the ends.
     assert remarks(noise).count("<li>") > remarks(analyse(tmp_path, ROUGH)).count("<li>") == 2
+
+
+#: What is wrong with numbers or units, and how the first reason begins.
+CAUSES = {
+    "zeros for missing points": (zeros(0.015), "0.01. of the points have the one value 0"),
+    "zeros that whiten the spectrum": (zeros(0.4), "0.[34]. of the points have the one value 0"),
+    "heights in m": (1e-6 * ROUGH, "the rms height is .*e-13 m, below 5e-11 m"),
+    "heights in nm": (1e3 * ROUGH, "the heights range over|the rms slope"),
+}
+
+
+@pytest.mark.parametrize(("heights", "words"), CAUSES.values(), ids=CAUSES)
+def test_the_cause_is_the_first_reason_and_the_first_warning(tmp_path, heights, words):
+    np.save(tmp_path / "a.npy", heights.T)
+    verdict = stickiness.verdict(
+        Surface.read(tmp_path / "a.npy", **ENTRY),
+        youngs_modulus=1e6,
+        work_of_adhesion=0.05,
+        range=3e-10,
+    )
+    assert re.match(f".*a.npy: ({words})", verdict.not_judged[0])
+    assert verdict.doubts[0] == verdict.not_judged[0]
+    assert not any("give heights in m" in doubt for doubt in verdict.doubts)

@@ -22,6 +22,7 @@ from helpers.pages import Page
 
 import stickiness
 from stickiness import datasets
+from stickiness.__main__ import name_page
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.verdict import StickinessVerdict
 
@@ -244,12 +245,48 @@ def test_another_tape_replaces_the_page(folder, first):
         (["wall#1.npy", "--tape", "wall#1.npy"], "wall#1.npy: not valid YAML"),
         (["wall#1.npy", *TAPE], "wall#1.npy: "),  # of unknown size
         (["tape.yaml", *TAPE, *SIZE], "tape.yaml: no line of numbers found"),
+        (
+            ["wall#1.npy", *TAPE, "--length", "512 px"],
+            "--length '512 px': is in points of a screen",
+        ),
+        (
+            ["wall#1.npy", *TAPE, "--length", "1,500 um"],
+            "--length '1,500 um': holds a comma, where",
+        ),
+        (["wall#1.npy", *TAPE, "--radius", "2,5 mm"], "--radius '2,5 mm' holds a comma, where"),
+        (["wall#1.npy", *TAPE, "--max-missing", "-.2"], "--max-missing -0.2: "),
     ],
 )
 def test_errors_are_one_line_in_terms_of_the_command(folder, arguments, line):
     answer = run(folder, *arguments)
     assert (answer.status, answer.lines, len(answer.errors)) == (1, [], 1), answer.errors
     assert answer.errors[0].startswith(f"stickiness: {line}")
+
+
+#: What a file is called, what the command is told besides, and the label and the page that it has.
+PLACES = {
+    "terminal without signs": ("wänd 二.txt", [], {"PYTHONIOENCODING": "ascii"}, "wänd 二"),
+    "control characters": ("w\x1b[31m\u202e{1}.txt", [], {}, "w[31m{1}"),
+    "number as ending": ("scan.001", ["--missing-value", "-3.4e38"], {}, "scan.001"),
+    "thousands": ("w.x", ["--length", "2 000 um x 2×10⁻³ m"], {}, "w"),
+}
+
+
+@pytest.mark.parametrize(("name", "arguments", "environment", "page"), PLACES.values(), ids=PLACES)
+def test_any_name_terminal_and_number(
+    folder, tmp_path, verdict, name, arguments, environment, page
+):
+    np.savetxt(tmp_path / name, np.load(folder / "wall#1.npy"), fmt="%.17g")
+    arguments = [name, *TAPE, *SIZE, *arguments, "--no-page"]
+    answer = run(tmp_path, *arguments, **environment)
+    assert (answer.status, answer.errors) == (0, [])
+    assert answer.lines[0] == f"The material: {verdict}".splitlines()[0]
+    failed = run(tmp_path, *arguments, "--format", "netcdf", **environment)
+    assert (failed.status, len(failed.errors)) == (1, 1)
+    assert not re.search("[\x00-\x1f\u202e]", failed.errors[0])
+    contents = json.loads("\n".join(run(tmp_path, *arguments, "--json", **environment).lines))
+    assert contents == verdict.to_dict()
+    assert name_page(Path(name)) == page
 
 
 def test_other_files_in_the_folder_of_a_page_are_left_alone(folder, tmp_path):

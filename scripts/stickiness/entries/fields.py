@@ -33,6 +33,7 @@ from pydantic import (
 from pydantic_core import CoreSchema
 
 from stickiness.entries.errors import EntryError, suggest
+from stickiness.formatting import printable
 from stickiness.plausibility import LIMITS
 from stickiness.traction_laws import LAWS, PREDICTED
 from stickiness.units import Quantity
@@ -189,6 +190,7 @@ def _count_values(value: Any) -> Hashable:
 
 
 Text = Annotated[str, Field(min_length=1)]
+Shown = Annotated[str, AfterValidator(printable), Field(min_length=1)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 Names = Annotated[dict[Name, T], Field(min_length=1)]
 Several = Annotated[list[T], Field(min_length=1), AfterValidator(_check_distinct)]
@@ -229,9 +231,9 @@ class Labelled(Section):
     #: Texts of an entry outside files, where they may be missing.
     unstated: ClassVar[dict[str, str]]
 
-    label: Text = needed("name for readers")
-    source: Text = needed("where the values or the data come from")
-    note: Maybe[str] = optional("a remark for readers")
+    label: Shown = needed("name for readers")
+    source: Shown = needed("where the values or the data come from")
+    note: Maybe[Shown] = optional("a remark for readers")
 
     @classmethod
     def complete(cls, entry: Mapping[str, Any]) -> dict[str, Any]:

@@ -1,6 +1,7 @@
 """Entries of real surfaces: what files, the command and Python may say of them."""
 
 import math
+import re
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self
 
@@ -20,7 +21,7 @@ from stickiness.entries.fields import Section, needed, optional
 from stickiness.measured import readers, texture
 from stickiness.measured.levelling import MAX_MISSING
 from stickiness.spectrum import kinds
-from stickiness.units import Quantity, si
+from stickiness.units import Quantity, si_of_unit
 
 
 def _as_list(value: Any) -> list[Any]:
@@ -172,7 +173,7 @@ def _tell_flat(h_rms: float) -> str:
 
 
 def _check_length_unit(unit: str) -> str:
-    si(f"1 {unit}", "m")
+    si_of_unit(unit, "m")
     return unit
 
 
@@ -254,6 +255,9 @@ class Reading(Analysis, MeasuredFile):
         if not self.file or context.get("unread"):
             return self
         path = Path(self.file)
+        if "made" in context and re.search(r"\{\s*\w", self.file):
+            text = "a workflow takes braces in names for wildcards; rename the file"
+            raise EntryError("file", self.file, text)
         if not path.is_file():
             if context.get("made"):
                 return self

@@ -19,7 +19,7 @@ from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
-from stickiness.measured.readers import Length, Raw, metres, sides
+from stickiness.measured.readers import Length, Raw, metres_per, sides
 
 Size = Length | Sequence[Length] | None
 
@@ -489,7 +489,7 @@ def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
 
 def _contradict(raw: Raw, size, steps, height_unit, in_metres: bool) -> Iterator[str]:
     """Say where the file tells otherwise than the caller, and which of them is taken."""
-    if in_metres and height_unit is not None and metres(f"1 {height_unit}", "height_unit") != 1:
+    if in_metres and height_unit is not None and metres_per(height_unit, "height_unit") != 1:
         yield f"{raw.source}: the heights are in m; height_unit = {height_unit!r} is not used"
     in_file = raw.heights.ndim == 2 and raw.places is not None and raw.place_unit is not None
     if size is not None and in_file:
@@ -501,7 +501,7 @@ def _contradict(raw: Raw, size, steps, height_unit, in_metres: bool) -> Iterator
 def _scale(source: str, key: str, from_caller: str | None, in_file: str | None) -> float:
     """Metres per unit, from the caller or the file, which must agree."""
     units = [unit for unit in (from_caller, in_file) if unit is not None]
-    scales = [metres(f"1 {unit}", f"{source}: {key}") for unit in units]
+    scales = [metres_per(unit, f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):
         raise ValueError(
             f"{source}: {key} = {from_caller!r}, but the file says {in_file!r}; leave {key} out, "

@@ -80,18 +80,19 @@ def analyse(
     unfitted = [doubt for _, doubt in analysed if doubt]
     is_fitted = len(unfitted) < len(analysed)
 
-    # Doubts: no fit, a fit that no surface has, or heights that no instrument measures.
+    # Doubts: heights that no instrument measures, of which most other doubts follow; no fit, or a
+    # fit that no surface has.
     is_end_told = extend_to is not None
     doubts = [*doubt_fit(fit, is_end_told)] if is_fitted else unfitted.copy()
     if doubts:
         doubts = _find_patterns(heights) or doubts
+    doubts = [*(doubt for each in heights for doubt in each.doubts), *doubts]
     # Without a fit there is no law that goes on.
     q_extended = 2 * np.pi / extend_to if is_end_told and is_fitted else None
     end_of_grid = np.pi / max(heights[0].steps)
     if q_extended is not None and q_extended <= end_of_grid * (1 + 1e-9):
         # Whoever tells that the waves end within the grid says that the heights hold all of them.
         spectrum = replace(spectrum, held=Cutoff(end_of_grid, "as given (extend_to)"))
-    doubts += [doubt for each in heights for doubt in each.doubts]
     not_judged = [] if ignore_doubts else doubts
 
     # Spectra that agree with the measured one, with waves that the instrument does not resolve.

@@ -291,9 +291,10 @@ def _judge_larger(material: Material, surface: Surface, wanted_share: float) -> 
 
 
 def _list_doubts(material: Material, surface: Surface, cell: Mapping[str, Any]) -> Iterator[str]:
-    """Sentences about a pair: improbable values, remarks on the data, why it is not judged."""
-    yield from find_pair_doubts(material, surface)
+    """Sentences about a pair: why it is not judged, improbable values, remarks on the data."""
     reasons = cell["not_judged"].splitlines()
+    yield from reasons
+    yield from find_pair_doubts(material, surface)
     remarks = list(surface.remarks)
     if surface.larger is not None and cell["larger_verdict"] == DEPENDS:
         remarks += [text for text in surface.larger.remarks if text not in remarks]
@@ -304,7 +305,6 @@ def _list_doubts(material: Material, surface: Surface, cell: Mapping[str, Any]) 
             f"to conform, the layer would have to strain by about {strain:.2g}, beyond linear "
             "elasticity: all adhesion may be lost"
         )
-    yield from reasons
 
 
 def find_pair_doubts(material: Material, surface: Surface) -> tuple[str, ...]:

@@ -479,10 +479,12 @@ class Surface:
     @property
     def doubts(self) -> tuple[str, ...]:
         """Sentences about improbable heights and slopes, and unresolved waves that decide."""
+        if self.not_judged:  # of which they would follow
+            return ()
         doubts = [
             *find_doubts(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
         ]
-        if self.unresolved_energy > MOST_UNRESOLVED and not self.not_judged:
+        if self.unresolved_energy > MOST_UNRESOLVED:
             doubts.append(
                 "waves that the instrument does not resolve decide: if the fitted law goes on to "
                 f"0.3 nm, full contact takes {1 + self.unresolved_energy:.2g} times the energy. "

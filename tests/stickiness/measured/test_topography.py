@@ -59,6 +59,23 @@ def test_every_separator_and_comma_gives_the_same_heights(tmp_path, matrix, sepa
     assert (t.dx, t.dy, t.missing) == (2e-9, 2e-9, 0)
 
 
+@pytest.mark.parametrize(
+    ("header", "content"),
+    [
+        ("", "19,876\t20,123\n21,004\t0,500\n"),
+        ("", "19,876;20,123\n21,004;-0,5\n"),
+        ("", "19,876 20,123\n2101,004 22,001\n"),
+        ("# Breite: 1,000 mm\n", "19,876\t20,123\n21,004\t22,001\n"),
+        ("# Werteinheit: um\n", "19,876\n20,123\n19,455\n"),
+    ],
+)
+def test_commas_that_can_only_be_decimal_ones(tmp_path, header, content):
+    (tmp_path / "a.txt").write_text(header + content)
+    heights = readers.read(tmp_path / "a.txt").heights
+    numbers = np.array(content.replace(",", ".").replace(";", " ").split(), float)
+    np.testing.assert_array_equal(np.ravel(heights.T), numbers)
+
+
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "latin-1", "utf-16"])
 def test_header_of_gwyddion_tells_size_and_unit(tmp_path, matrix, encoding):
     path = write(tmp_path / "a.txt", matrix, header=HEADER, encoding=encoding)
@@ -238,6 +255,11 @@ def test_arguments_that_do_not_fit_the_file(tmp_path, counts, arguments, message
         ("a.txt", "1 2 3\n4 5 6\n", {"channel": "Height"}, "a text file has no channels"),
         ("a.nc", "not binary at all", {}, "a.nc: not a readable NetCDF file"),
         ("a.txt", "1\n2\n3\n", {"length": ["1 m", "2 m"]}, "one length for a line profile"),
+        *(
+            ("a.txt", f"19,876{mark}20,123\n21,004{mark}{last}\n", {}, r"'19,876' may have decimal")
+            for mark, last in (("\t", "998"), (";", "22,001"), (" ", "1,234,567"))
+        ),
+        ("a.txt", "19,876\n20,123\n19,455\n", {}, "'19,876' may hold two numbers, or one with"),
     ],
 )
 def test_files_that_do_not_fit_the_arguments(tmp_path, name, content, arguments, message):

@@ -12,21 +12,32 @@ from pathlib import Path
 
 from stickiness.measured.readers import arrays, grids, instruments, text
 from stickiness.measured.readers.instruments import holds_heights
-from stickiness.measured.readers.raw import Length, Raw, metres, sides
+from stickiness.measured.readers.raw import (
+    MOST_POINTS,
+    Length,
+    Raw,
+    metres,
+    metres_per,
+    sides,
+)
 
 __all__ = [
     "INSTRUMENT",
+    "MOST_POINTS",
     "Length",
     "Raw",
     "find_packing",
     "format_of",
     "holds_heights",
     "metres",
+    "metres_per",
     "read",
     "sides",
 ]
 
 INSTRUMENT = "instrument"
+_MOST_BYTES = 9 * MOST_POINTS  # of a file, or of what an archive holds
+_MOST_OF_WORKBOOK = 2**26  # bytes; a reader of workbooks takes 50 times as many
 _EXCEL = (
     "the file is an Excel workbook: save its sheet of heights as text (CSV), without other "
     "columns; a profile of Mitutoyo SurfTest may stay an .xlsx with its sheets DATA and Certificate"
@@ -60,7 +71,14 @@ def find_packing(path: str | Path) -> str:
         if not zipfile.is_zipfile(path):
             return "the file is incomplete, its end is missing: copy it again"
         with zipfile.ZipFile(path) as archive:
-            if "xl/workbook.xml" not in archive.namelist():
+            is_workbook = "xl/workbook.xml" in archive.namelist()
+            most = _MOST_OF_WORKBOOK if is_workbook else _MOST_BYTES
+            if (size := sum(each.file_size for each in archive.infolist())) > most:
+                return (
+                    f"it unpacks to {size / 1e6:.0f} MB, more than the {most / 1e6:.0f} MB that "
+                    "are read: export a part of the heights, or every second point"
+                )
+            if not is_workbook:
                 return ""
             book = archive.read("xl/workbook.xml")
             return "" if all(sheet in book for sheet in _MITUTOYO) else _EXCEL
@@ -99,6 +117,10 @@ def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
     try:
         if advice := find_packing(path):
             raise ValueError(advice)
+        if (size := path.stat().st_size) > _MOST_BYTES:
+            raise ValueError(
+                f"{size / 1e6:.0f} MB are more than the {_MOST_BYTES / 1e6:.0f} MB that are read"
+            )
         kind = format_of(path, fmt)
         if channel is not None and kind != INSTRUMENT:
             raise ValueError(f"a {kind} file has no channels; leave channel out")
@@ -111,6 +133,8 @@ def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
         if kind == "netcdf":
             return arrays.read_netcdf(path, variable)
         return arrays.read_numpy(path, variable)
+    except MemoryError as error:
+        raise ValueError(f"{path}: it takes more memory than there is ({error})") from error
     except ValueError as error:
         raise ValueError(f"{path}: {error}") from error
 

@@ -21,7 +21,7 @@ from stickiness.measured.readers.instruments import (
     read_channel,
 )
 from stickiness.measured.readers.points import map_points
-from stickiness.measured.readers.raw import Raw, find_step, is_length, metres
+from stickiness.measured.readers.raw import Raw, check_count, find_step, is_length, metres_per
 
 _POSITION = re.compile(r"(?:^|.*[/_])([xy])[-_]?([xy]|s|v|i|grid|mesh|data|pos\w*|coord\w*|axis)?$")
 _UNITS = ("units", "unit")  # attributes
@@ -33,9 +33,16 @@ def read_netcdf(path: Path, variable: str | None) -> Raw:
     import xarray as xr  # only this format needs it
 
     try:
-        dataset = xr.load_dataset(path)
+        dataset = xr.open_dataset(path)
     except (OSError, ValueError) as error:
         raise ValueError(f"not a readable NetCDF file ({error})") from error
+    with dataset:
+        for each in dataset.variables.values():
+            check_count(each.shape)
+        try:
+            dataset.load()
+        except (OSError, ValueError) as error:
+            raise ValueError(f"not a readable NetCDF file ({error})") from error
     if variable in (None, "heights") and _is_of_contact_engineering(dataset):
         return replace(read_channel(path, open_reader(path, "nc")), source=f"{path}: heights")
     name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
@@ -57,7 +64,7 @@ def read_netcdf(path: Path, variable: str | None) -> Raw:
         elif all(map(is_length, units)):  # not degrees or pixels: the caller must say
             places = np.array(
                 [
-                    find_step(each.values, str(each.name)) * metres(f"1 {unit}", str(each.name))
+                    find_step(each.values, str(each.name)) * metres_per(unit, str(each.name))
                     for each, unit in zip(coordinates, units, strict=True)
                 ]
             )
@@ -117,12 +124,16 @@ def _choose(
 def read_numpy(path: Path, variable: str | None) -> Raw:
     """Read an array of a numpy file, or an archive of them."""
     try:
-        loaded = np.load(path, allow_pickle=False)
+        # An array is not read yet: its header may promise more than there is.
+        loaded = np.load(path, allow_pickle=False, mmap_mode="r")
     except (OSError, ValueError) as error:
         # numpy takes what it does not know for a pickle, and advises to load it all the same.
-        reason = "it holds no plain array" if "pickle" in str(error) else error
+        reason = "it holds no plain array" if re.search("pickle|objects", str(error)) else error
+        if "mmap length" in str(error):
+            reason = "it is shorter than its header says: copy it again"
         raise ValueError(f"not a readable numpy file ({reason})") from error
     if isinstance(loaded, np.ndarray):
+        check_count(loaded.shape)
         if loaded.dtype.names:
             arrays = {name: loaded[name] for name in loaded.dtype.names}
             if not {"x", "y", "z"} <= {name.lower() for name in arrays} and len(arrays) > 1:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from stickiness.measured.readers.raw import Raw, metres
+from stickiness.measured.readers.raw import Raw, check_count, metres_per
 
 EXPORT = "export the heights as text (a matrix or x y z), .npy, .nc, .gsf or X3P"
 _X3P = "main.xml"  # in the archive
@@ -44,6 +44,7 @@ def read_channel(path: Path, reader, channel: str | int | None = None) -> Raw:
     source = f"{path}: {info.name}"
     if not holds_heights(info):
         raise ValueError(f"{info.name} holds no heights; channels that do: {heights_in or 'none'}")
+    check_count(info.nb_grid_pts)
     # If the file does not hold the size, the caller must give it; until then it is in pixels.
     is_even = info.is_uniform is not False
     has_size = info.physical_sizes is not None
@@ -60,7 +61,7 @@ def read_channel(path: Path, reader, channel: str | int | None = None) -> Raw:
     elif has_size:
         told = np.array(data.physical_sizes, dtype=float)
         if unit:
-            told = told * metres(f"1 {unit}", f"{info.name}: unit of length in the file")
+            told = told * metres_per(unit, f"{info.name}: unit of length in the file")
             place_unit = "m"
         places = told / heights.shape
     others = [str(c.channel_id) for c in usable if channel is None and c.index != info.index]

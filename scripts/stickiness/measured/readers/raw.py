@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.units import si
+from stickiness.units import si, si_of_unit
 
 Length = str | float  # "10 um", or metres
+MOST_POINTS = 2**27  #: of a map, 11585 x 11585; they take 1 GB, and their analysis ten times that
 
 
 @dataclass(frozen=True)
@@ -49,12 +51,29 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
     return tuple(metres(v, name) for v in value)
 
 
+def metres_per(unit: str, name: str) -> float:
+    """Length of a unit in metres; errors name `name`."""
+    try:
+        return si_of_unit(unit, "m")
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+
+
 def is_length(unit: str) -> bool:
     """Whether a text is a unit of length."""
     try:
-        return si(f"1 {unit}", "m") > 0
+        return si_of_unit(unit, "m") > 0
     except ValueError:
         return False
+
+
+def check_count(shape: Sequence[int]) -> None:
+    """Check before memory is asked for that not too many points are read."""
+    if math.prod(map(int, shape)) > MOST_POINTS:
+        raise ValueError(
+            f"{' x '.join(map(str, shape))} points are more than the {MOST_POINTS:.2g} that are "
+            "read: export a part of them, or every second one"
+        )
 
 
 def find_step(positions: NDArray, name: str) -> float:

@@ -23,6 +23,9 @@ UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 MOST_COLUMNS = 12  #: of a table of points; more are a matrix
 ROWS_PER_COLUMN = 32  #: of such a table, at least
 
+# What commas may mean: groups of three digits, beside smaller numbers without any.
+_GROUPS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+")
+_SMALLER = re.compile(r"[-+]?\d{1,3}|[^\d]*")
 # How a row begins: with a number, or with missing points before one.
 _NUMERIC = re.compile(r'"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:-?nan\b|[-+]?\.?\d)', re.IGNORECASE)
 _MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
@@ -121,7 +124,8 @@ def read_text(path: Path) -> Raw:
                 "instrument"
             )
     rows, counted = _drop_count(rows)
-    matrix = _read_rows(rows)
+    is_german = any(name in _GERMAN for name in _name_fields(header_lines))
+    matrix = _read_rows(rows, has_decimal_commas=is_german)
     header = _read_header(header_lines, matrix.shape[1])
     _refuse_factors(header)
     _refuse_blocks(rows, matrix.shape[1])
@@ -206,6 +210,11 @@ def _drop_count(rows: list[tuple[int, str]]) -> tuple[list[tuple[int, str]], lis
     if not all(re.fullmatch(r"\d+", word) for word in words[0]):
         return rows, []
     return rows[1:], [int(word) for word in words[0]]
+
+
+def _name_fields(lines: list[str]) -> list[str]:
+    """Names of the fields that Gwyddion writes, in its language."""
+    return [match[1].lower() for match in map(_FIELD.match, lines) if match]
 
 
 def _read_header(lines: list[str], columns: int) -> _Header:
@@ -409,12 +418,14 @@ def _check_counts(header: list[str], shapes: list[tuple[int, ...]]) -> None:
                 )
 
 
-def _read_rows(rows: list[tuple[int, str]]) -> NDArray:
+def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) -> NDArray:
     first = rows[0][1]
     separator = next((mark for mark in "\t;" if mark in first), None)  # None: any run of blanks
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
-    if separator is None and re.search(r",\s|^[^ ]*,[^ ]*$", first):
+    if separator is None and not has_decimal_commas and re.search(r",\s|^[^ ]*,[^ ]*$", first):
         separator = ","
+    if "," in first and separator != "," and not has_decimal_commas:
+        _refuse_groups(rows, separator)
     values: list[list[float]] = []
     for number, line in rows:
         fields = (line if separator == "," else line.replace(",", ".")).split(separator)
@@ -445,4 +456,21 @@ def _read_rows(rows: list[tuple[int, str]]) -> NDArray:
                 "decimal commas, which its separating commas hide; separate by tabs or "
                 "semicolons, or write decimal points"
             )
+    is_repeated = matrix.shape[1] == 2 and len(np.unique(matrix[:, 0])) < len(matrix)
+    if separator == "," and is_repeated and not any("." in line for _, line in rows):
+        raise ValueError(
+            f"lines such as {first!r} may hold two numbers, or one with a decimal comma: write "
+            "decimal points, or separate numbers by tabs or semicolons"
+        )
     return matrix
+
+
+def _refuse_groups(rows: list[tuple[int, str]], separator: str | None) -> None:
+    """Refuse numbers if all their commas may separate thousands: they may be decimal ones, too."""
+    fields = (field.strip() for _, line in rows for field in line.split(separator))
+    first = next((field for field in rows[0][1].split(separator) if "," in field), "").strip()
+    if all((_GROUPS if "," in field else _SMALLER).fullmatch(field) for field in fields):
+        raise ValueError(
+            f"numbers such as {first!r} may have decimal commas or commas for thousands: write "
+            "them with decimal points or without commas"
+        )
