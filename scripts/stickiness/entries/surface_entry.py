@@ -219,6 +219,11 @@ class Analysis(Section):
     spikes: Literal["mask", "keep"] = optional(
         "mask (default) points far off their neighbours", "mask"
     )
+    scan: Literal["detect", "align", "keep"] = optional(
+        "rows at random heights, jumps, creep, drift, bow and scars of a scan; default detect: "
+        "mend what is found with certainty; align: set every row to the median 0, too",
+        "detect",
+    )
     detrend: Literal["detect", "mean", "plane", "quadratic"] = optional(
         "what to subtract from the heights; default detect: a plane, or the form of a lens where "
         "that is nearly all of the heights, or the mean of heights that a file calls periodic",

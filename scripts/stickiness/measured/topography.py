@@ -16,10 +16,11 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import numbers, positive, with_gaps
-from stickiness.measured import levelling, readers
+from stickiness.measured import levelling, readers, scanning
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.readers import Length, Raw, metres_per, sides
+from stickiness.measured.scanning import Scan
 
 Size = Length | Sequence[Length] | None
 
@@ -182,6 +183,7 @@ def read(
     max_missing: float = MAX_MISSING,
     missing_rim: Rim = "detect",
     spikes: Spikes = "mask",
+    scan: Scan = "detect",
 ) -> Topography | Profile:
     """Read a topography or a line profile.
 
@@ -216,6 +218,9 @@ def read(
         (`levelling.without_rims`).
     spikes : {"mask", "keep"}
         Take points far off all their neighbours (`levelling.find_spikes`) for missing, or not.
+    scan : {"detect", "align", "keep"}
+        What scanning leaves in a map (`scanning.mend`): "detect" mends what is found with
+        certainty, "align" also sets the median of every row to zero.
 
     Returns
     -------
@@ -240,7 +245,7 @@ def read(
         raise FileNotFoundError(f"no topography file {str(path)!r}")
     if length is not None and pixel_size is not None:
         raise ValueError("give length or pixel_size, not both")
-    _check_options(missing, max_missing, missing_rim, spikes)
+    _check_options(missing, max_missing, missing_rim, spikes, scan)
 
     raw = readers.read(path, format, variable, channel)
     size = length or pixel_size
@@ -264,6 +269,7 @@ def read(
         max_missing=max_missing,
         missing_rim=missing_rim,
         spikes=spikes,
+        scan=scan,
         source=raw.source,
         scale=scale,
     )
@@ -285,6 +291,7 @@ def from_array(
     max_missing: float = MAX_MISSING,
     missing_rim: Rim = "detect",
     spikes: Spikes = "mask",
+    scan: Scan = "detect",
     source: str = "heights",
     scale: float = 1.0,
 ) -> Topography | Profile:
@@ -297,7 +304,7 @@ def from_array(
     steps : float, pair of float or (n,) array
         Grid step [m] along both axes, or along each. Of a profile its step, or the positions of
         its points [m], in any order: uneven ones are interpolated linearly to as many even ones.
-    missing, max_missing, missing_rim, spikes
+    missing, max_missing, missing_rim, spikes, scan
         As of `read`.
     source : str
         Name of the heights in messages.
@@ -323,7 +330,7 @@ def from_array(
     >>> wall.missing, wall.heights.shape
     (1, (32, 32))
     """
-    _check_options(missing, max_missing, missing_rim, spikes)
+    _check_options(missing, max_missing, missing_rim, spikes, scan)
     heights = with_gaps("heights", heights)
     if heights.ndim not in (1, 2) or heights.size == 0:
         raise ValueError(
@@ -340,15 +347,22 @@ def from_array(
     if heights.ndim == 2 and np.isfinite(heights).any():
         heights, spacing, remarks = _keep_one_copy(heights, spacing, source)
 
-    # Spikes and points beside missing ones are taken for missing.
+    # Spikes, scars and points beside missing ones are taken for missing.
     usable, dropped = levelling.without_rims(heights, missing_rim)
+    values = usable
+    mended = scanning.mend(usable, scan, scale)
+    usable = mended.heights
+    remarks += tuple(f"{source}: {remark}" for remark in mended.remarks)
+    scars = int(np.count_nonzero(np.isnan(usable) & ~np.isnan(values)))
     masked = 0
     if spikes == "mask":
         is_spike = levelling.find_spikes(usable)
         masked = int(np.count_nonzero(is_spike))
         usable = np.where(is_spike, np.nan, usable)
-    doubts = [*doubt_values(usable)]
     unused = np.isnan(usable)
+    # Doubts about values are about those in the file.
+    values = np.where(unused, np.nan, values)
+    doubts = [*mended.doubts, *doubt_values(values)]
 
     # Missing points are cut off or filled.
     if missing == "crop":
@@ -360,6 +374,7 @@ def from_array(
         positions = None if positions is None else positions[kept]
     losses = f", {dropped} points beside missing ones dropped" if dropped else ""
     losses += f", {masked} spikes masked" if masked else ""
+    losses += f", {scars} points of scars masked" if scars else ""
     limit = 0.0 if missing == "refuse" else max_missing
     filled, filled_count = levelling.fill_missing(usable, limit, source + losses, positions)
 
@@ -373,7 +388,7 @@ def from_array(
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
-    known = usable[np.isfinite(usable)]
+    known = values[np.isfinite(values)]
     doubts += doubt_sizes(filled, spacing, are_whole=bool(np.all(known == np.rint(known))))
     record = {
         "missing": filled_count,
@@ -417,8 +432,10 @@ def _keep_one_copy(
     return heights, steps, tuple(remarks)
 
 
-def _check_options(missing: str, max_missing: float, missing_rim: object, spikes: str) -> None:
-    """Check how missing points and spikes are to be treated."""
+def _check_options(
+    missing: str, max_missing: float, missing_rim: object, spikes: str, scan: str
+) -> None:
+    """Check how missing points, spikes and faults of the scan are to be treated."""
     if not 0 <= max_missing < 1:
         raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
     if missing not in ("fill", "crop", "refuse"):
@@ -427,6 +444,8 @@ def _check_options(missing: str, max_missing: float, missing_rim: object, spikes
         raise ValueError(f"missing_rim must be a number of points or 'detect', got {missing_rim!r}")
     if spikes not in ("mask", "keep"):
         raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
+    if scan not in ("detect", "align", "keep"):
+        raise ValueError(f"scan must be 'detect', 'align' or 'keep', got {scan!r}")
 
 
 def _sort_profile(heights: NDArray, steps: ArrayLike, source: str) -> tuple[NDArray, NDArray]:

@@ -18,7 +18,8 @@ from stickiness.measured.topography import Profile, Topography
 FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
 _LIMIT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  # lengths of `Limits`
-_CLEANING = {"missing", "max_missing", "missing_rim", "spikes"}  # of heights in files and arrays
+# Keys of heights in files and arrays.
+_CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan"}
 _READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
 
 
