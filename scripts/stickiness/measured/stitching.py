@@ -309,6 +309,7 @@ class Draws:
     #: (n,), C of the law at the lowest wave number fitted or the end of a plateau [length^4]
     first_psd: NDArray
     continuation: Continuation  #: of the spectrum beyond the cutoff
+    end: NDArray  #: (n,), wave number at which the waves beyond the cutoff end [1/length]
 
     def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
         """Quantiles of a moment."""
@@ -416,6 +417,7 @@ def draw(
         hurst=law.hurst,
         first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
         continuation=continuation,
+        end=np.broadcast_to(ends if extend_to is None else extend_to, (count,)),
     )
 
 

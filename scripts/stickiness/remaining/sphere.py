@@ -1,12 +1,14 @@
 """Pull-off of a sphere from a rough surface: Maugis' sphere with the adhesion that remains.
 
-Where the contact holds many of the longest waves, roughness changes only the work of adhesion and
-the distance over which it acts, both by `Roughness`. Maugis' solution goes from JKR to DMT.
+Waves that are shorter than the zone of contact change the work of adhesion and the distance over
+which it acts, both by `Roughness`. Maugis' solution goes from JKR to DMT. Longer waves tilt, shift
+and curve what the sphere touches: whoever calls gives the roughness without them, `narrow`s it to
+the waves across the zone, and `curve`s the radius.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -14,10 +16,14 @@ import scipy  # its parts are loaded when first used, which reading a configurat
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.roughness import Roughness
 from stickiness.traction_laws import find_strength
 
-FEWEST_WAVES = 5.0  #: longest waves across the contact, from which the model applies
+FEWEST_WAVES = 5.0  #: longest waves across the contact, below which forces scatter much
+#: Independent heights in a zone that is one of the longest waves wide, by the height at which rigid
+#: spheres touch (`tests/references/rough_spheres.py`): 0.1 to 16 waves, to 0.3 h_rms.
+SUMMITS = 9.3
 _LEAST_PARAMETER = 1e-3  # of Maugis; below DMT to 0.2 %
 _POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 
@@ -58,6 +64,31 @@ def pull_off(
         work=plain(work),
         zone_radius=plain(np.maximum(jkr_contact, derjaguin_zone)),
     )
+
+
+def narrow(rough: Roughness, waves: ArrayLike) -> Roughness:
+    """Roughness in a zone of contact that is a number of its longest waves wide.
+
+    Few waves have few summits, so that hard solids touch at a lower one: the expected highest of n
+    Gaussian heights is about sqrt(2 ln n) times h_rms. Contacts of many waves are as between flats.
+    """
+    touch = np.sqrt(2 * np.log1p(SUMMITS * np.square(waves)))
+    most = find_spread("spectrum", "first_touch").value
+    return replace(
+        rough,
+        first_touch=np.minimum(touch, most),
+        waves=np.minimum(rough.waves, np.maximum(waves, 1.0)),
+    )
+
+
+def curve(radius: float, curvature: float, deviation: ArrayLike) -> NDArray:
+    """Radius of a sphere [length] on waves that are longer than the zone of contact.
+
+    Their rms mean `curvature` [1/length] scatters it by at most 1/(1/radius - curvature), and not
+    further than a factor of e, for a sphere that is large beside their summits bridges valleys.
+    """
+    curved = curvature * radius
+    return radius * np.exp(np.asarray(deviation) * curved / (1 + curved))
 
 
 def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:

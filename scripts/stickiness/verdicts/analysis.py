@@ -292,6 +292,8 @@ def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
         "q0_draws": ("draw", draws.q0),
         "beyond_energy": ("end", np.quantile(draws.beyond, END_QUANTILES)),
         "beyond_energy_draws": ("draw", draws.beyond),
+        "beyond_hurst_draws": ("draw", draws.continuation.hurst),
+        "beyond_end_draws": ("draw", draws.end),
         "unheld_energy": ("end", np.quantile(draws.unheld, END_QUANTILES)),
         "unheld_energy_draws": ("draw", draws.unheld),
         "hurst_draws": ("draw", draws.hurst),

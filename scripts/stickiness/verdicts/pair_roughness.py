@@ -79,7 +79,7 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
     """Find the roughness that a material meets on a surface."""
     own = material.surface
     solid = material.solid
-    scenarios = surface.scenarios
+    scenarios = combine_scenarios(material, surface)
     spectra: tuple[Spectrum, ...] = surface.spectra
     rms_curvature = _curvature(surface)
     doubts = [surface.not_judged]
@@ -90,7 +90,6 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
         spectra = tuple(
             combine(first, second) for first, second in zip(spectra, own.spectra, strict=True)
         )
-        scenarios = _add_surfaces(surface, own, solid)
         rms_curvature = np.hypot(rms_curvature, _curvature(own))
 
     # A layer or a skin changes the energy of full contact, and the compliance.
@@ -114,6 +113,13 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
         a_v=a_v,
         not_judged="\n".join(filter(None, doubts)),
     )
+
+
+def combine_scenarios(material: Material, surface: Surface) -> Scenarios:
+    """All that the roughness of a surface and of a material may be, on a half-space."""
+    if material.surface is None:
+        return surface.scenarios
+    return _add_surfaces(surface, material.surface, material.solid)
 
 
 def _doubt_smoothness(range: float, h_rms: float) -> str:

@@ -34,6 +34,7 @@ from stickiness.verdicts import parametric
 from stickiness.verdicts.longer_waves import LARGER, lengthen
 from stickiness.verdicts.parametric import ENDS, MOMENTS
 from stickiness.verdicts.scenarios import Scenarios
+from stickiness.verdicts.shorter_waves import shorten, shorten_shells
 from stickiness.verdicts.simulated_surface import (
     find_lacking,
     find_stiffening,
@@ -319,6 +320,30 @@ class Surface:
         if is_known or contact <= float(self.data.scan):
             return self
         return Surface(lengthen(self.data, contact))
+
+    def shorter(self, q: float) -> Surface:
+        """The surface without its waves below a wave number [1/m], itself if it has none.
+
+        Their rms mean curvature is `lost_curvature`.
+        """
+        if q <= min(spectrum.band[0] for spectrum in self.spectra) * (1 + 1e-9):
+            return self
+        if self.shells is not None:
+            shells, lost = shorten_shells(self.shells, q)
+            data = _describe_shells(shells).assign(lost_curvature=("end", [lost, lost]))
+            return Surface(data, shells=shells)
+        return Surface(shorten(self.data, q))
+
+    @property
+    def lost_curvature(self) -> float:
+        """Rms mean curvature [1/m] of the waves that `shorter` has taken out."""
+        return float(np.median(self.rows("lost_curvature"))) if "lost_curvature" in self.data else 0
+
+    @property
+    def highest(self) -> float:
+        """Highest wave number that any draw may have [1/m]."""
+        of_draws = self.data.get("beyond_end_draws", self.data.q1)
+        return float(np.maximum(of_draws, self.data.q1).max())
 
     @property
     def not_judged(self) -> str:

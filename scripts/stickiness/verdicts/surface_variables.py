@@ -45,6 +45,8 @@ SURFACE_VARIABLES = {
     ),
     "beyond_energy": ("1", "energy of waves beyond the cutoff over that of the others"),
     "beyond_energy_draws": ("1", "the same of every draw"),
+    "beyond_hurst_draws": ("1", "Hurst exponent of these waves, of every draw"),
+    "beyond_end_draws": ("1/m", "wave number at which these waves end, of every draw"),
     "unheld_energy": ("1", "energy of waves that the first map does not hold, over the others"),
     "unheld_energy_draws": ("1", "the same of every draw"),
     "longer_energy": ("1", "energy that a contact larger than the scan adds, over the other"),

@@ -1,12 +1,14 @@
-"""Pull-off force of a rough ball: JKR, the energy of full contact, measured heights."""
+"""Pull-off force of a rough ball: JKR, full contact, measured heights, spheres on heights."""
 
 import numpy as np
 import pytest
+from references import rough_spheres
 
 from stickiness import Material, Surface, full_contact_energy, surface
 from stickiness.remaining import sphere
 from stickiness.solids import Layer
-from stickiness.spectrum import SelfAffine
+from stickiness.spectrum import SelfAffine, Shells
+from stickiness.traction_laws import LAWS
 from stickiness.verdicts.pair_roughness import combine_roughness
 from stickiness.verdicts.rough_ball import pull_off_of_ball
 
@@ -51,7 +53,7 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     rough = SelfAffine(hurst=0.8, q0=2 * np.pi / 1e-3, q1=2 * np.pi / 64e-6, h_rms=3e-6)
     heights = surface.synthesise(rough, 64, 2e-3, seed=3)
     measured = Surface.from_heights(heights, 2e-3)
-    ball = pull_off_of_ball(measured, TAPE, RADIUS)
+    ball = pull_off_of_ball(measured, TAPE, LARGE)  # whose contact is larger than the map
     low, high = ball.force_limits
     assert 0 <= low < ball.force < high
     # Roughness takes work away, but acts over a longer distance. That brings Maugis' ball closer to
@@ -60,12 +62,147 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     # The median of the draws without errors of the model, which widen the limits.
     draws = combine_roughness(TAPE, measured).scenarios.draws
     length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus
-    drawn = sphere.pull_off(draws, RADIUS, length, TAPE.range).force * TAPE.plane_strain_modulus
+    drawn = sphere.pull_off(draws, LARGE, length, TAPE.range).force * TAPE.plane_strain_modulus
     assert ball.force == pytest.approx(np.median(drawn), rel=1e-3)
     assert high > np.quantile(drawn, 0.99)
     contents = ball.to_dict()
     assert contents["pull_off_force"]["value"] == ball.force
-    assert contents["radius"] == {"value": RADIUS, "unit": "m"}
+    assert contents["radius"] == {"value": LARGE, "unit": "m"}
+
+
+# A hard ball: lengths in units of the zone of a smooth one, sqrt(2 R range).
+RANGE = 3e-10
+TIP = 2e-6
+ZONE = np.sqrt(2 * TIP * RANGE)
+
+
+def hard(law):
+    return Material(youngs_modulus=1e13, work_of_adhesion=0.05, range=RANGE, law=law)
+
+
+def on_zone(waves, height, finest=16):
+    """A spectrum with a number of longest waves across the zone, and a height over the range."""
+    q0 = np.pi * waves / ZONE
+    return SelfAffine(hurst=0.8, q0=q0, q1=finest * q0, h_rms=height * RANGE)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", ["exponential", "van_der_waals"])
+@pytest.mark.parametrize("height", [0.3, 3.0])
+@pytest.mark.parametrize(
+    ("waves", "finest", "cells"), [(0.1, 64, 2), (0.5, 16, 4), (2.0, 16, 8), (8.0, 4, 16)]
+)
+def test_hard_balls_have_the_force_of_a_sum_over_heights(law, height, waves, finest, cells):
+    rough = on_zone(waves, height, finest)
+    length = cells * 2 * ZONE / waves
+    material = hard(law)
+    ball = pull_off_of_ball(Surface.from_spectrum(rough), material, TIP)
+    of_law = LAWS[law](material.work_of_adhesion, RANGE)
+    # One surface has too few independent places.
+    places = np.random.default_rng(2).integers(0, 512, (60, 2))
+    surfaces = [surface.synthesise(rough, 512, length, seed=seed) for seed in range(1, 6)]
+    forces = [
+        rough_spheres.touching_force(heights, length, TIP, of_law, place, reach=5 * ZONE)
+        for heights in surfaces
+        for place in places
+    ]
+    low, high = ball.force_limits
+    assert np.mean((np.array(forces) > low) & (np.array(forces) < high)) >= 0.9
+    assert 0.5 < ball.force / np.median(forces) < 2.2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("waves", [0.375, 1.5, 6.0])
+@pytest.mark.parametrize("tabor", [0.3, 1.0, 3.0])
+def test_elastic_balls_have_the_force_of_boundary_elements(tabor, waves):
+    """From full contact that holds to little that remains, in cells of 128 x 128 points."""
+    # In a unit in which the larger of JKR's contact and the zone of a hard ball is 1.
+    radius = 100.0
+    adhesion = 8 / (9 * np.pi * radius**2)
+    reach = np.cbrt(radius * adhesion**2) / tabor
+    if 2 * radius * reach > 1:
+        reach = 1 / (2 * radius)
+        adhesion = np.sqrt(tabor**3 * reach**3 / radius)
+    unit = RANGE / reach  # [m]
+    modulus = 0.05 / (adhesion * unit)
+    material = Material(
+        youngs_modulus=modulus, poisson_ratio=0.0, work_of_adhesion=0.05, range=RANGE
+    )
+    law = LAWS["exponential"](adhesion, reach)
+    length = 16 / 3
+    smooth = rough_spheres.pull_off_force(np.zeros((128, 128)), length, radius, law)
+    inside = []
+    for height in (0.4, 1.2, 3.0):
+        q0 = np.pi * waves
+        rough = SelfAffine(hurst=0.8, q0=q0, q1=np.pi * 12, h_rms=height * reach)
+        in_metres = SelfAffine(
+            hurst=0.8, q0=q0 / unit, q1=np.pi * 12 / unit, h_rms=height * reach * unit
+        )
+        ball = pull_off_of_ball(Surface.from_spectrum(in_metres), material, radius * unit)
+        low, high = np.divide(ball.force_limits, ball.smooth_force)
+        for seed in range(3):
+            heights = surface.synthesise(rough, 128, length, seed)
+            force = rough_spheres.pull_off_force(heights, length, radius, law) / smooth
+            inside.append(low <= force <= high)
+    assert np.mean(inside) > 0.75
+
+
+@pytest.mark.parametrize("radius", [2e-8, 2e-7, 2e-6])
+def test_tips_on_a_map_have_the_force_of_a_sum_over_its_heights(radius):
+    """Waves to 0.5 µm on a map of 5 µm: far longer than the zone of a tip."""
+    rough = SelfAffine(hurst=0.8, q0=2 * np.pi / 5e-7, q1=2 * np.pi / 4e-8, h_rms=1e-9)
+    heights = surface.synthesise(rough, 256, 5e-6, seed=1)
+    material = Material(youngs_modulus=1e11, work_of_adhesion=0.05, range=RANGE)
+    ball = pull_off_of_ball(Surface.from_heights(heights, 5e-6), material, radius)
+    fine = surface.resample(heights, 2048)
+    law = LAWS["exponential"](material.work_of_adhesion, RANGE)
+    reach = np.sqrt(2 * radius * 1e-8)
+    forces = [
+        rough_spheres.touching_force(fine, 5e-6, radius, law, place, reach)
+        for place in np.random.default_rng(1).integers(0, 2048, (60, 2))
+    ]
+    low, high = ball.force_limits
+    assert np.mean((np.array(forces) > low) & (np.array(forces) < high)) >= 0.85
+    assert 0.6 < ball.force / np.median(forces) < 1.5
+
+
+def test_only_shorter_waves_are_left():
+    rough = wall(1e-6)
+    q = 1e6
+    short = Surface.from_spectrum(rough).shorter(q)
+    expected = [np.sqrt(rough.variance_above(q)), rough.variance_above(q, 1) / 4]
+    found = [short.data.h_rms.values, short.data.elastic_energy.values]
+    np.testing.assert_allclose(found, np.outer(expected, [1, 1]), rtol=1e-6)
+    assert short.lost_curvature == pytest.approx(np.sqrt(rough.variance_below(q, 4)) / 2)
+    assert short.spectra[0].band[0] == pytest.approx(q)
+    assert short.spectra[0].h_rms == pytest.approx(expected[0], rel=1e-2)
+
+
+def test_no_wave_is_left_out_below_the_longest():
+    of_wall = Surface.from_spectrum(wall(1e-6))
+    assert of_wall.shorter(1e4) is of_wall
+    assert of_wall.shorter(1e9).rms_height < 1e-3 * of_wall.rms_height
+
+
+def test_shells_are_left_out_one_by_one():
+    shells = Surface.from_spectrum(Shells([1e5, 2e5, 4e5], [4e-12, 1e-12, 1e-13]))
+    assert shells.shorter(1.5e5).rms_height == pytest.approx(np.sqrt(1.1e-12))
+    assert shells.shorter(1e6).rms_height < 1e-3 * shells.rms_height
+
+
+def test_a_second_rough_solid_counts_as_the_first():
+    rough = on_zone(0.25, 1.0)
+    both = hard("exponential").replace(surface=Surface.from_spectrum(rough))
+    twice = SelfAffine(hurst=0.8, q0=rough.q0, q1=rough.q1, h_rms=np.sqrt(2) * rough.h_rms)
+    pair = pull_off_of_ball(Surface.from_spectrum(rough), both, TIP)
+    one = pull_off_of_ball(Surface.from_spectrum(twice), hard("exponential"), TIP)
+    assert pair.force == pytest.approx(one.force, rel=0.02)
+
+
+def test_a_ball_that_is_none_within_the_attraction_is_not_judged():
+    ball = pull_off_of_ball(Surface.from_spectrum(wall(1e-6)), TAPE, 1e-9)
+    assert np.isnan(ball.force)
+    assert "larger radius" in str(ball)
 
 
 def test_what_is_not_judged_has_no_force():
