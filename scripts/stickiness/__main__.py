@@ -322,7 +322,7 @@ def print_verdicts(verdicts: Any, balls: list, as_json: bool) -> None:
         if not as_json:
             say(f"{label[0].upper()}{label[1:]}: {name_options(str(verdict))}")
             if ball:
-                say(ball)
+                say(name_options(str(ball)))
         name = {"material": label} if len(balls) > 1 else {}
         listed.append(name | verdict.to_dict() | ({"ball": ball.to_dict()} if ball else {}))
     if as_json:

@@ -120,6 +120,9 @@ def test_a_common_material_stands_for_its_values_and_a_ball_has_a_force(folder):
     assert common == run(folder, *arguments, *values)
     force = json.loads("\n".join(common.lines))["ball"]["smooth_pull_off_force"]
     assert force["value"] == pytest.approx(1.5 * np.pi * 40e-3 * 1e-3, rel=2e-3)  # JKR
+    told = run(folder, *[each for each in arguments if each != "--json"], "--material", "pdms")
+    assert told.status == 0
+    assert [line for line in told.lines if line.startswith("pull-off force of a ball")]
 
 
 def test_the_common_materials_are_listed_with_their_values(folder):
