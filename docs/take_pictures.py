@@ -31,7 +31,7 @@ PAGES = {
         ".page { display: block !important }",
     ),
     "surface": (
-        "../example/run/results/draft/report/surfaces/wall.html",
+        "../example/run/wall.html",
         1300,
         "main > :not(h1, #contact, #contact + p, #contact + p + figure)"
         "{ display: none !important }",
@@ -71,7 +71,7 @@ def judge_wall() -> Path:
     ):
         environment = os.environ | {"PYTHONPATH": "scripts"}
         subprocess.run([sys.executable, *command], cwd=DOCS.parent, env=environment, check=True)
-    return folder / "run/results/draft/report/surfaces/wall.html"
+    return folder / "run/wall.html"
 
 
 def copy_example(page: Path) -> None:
