@@ -115,13 +115,13 @@ def grid(name: str, values: ArrayLike, square: bool = False) -> NDArray:
 
 
 def with_gaps(name: str, values: ArrayLike) -> NDArray:
-    """Return real values of any shape as floats, NaN where they are masked; others stay as is."""
+    """Return real values of any shape as floats, NaN where they are masked or infinite."""
     data = np.ma.getdata(values) if np.ma.isMaskedArray(values) else values
     array = np.where(np.ma.getmask(values), np.nan, numbers(name, data))
     known = np.abs(array[np.isfinite(array)])
     # The largest of them may stand for a missing point.
     _check_size(name, float(np.median(known)) if known.size else 0.0)
-    return array
+    return np.where(np.isinf(array), np.nan, array)
 
 
 def _check_size(name: str, size: float) -> None:

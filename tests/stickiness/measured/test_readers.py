@@ -1,5 +1,6 @@
 """One map in the files of many programs: read as from .npy, or refused in one line that helps."""
 
+import io
 import struct
 import warnings
 
@@ -28,6 +29,12 @@ SIZED = UNIT | {"length": "48 um"}
 
 def lines(table, separator=" ", form="{:.5f}"):
     return "\n".join(separator.join(form.format(v) for v in row) for row in table) + "\n"
+
+
+def npy(array):
+    file = io.BytesIO()
+    np.save(file, array)
+    return file.getvalue()
 
 
 def beside(*columns):
@@ -224,6 +231,22 @@ READ = {
         "# Width: 48 um\n# Height: 32 um\n# Value units: um\n" + lines(MAP.reshape(-1, 1)),
         {},
     ),
+    "numpy by another name": ("a.txt", npy(MAP), SIZED),
+    "columns y x z": (
+        "a.csv",
+        "Y (um),X (um),Z (um)\n" + lines(POINTS[:, [1, 0, 2]], ","),
+        {},
+    ),
+    "rows and columns": (
+        "a.csv",
+        "row,col,height_um\n" + lines(POINTS[:, [1, 0, 2]], ","),
+        PLACED,
+    ),
+    "NanoScope, not square": (
+        "a.txt",
+        "\\Scan Size: 48 um\n\\Aspect ratio: 1.5:1\n\nHeight(um)\n" + lines(MAP),
+        UNIT,
+    ),
     "points beside a grid": ("a.xyz", lines(POINTS + np.c_[JITTER, 0 * JITTER[:, 0]]), PLACED),
 }
 
@@ -255,6 +278,13 @@ def test_every_file_of_a_map_gives_what_npy_gives(tmp_path, kind):
     assert bool(found.remarks) == (kind in told)
 
 
+def test_an_infinite_height_in_the_first_place_is_missing(tmp_path):
+    path = write(tmp_path, "a.txt", "inf" + lines(MAP)[lines(MAP).index(" ") :])
+    found = topography.read(path, **SIZED)
+    assert found.heights.shape == (NX, NY)
+    assert found.missing == 1
+
+
 SCATTERED = np.random.default_rng(1).random((500, 3))
 LINE = lines(np.column_stack([X, X % 7]))
 # What is refused: name of the file, content, options, words of the error.
@@ -276,6 +306,25 @@ REFUSED = {
         {},
         "in mm and um; write both in one unit",
     ),
+    "points for thousands": (
+        "a.csv",
+        lines(1000 * MAP, ";", "{:,.0f}").replace(",", "."),
+        SIZED,
+        "may have decimal points or points for thousands",
+    ),
+    "a few commas for thousands": (
+        "a.txt",
+        lines(400 * MAP, "\t", "{:,.0f}"),
+        SIZED,
+        "may have decimal commas or commas for thousands",
+    ),
+    "heights in waves": (
+        "a.asc",
+        "Wavelength\t7\t4\t600\nRAW_DATA\n" + lines(MAP),
+        SIZED,
+        "apply it to the heights",
+    ),
+    "a negative unit": ("a.txt", lines(MAP), SIZED | {"height_unit": "-1 um"}, "above zero"),
     "fields": ("a.npy", np.rec.fromarrays([X, X], names="a,b"), SIZED, "with the fields a, b"),
     "many maps": ("a.npy", np.stack([MAP, MAP]), SIZED, "got shape (2, 16, 24); save one map"),
     "complex numbers": ("a.npy", MAP * 1j, SIZED, "holds no real numbers"),

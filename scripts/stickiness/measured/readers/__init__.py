@@ -107,6 +107,8 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
         return INSTRUMENT
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
+    if head.startswith(b"\x93NUMPY"):
+        return "numpy"
     if grids.is_binary(head) or not head.startswith(text.UTF16) and b"\0" in head:
         return INSTRUMENT
     return INSTRUMENT if text.is_of_instrument(head[: len(head) // 2 * 2]) else "text"

@@ -54,7 +54,10 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
 def metres_per(unit: str, name: str) -> float:
     """Length of a unit in metres; errors name `name`."""
     try:
-        return si_of_unit(unit, "m")
+        factor = si_of_unit(unit, "m")
+        if factor <= 0:
+            raise ValueError(f"must be above zero, got {unit!r}")
+        return factor
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
 

@@ -21,13 +21,16 @@ from stickiness.measured.readers.raw import Raw, is_length, metres, sides
 
 UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 MOST_COLUMNS = 12  #: of a table of points; more are a matrix
+MOST_MISSING = 2  #: different whole numbers that may stand for missing points in a column
 ROWS_PER_COLUMN = 32  #: of such a table, at least
 
-# What commas may mean: groups of three digits, beside smaller numbers without any.
-_GROUPS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+")
+# What a comma or a point may mean: groups of three digits, beside smaller numbers without any.
+_GROUPS = {mark: re.compile(rf"[-+]?[1-9]\d{{0,2}}(?:{re.escape(mark)}\d{{3}})+") for mark in ",."}
 _SMALLER = re.compile(r"[-+]?\d{1,3}|[^\d]*")
 # How a row begins: with a number, or with missing points before one.
-_NUMERIC = re.compile(r'"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:-?nan\b|[-+]?\.?\d)', re.IGNORECASE)
+_NUMERIC = re.compile(
+    r'"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:[-+]?(?:nan|inf)\b|[-+]?\.?\d)', re.IGNORECASE
+)
 _MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
 _FIELD = re.compile(
     r"^\W*(width|height|value unit|lateral unit|breite|höhe|werteinheit|laterale einheit)(?:s|en)?"
@@ -48,7 +51,9 @@ _OF_INSTRUMENTS = re.compile(
     re.IGNORECASE | re.MULTILINE,
 )
 _FACTOR = re.compile(
-    r"factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b", re.I
+    r"factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b"
+    r"|^wavelength(\s+[\d.]+){3}$",  # heights in waves
+    re.I,
 )
 # Factors of pictures and axes, unless heights are named beside them.
 _OF_NO_HEIGHTS = re.compile(
@@ -71,11 +76,14 @@ _KEYENCE_UNIT = re.compile(r"^(?:unit|einheit)\s*[,;:\t]\s*(\S+)\s*$", re.IGNORE
 _NANOSCOPE = re.compile(
     r"^\W*scan size\s*[:=]\s*([\d.]+)(?:\s+([\d.]+))?\s*(\w+)\s*$", re.IGNORECASE
 )
+_ASPECT = re.compile(r"^\W*aspect ratio\s*[:=]\s*([\d.]+)\s*:\s*([\d.]+)", re.IGNORECASE)
 _NAME_AND_UNIT = re.compile(r"^(.*?)[\s_]*[\[(]\s*([^\])]+?)\s*[\])]$")
 _NAMED_UNIT = re.compile(
     r"^\W*(?:heights?|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$",
     re.IGNORECASE,
 )
+# Columns of positions: those of a matrix follow each other along x.
+_AXES = {"x": "x", "y": "y", "column": "x", "col": "x", "row": "y"}
 _HEIGHT_NAME = re.compile(r"^(?:z|heights?|topo\w*|h)\b", re.IGNORECASE)
 
 
@@ -229,9 +237,11 @@ def _read_header(lines: list[str], columns: int) -> _Header:
         fields["pixel"] = f"{match[1]} {match[2]}"
         told = [each[1] for each in map(_KEYENCE_UNIT.match, lines) if each]
         fields |= {"value unit": told[-1]} if told else {}
+    aspects = [float(each[2]) / float(each[1]) for each in map(_ASPECT.match, lines) if each]
     for match in filter(None, (_NANOSCOPE.match(line.replace("~", "u")) for line in lines)):
         fields["width"] = f"{match[1]} {match[3]}"
-        fields["height"] = f"{match[2] or match[1]} {match[3]}"
+        height = float(match[2]) if match[2] else float(match[1]) * (aspects or [1.0])[-1]
+        fields["height"] = f"{height:.6g} {match[3]}"
     names, units = _read_names(lines, columns)
     if not units:
         named = [match[1] for match in map(_NAMED_UNIT.match, lines) if match]
@@ -318,7 +328,10 @@ def _order_columns(table: NDArray, header: _Header) -> tuple[NDArray, _Header, t
     order = list(range(columns))
     heights = [i for i, name in enumerate(names) if _HEIGHT_NAME.match(name)]
     remarks: tuple[str, ...] = ()
-    if columns in (2, 3) and len(heights) == 1:
+    axes = {_AXES[name]: i for i, name in enumerate(names) if name in _AXES}
+    if columns == 3 and len(axes) == 2:
+        order = [axes["x"], axes["y"], *(i for i in order if i not in axes.values())]
+    elif columns in (2, 3) and len(heights) == 1:
         order = [i for i in order if i not in heights] + heights
     elif 3 < columns <= MOST_COLUMNS and rows >= ROWS_PER_COLUMN * columns:
         order = [names.index(name) for name in "xyz"] if {*"xyz"} <= {*names} else [0, 1, 2]
@@ -424,8 +437,10 @@ def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) ->
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
     if separator is None and not has_decimal_commas and re.search(r",\s|^[^ ]*,[^ ]*$", first):
         separator = ","
-    if "," in first and separator != "," and not has_decimal_commas:
-        _refuse_groups(rows, separator)
+    if separator != "," and not has_decimal_commas:
+        _refuse_groups(rows, separator, ",")
+    if not has_decimal_commas:
+        _refuse_groups(rows, separator, ".")
     values: list[list[float]] = []
     for number, line in rows:
         fields = (line if separator == "," else line.replace(",", ".")).split(separator)
@@ -465,12 +480,30 @@ def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) ->
     return matrix
 
 
-def _refuse_groups(rows: list[tuple[int, str]], separator: str | None) -> None:
-    """Refuse numbers if all their commas may separate thousands: they may be decimal ones, too."""
-    fields = (field.strip() for _, line in rows for field in line.split(separator))
-    first = next((field for field in rows[0][1].split(separator) if "," in field), "").strip()
-    if all((_GROUPS if "," in field else _SMALLER).fullmatch(field) for field in fields):
-        raise ValueError(
-            f"numbers such as {first!r} may have decimal commas or commas for thousands: write "
-            "them with decimal points or without commas"
-        )
+def _refuse_groups(rows: list[tuple[int, str]], separator: str | None, mark: str) -> None:
+    """Refuse numbers if all their commas, or points, may separate thousands or decimals.
+
+    Points do only beside whole numbers in the same column: those that are decimal have them there.
+    """
+    example = ""
+    whole: dict[int, set[str]] = {}  # numbers without the mark, of every column
+    marked: set[int] = set()
+    for _, line in rows:
+        for column, field in enumerate(map(str.strip, line.split(separator))):
+            if mark not in field:
+                if not _SMALLER.fullmatch(field):
+                    return
+                whole.setdefault(column, set()).add(field)
+            elif _GROUPS[mark].fullmatch(field):
+                example = example or field
+                marked.add(column)
+            else:
+                return
+    # A few of them may stand for missing points.
+    is_mixed = any(len(whole.get(column, ())) > MOST_MISSING for column in marked)
+    if example and (mark == "," or is_mixed):
+        advice = {
+            ",": "commas or commas for thousands: write them with decimal points or without commas",
+            ".": "points or points for thousands: write decimals in all numbers, or no points",
+        }
+        raise ValueError(f"numbers such as {example!r} may have decimal {advice[mark]}")
