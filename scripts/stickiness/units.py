@@ -94,6 +94,8 @@ def _registry() -> pint.UnitRegistry:
 @cache  # a configuration is read more than once: for its checks and for its values
 def _parse_unit(text: str) -> pint.Unit:
     """Return a unit, of which pint takes no numbers but powers and a 1 above the stroke."""
+    if re.search(r"(?:\^|\*\*)[^*/ ]*(?:\^|\*\*)", text):  # 9**9**9 would not end
+        raise ValueError("power of a power")
     return _registry().parse_units(f"1{text}" if text.startswith("/") else text)
 
 

@@ -185,12 +185,18 @@ def _check_interval(interval: list[Any]) -> list[Any]:
     return interval
 
 
+def _show(text: str) -> str:
+    if not (shown := printable(text)):
+        raise ValueError("must have characters that can be shown")
+    return shown
+
+
 def _count_values(value: Any) -> Hashable:
     return "pair" if isinstance(value, list | tuple) else "value"
 
 
 Text = Annotated[str, Field(min_length=1)]
-Shown = Annotated[str, AfterValidator(printable), Field(min_length=1)]
+Shown = Annotated[Text, AfterValidator(_show)]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9._-]*$")]
 Names = Annotated[dict[Name, T], Field(min_length=1)]
 Several = Annotated[list[T], Field(min_length=1), AfterValidator(_check_distinct)]
@@ -233,7 +239,7 @@ class Labelled(Section):
 
     label: Shown = needed("name for readers")
     source: Shown = needed("where the values or the data come from")
-    note: Maybe[Shown] = optional("a remark for readers")
+    note: Maybe[Annotated[str, AfterValidator(printable)]] = optional("a remark for readers")
 
     @classmethod
     def complete(cls, entry: Mapping[str, Any]) -> dict[str, Any]:
