@@ -349,11 +349,11 @@ def from_array(
 
     # Spikes, scars and points beside missing ones are taken for missing.
     usable, dropped = levelling.without_rims(heights, missing_rim)
-    values = usable
+    unmended = usable
     mended = scanning.mend(usable, scan, scale)
     usable = mended.heights
     remarks += tuple(f"{source}: {remark}" for remark in mended.remarks)
-    scars = int(np.count_nonzero(np.isnan(usable) & ~np.isnan(values)))
+    scars = int(np.count_nonzero(np.isnan(usable) & ~np.isnan(unmended)))
     masked = 0
     if spikes == "mask":
         is_spike = levelling.find_spikes(usable)
@@ -361,7 +361,7 @@ def from_array(
         usable = np.where(is_spike, np.nan, usable)
     unused = np.isnan(usable)
     # Doubts about values are about those in the file.
-    values = np.where(unused, np.nan, values)
+    values = np.where(unused, np.nan, unmended)
     doubts = [*mended.doubts, *doubt_values(values)]
 
     # Missing points are cut off or filled.
