@@ -210,7 +210,7 @@ def test_answers_for_models_have_values_limits_and_units():
 @pytest.mark.parametrize(
     ("known", "length", "factor", "messages"),
     [
-        ({"q0": 1e3, "q1": 8e3, "h_rms": 1e-4}, 2e-3 * np.pi, 1e6, ["lengths both in m"]),
+        ({"q0": 1e3, "q1": 6e4, "h_rms": 1e-3}, 2e-3 * np.pi, 1, ["lengths both in m"]),
         (  # slopes as of 1 um on 2 mm
             {"q0": np.pi, "q1": 30, "h_rms": 1e-3},
             *(2, 1),
@@ -229,6 +229,15 @@ def test_heights_that_no_surface_has_are_warned_of(known, length, factor, messag
         verdict(heights, length=length, **GEL)
     found = " ".join(str(warning.message) for warning in caught)
     assert all(message in found for message in messages), found
+
+
+def test_heights_in_micrometres_beside_a_side_in_metres_are_not_judged():
+    model = SelfAffine(hurst=0.8, q0=1e3, q1=8e3, h_rms=1e-4)
+    length = 2e-3 * np.pi
+    micrometres = 1e6 * surface.synthesise(model, 128, length, 1)
+    answer = verdict(micrometres, length=length, **GEL)
+    assert answer.word == "not judged"
+    assert "more than the side of 0.00628 m" in answer.not_judged[0]
 
 
 @pytest.mark.parametrize(("slope", "warned"), [(0.98, False), (1.02, True)])
