@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+import scipy
 
 from common.topographies import FAMILIES, make_topography
 from stickiness import Surface, thresholds
 from stickiness.entries import check_heights
 from stickiness.measured import scanning, topography
 from stickiness.measured.levelling import detrend
+from stickiness.remaining.calibration import find_spread
 from stickiness.verdicts.measured_surface import Measurement
 
 N = 128
@@ -125,6 +127,27 @@ def test_limits_contain_the_truth(fault):
     found = threshold(fault(rough(), FAULTS[fault][1], np.random.default_rng(0)))
     assert found.low < true.value < found.high
     assert found.value == pytest.approx(true.value, rel=0.35)
+
+
+def energy(heights):
+    """Elastic energy of full contact, up to a factor, of the heights and their mirror images."""
+    orders = np.hypot(*np.meshgrid(ROW, ROW, indexing="ij"))
+    return np.sum(orders * scipy.fft.dctn(detrend(heights), norm="ortho") ** 2)
+
+
+def test_limits_of_maps_hold_what_mending_leaves():
+    """Mended heights have the energy of the true ones, beside the least error of any map."""
+    errors = []
+    for number, family in enumerate(FAMILIES):
+        true = make_topography(family, N, 4, 11)
+        true = true / true.std()
+        for fault, (_, strength) in FAULTS.items():
+            mended, remarks = used(fault(true, strength, np.random.default_rng(number)))
+            assert remarks, (family, fault)
+            errors.append(np.log(energy(mended) / energy(true)))
+    least = find_spread("patch", "least").high
+    added = np.hypot(least, np.quantile(np.abs(errors), 0.9)) / least - 1
+    assert added < 0.1
 
 
 @pytest.mark.parametrize("fault", [rows, jump, creep, scars])
