@@ -44,7 +44,7 @@ Examples
 
 from importlib import import_module
 
-__version__ = "0.3.0"
+__version__ = "0.4.0"
 
 _MODULES = (
     *("spectrum", "surface", "solids", "repulsive", "adhesive", "dmt", "persson"),

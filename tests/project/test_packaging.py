@@ -39,17 +39,24 @@ def test_every_dependency_has_a_lower_bound_that_the_tested_version_meets():
         assert tested[requirement.name.lower()] in requirement.specifier, requirement.name
 
 
-def test_metadata_name_authors_and_pages_and_the_script_is_there():
+def test_metadata_name_the_authors_and_the_script_is_there():
     authors = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))["authors"]
     assert PROJECT["authors"] == authors
-    assert PROJECT["urls"].keys() == {"Repository", "Issues", "Changelog"}
     module, _, function = PROJECT["scripts"]["stickiness"].partition(":")
     assert callable(getattr(importlib.import_module(module), function))
 
 
+def test_nothing_is_left_to_be_filled_in():
+    files = [ROOT / "pyproject.toml", ROOT / "paper.md", ROOT / "CITATION.cff"]
+    files += [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")]
+    for file in files:
+        left = re.findall(r"PLACEHOLDER|OWNER|TODO|to be added", file.read_text(encoding="utf-8"))
+        assert left == [], file
+
+
 def test_pages_name_the_version_that_they_come_with():
     pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "examples/module/Snakefile"]
-    pages += [*ROOT.glob("docs/*.md")]
+    pages += [*ROOT.glob("docs/**/*.md")]
     named = [
         re.findall(r"(?<!/)\bv(\d+\.\d+\.\d+)\b", page.read_text(encoding="utf-8"))
         for page in pages
