@@ -85,17 +85,18 @@ def draw_threshold(ax, limit, adhesive, maps, rms_slope):
     loaded = maps.sel(pressure=load, method="nearest")
     inverse = loaded.pressure / (loaded.repulsive_area * rms_slope)
     ax.plot(loaded.adhesion_length_over_range, inverse, "x", color=BLACK, markersize=5, mew=1.4)
-    single = make_dot("one surface (B)", marker="x", color=BLACK, markersize=5)
+    single = make_dot("panel B", marker="x", color=BLACK, markersize=5)
     compressed = make_dot("compressed", markersize=SIZE, mfc="white")
     fit = make_key("fit over loads", linewidth=0.9)
     dmt = make_key("DMT sum", linestyle=":")
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
-    ax.axhspan(-0.35, 0, color=GREY, alpha=0.15, linewidth=0)
+    ax.axhspan(-0.65, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
     ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
-    ax.set(ylim=(-0.35, 0.68), xscale="log")
+    ax.set(ylim=(-0.65, 0.78), xscale="log")
     ax.set_title(state(pressure=load))
-    ax.legend(handles=[fit, compressed, single, dmt], loc="lower left", bbox_to_anchor=(0, 0.08))
+    place = {"loc": "lower left", "bbox_to_anchor": (0, 0.07), "fontsize": 7, "handlelength": 1.2}
+    ax.legend(handles=[fit, compressed, single, dmt], **place)
 
 
 def draw_maps(panels, maps, adhesive):
