@@ -151,7 +151,9 @@ def verdicts():
             "probability": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
             "probability_low": (dims[:2], [[np.nan, 0.42], [np.nan, 0.0]]),
             "error_of_spectrum": (dims[:2], 0.3 * ones[0]),
+            "error_of_map": (dims[:2], 0 * ones[0]),
             "error_of_model": (dims[:2], 0.4 * ones[0]),
+            "scan": (dims[1], [np.nan, 1e-3]),
             "not_judged": (dims[:2], np.full((2, 2), "", "O")),
             "disagrees": ((*dims[:2], "criterion"), [[[0] * 3] * 2, [[0, 1, 0], [0, 0, 1]]]),
             "decided_by": (dims[:2], [[0, 0], [0, 0]]),
@@ -365,9 +367,10 @@ def test_rows_of_pairs(pairs, verdicts):
     assert (sand["probability"], iron["probability"]) == ("42 %", "0 %")
     assert jelly_sand["change"] == "sticks below E = 1.8 MPa (1.2 to 3.6 MPa); it is 1 kPa"
     assert iron_sand["change"] == "sticks below E* = 2.4 MPa (1.6 to 4.8 MPa); it is 2 GPa"
-    assert (jelly_sand["unknown"], iron_sand["unknown"]) == ("model", "")
+    assert "a map, on which contact can be simulated" in jelly_sand["widest"]
+    assert iron_sand["widest"] == ""
     assert (jelly_sand["moment"], iron_sand["moment"]) == ("at 1 Hz", "")
-    assert sand["errors"] == "spectrum 30 %, model 40 %"
+    assert sand["errors"] == "spectrum 30 %, map 0 %, model 40 %"
     assert jelly_sand["sort"]["errors"] == pytest.approx(0.5)
     assert all(pair["mine"] for pair in pairs)
 

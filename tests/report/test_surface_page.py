@@ -280,8 +280,10 @@ def test_page_has_all_rms_heights_and_the_spikes(single, folder):
 
 
 @pytest.mark.slow
-def test_the_page_has_pictures_of_a_map_as_read_and_as_used(page, folder):
-    assert 'id="reading"' in page.html
+def test_the_page_has_pictures_of_a_map_as_read_where_it_is_used_otherwise(page, folder):
+    assert 'id="reading"' not in page.html
+    spiky = analyse(folder / "spiky.nc", file=scan(folder / "spiky.txt", spoiled={(70, 60): 1e6}))
+    assert 'id="reading"' in write_page(spiky, folder).html
     profile = folder / "profile.txt"
     heights = surface.synthesise(SelfAffine(hurst=0.8, q0=1, q1=50, h_rms=9), 512, 6.3, seed=1)
     np.savetxt(profile, heights[0])

@@ -27,6 +27,7 @@ from stickiness.verdicts.limits import read_limited
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
+SOURCES = ("spectrum", "map", "model")  #: of the error of a margin on a measured surface
 COLUMNS = (
     "remaining",
     "pull_off",
@@ -71,7 +72,7 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
         "dwell": wording.tell_dwell(pair),
         "rates": wording.tell_rates(pair),
         "improbable": wording.tell_improbable(pair),
-        "unknown": find_largest_unknown(pair) if code == DEPENDS else "",
+        "widest": wording.tell_widest(pair) if code == DEPENDS else "",
     }
     cells = describe_cells(pair)
     row["text"] = {name: text for name, (text, _) in cells.items()}
@@ -91,7 +92,7 @@ def describe_cells(pair: xr.Dataset) -> dict[str, tuple[str, Any]]:
     # A measured surface has spectra drawn from the errors of the measurement.
     is_drawn = bool(np.isfinite(pair.probability))
     errors = (
-        f"spectrum {percent(pair.error_of_spectrum)}, model {percent(pair.error_of_model)}"
+        ", ".join(f"{name} {percent(float(pair[f'error_of_{name}']))}" for name in SOURCES)
         if is_drawn
         else NOTHING
     )
@@ -104,7 +105,7 @@ def describe_cells(pair: xr.Dataset) -> dict[str, tuple[str, Any]]:
         "margin": (f"{number(low, 2)} to {number(high, 2)}", np.sqrt(low * high)),
         "onset": (_tell_ends(onset), onset.mean()),
         "probability": (probability, pair.probability),
-        "errors": (errors, np.hypot(pair.error_of_spectrum, pair.error_of_model)),
+        "errors": (errors, np.hypot.reduce([pair[f"error_of_{name}"] for name in SOURCES])),
         "modulus": (wording.tell_modulus(pair), pair.quoted_modulus),
     }
 
@@ -117,19 +118,6 @@ def show_probability(pair: xr.Dataset) -> str:
     low = percent(pair.probability_low)
     high = percent(pair.probability)
     return high if low == high else f"{low.removesuffix(' %')} to {high}"
-
-
-def find_largest_unknown(pair: xr.Dataset) -> str:
-    """What widens the limits of a pair most: the strain of its layer, the surface or the model."""
-    _, low, high = read_limited(pair.margin)
-    if low == 0:
-        return "layer"
-    if np.isfinite(pair.error_of_spectrum):
-        return "surface" if pair.error_of_spectrum > pair.error_of_model else "model"
-    # A surface that was not measured is known between two ends.
-    ends = pair.margin_by_criterion.sel(criterion=REMAINING).values
-    between_ends = np.ptp(np.log(ends))
-    return "surface" if between_ends > np.log(high / low) - between_ends else "model"
 
 
 def explain(pair: xr.Dataset) -> list[dict[str, Any]]:

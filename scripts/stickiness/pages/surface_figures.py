@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 
 from stickiness.formatting import unit_for
+from stickiness.measured.levelling import detrend
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLACK, COLOURS, GREY, MARKERS
 from stickiness.verdicts.limits import LIMITS
@@ -20,6 +21,7 @@ from stickiness.verdicts.wording import is_judged, name_modulus
 
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
+LEAST_CHANGE = 0.02  # of the rms height that a picture shows
 SHOWN = 3  # materials in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
@@ -43,6 +45,19 @@ def draw_surface(surface: xr.Dataset, output: str | Path) -> None:
         if pictured:
             draw_heights(panels["A"], surface[pictured[0]])
         draw_spectrum(panels[row[1]], surface)
+
+
+def shows_change(surface: xr.Dataset) -> bool:
+    """Whether a map as it was read and as it is used look different when both are level."""
+    before = surface.heights_as_read.values
+    if surface.unused.any() or not np.isfinite(before).all():
+        return True
+    thin = max(1, max(surface.heights.shape) // max(before.shape))
+    after = surface.heights.values[::thin, ::thin]
+    if after.shape != before.shape:
+        return True
+    difference = detrend(before, "plane") - detrend(after, "plane")
+    return bool(np.std(difference) > LEAST_CHANGE * np.std(after))
 
 
 def draw_reading(surface: xr.Dataset, output: str | Path) -> None:

@@ -64,7 +64,7 @@ def write_surface_page(
         curves["interactive"] = interactive.embed(interactive.draw_curves(followed))
         curves["still"] = draw_png(surface_figures.draw_still, followed)
     reading = None
-    if "heights_as_read" in surface:
+    if "heights_as_read" in surface and surface_figures.shows_change(surface):
         reading = draw_png(surface_figures.draw_reading, surface)
     contact = None
     if picture is not None:

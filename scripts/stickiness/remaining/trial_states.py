@@ -254,7 +254,7 @@ class SimulatedHeights:
     ) -> NDArray:
         """Logarithm of the factor on the work of adhesion, ``(n,)``; arguments as of `share`."""
         ranges, place = np.unique(range, return_inverse=True)
-        of_patch = np.array([self._find_patch_error(float(value), law) for value in ranges])
+        of_patch = np.array([self.find_patch_error(float(value), law) for value in ranges])
         # Waves that lack take their energy, and more where little remains: they part summits.
         stored = np.log1p(lacking)
         lost = 1 - self.whole.share(adhesion_length / (1 + lacking), range, law)
@@ -264,8 +264,12 @@ class SimulatedHeights:
         error = np.hypot(of_patch[place], of_waves * beyond)
         return spread.value * beyond - stored + deviation * error
 
-    def _find_patch_error(self, range: float, law: str) -> float:
-        """Error by what the quarters of a map differ from it, at the share wanted by default."""
+    def find_patch_error(self, range: float, law: str) -> float:
+        """Error of ln of the work of adhesion by what the quarters of the map differ from it.
+
+        It covers 90 %, and is that at the share wanted by default. `range` is in the unit of the
+        heights, `law` a name in `traction_laws.LAWS`.
+        """
         if (range, law) not in self._errors:
             parts = (self.whole, *self.quarters)
             whole, *quarters = (part.find_threshold(range, law, DEFAULT_SHARE) for part in parts)

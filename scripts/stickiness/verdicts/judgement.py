@@ -36,6 +36,7 @@ from stickiness.limited import Limited
 from stickiness.remaining.roughness import LEAST_LENGTH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
+from stickiness.statistics import COVERS
 from stickiness.verdicts.curves import (
     AXES,
     FREQUENCIES,
@@ -80,7 +81,13 @@ DIMENSIONS = {
     **{f"remaining_by_{name}": (axis.dimension, "limit") for name, axis in AXES.items()},
 }
 #: What is known of the draws of a measured surface alone.
-DRAW_STATISTICS = ("probability", "probability_low", "error_of_spectrum", "error_of_model")
+DRAW_STATISTICS = (
+    "probability",
+    "probability_low",
+    "error_of_spectrum",
+    "error_of_map",
+    "error_of_model",
+)
 
 
 def judge(
@@ -250,13 +257,40 @@ def describe_draws(scenarios: Scenarios, pair: Pair) -> dict[str, float]:
     by_spectrum = np.log(exact.adhesion_length / exact.remaining_threshold)
     by_model = np.log(margins) - by_spectrum
     weights = scenarios.weights
+    of_spectrum, of_model = (
+        np.sqrt(np.cov(by_source, aweights=weights, ddof=0))
+        for by_source in (by_spectrum, by_model)
+    )
+    # On a map, errors of the model contain how its parts differ, and what is not resolved.
+    of_map, of_waves = _find_errors_of_map(pair) / COVERS
     sticks = margins > 1
     return {
         "probability": np.average(sticks, weights=weights),
         "probability_low": np.average(sticks & pair.withstands, weights=weights),
-        "error_of_spectrum": np.sqrt(np.cov(by_spectrum, aweights=weights, ddof=0)),
-        "error_of_model": np.sqrt(np.cov(by_model, aweights=weights, ddof=0)),
+        "error_of_spectrum": np.hypot(of_spectrum, of_waves),
+        "error_of_map": of_map,
+        "error_of_model": np.sqrt(np.maximum(of_model**2 - of_map**2 - of_waves**2, 0.0)),
     }
+
+
+def _find_errors_of_map(pair: Pair) -> NDArray:
+    """Errors of ln of the work of adhesion by the parts of a map and by unresolved waves, ``(2,)``.
+
+    They cover 90 %, at the threshold of the pair; 0 where no contact was simulated.
+    """
+    simulated = pair.rough.simulated
+    lengths = np.atleast_1d(pair.remaining_threshold)
+    lengths = lengths[np.isfinite(lengths)]
+    if simulated is None or lengths.size == 0:
+        return np.zeros(2)
+    of_map = simulated.find_patch_error(float(pair.range), pair.rough.law)
+    length, lacking = (np.array([np.median(rows)]) for rows in (lengths, pair.rough.lacking))
+    low, high = (
+        simulated.find_shift(length, np.array([pair.range]), pair.rough.law, lacking, deviation)
+        for deviation in (-np.ones(1), np.ones(1))
+    )
+    both = (high - low).item() / 2
+    return np.array([of_map, np.sqrt(max(both**2 - of_map**2, 0.0))])
 
 
 def _find_decider(rough: PairRoughness, pair: Pair) -> int:
@@ -407,7 +441,16 @@ def _list_texts() -> dict[str, tuple[str, ...]]:
         "dwell_factor": ("1", "factor on the dwell"),
         "probability": ("1", "share of draws that stick", unmeasured),
         "probability_low": ("1", "share of draws that stick within linear elasticity", unmeasured),
-        "error_of_spectrum": ("1", "standard deviation of ln margin by the spectrum", unmeasured),
+        "error_of_spectrum": (
+            "1",
+            "standard deviation of ln margin by the spectrum and its unresolved waves",
+            unmeasured,
+        ),
+        "error_of_map": (
+            "1",
+            "standard deviation of ln margin by how its parts differ",
+            unmeasured,
+        ),
         "error_of_model": ("1", "standard deviation of ln margin by the model", unmeasured),
         "margin_by_criterion": (
             "1",

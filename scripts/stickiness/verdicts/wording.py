@@ -11,12 +11,12 @@ import numpy as np
 import xarray as xr
 
 from stickiness.criteria.pair import NOT_JUDGED, WORDS
+from stickiness.criteria.registry import REMAINING
 from stickiness.formatting import (
     amount,
     duration,
     in_percent,
     in_unit,
-    in_units_of,
     limited,
     number,
     percent,
@@ -33,21 +33,37 @@ if TYPE_CHECKING:
 LEAST_STRESS = 1.0  #: [Pa]; beyond these two nobody can use a stress or a modulus
 MOST_STRESS = 1e13
 LEAST_SHOWN = 1e-3  #: share of the work of adhesion below which texts say 0 %
+#: What widens limits most, where contact was simulated on a map, and elsewhere
+_WIDEST_ON_MAP = {
+    "spectrum": "The limits are wide mostly because the instrument does not resolve the shortest "
+    "wavelengths: a finer measurement would narrow them.",
+    "map": "The limits are wide mostly because the map holds few of its longest wavelengths: a map "
+    "of {twice} would narrow them.",
+    "model": "The limits are wide mostly because the simulation cannot resolve the range of the "
+    "attraction: a better measurement would hardly narrow them.",
+}
+_WIDEST = {
+    "spectrum": "The limits are wide mostly because of the errors of the spectrum: a larger or "
+    "finer measurement would narrow them.",
+    "range": "The limits are wide mostly because the surface is given by ranges: a measurement "
+    "would narrow them.",
+    "theory": "The limits are wide mostly because theory decides: a map, on which contact can be "
+    "simulated, would narrow them.",
+}
 _DIGITS = 3  # of a threshold of the modulus
 
 
 def tell_share(value: float, low: float, high: float) -> str:
-    """Share of the work of adhesion that remains, or a multiple, with its limits."""
-    if high <= 1:
-        return limited(value, low, high, in_percent, least=LEAST_SHOWN)
-    return f"{limited(value, low, high, in_units_of(1.0), least=LEAST_SHOWN)} times"
+    """Share of the work of adhesion that remains, with its limits; after a dwell beyond 100 %."""
+    return limited(value, low, high, in_percent, least=LEAST_SHOWN)
 
 
 def tell_remaining(cell: xr.Dataset) -> str:
-    """How much of the work of adhesion remains, and how much is wanted."""
+    """How much of the work of adhesion remains, and how much must remain for the pair to stick."""
     share = tell_share(*read_limited(cell.remaining))
-    of = "" if share.endswith("times") else " of"
-    return f"{share}{of} the work of adhesion remains; {percent(cell.wanted_share)} is wanted"
+    return (
+        f"{share} of the work of adhesion remains; at least {percent(cell.wanted_share)} is needed"
+    )
 
 
 def tell_pull_off(cell: xr.Dataset) -> str:
@@ -190,6 +206,24 @@ def tell_improbable(cell: xr.Dataset) -> str:
     if range_ > LIMITS["range"].usual:
         improbable.append(f"the range is {amount(range_, 'm', 2)}")
     return f"doubtful, for {' and '.join(improbable)}" if improbable else ""
+
+
+def tell_widest(cell: xr.Dataset) -> str:
+    """What widens the limits of a pair most, and what would narrow them; empty if nothing can."""
+    _, low, high = read_limited(cell.margin)
+    if low == 0:
+        return ""  # a layer strains beyond linear elasticity, which a doubt tells
+    if np.isnan(cell.error_of_spectrum):
+        # A surface that was not measured is known between two ends.
+        of_ends = np.ptp(np.log(cell.margin_by_criterion.sel(criterion=REMAINING).values))
+        is_range = of_ends > np.log(high / low) - of_ends
+        return _WIDEST["range" if is_range else "theory"]
+    errors = {name: float(cell[f"error_of_{name}"]) for name in ("spectrum", "map", "model")}
+    widest = max(errors, key=lambda name: errors[name])
+    if errors["map"] > 0:
+        twice = amount(2 * float(cell.scan), "m", 2)
+        return _WIDEST_ON_MAP[widest].format(twice=twice)
+    return _WIDEST["spectrum" if widest == "spectrum" else "theory"]
 
 
 def tell_doubt(doubt: str) -> str:

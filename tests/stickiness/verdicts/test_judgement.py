@@ -12,6 +12,9 @@ from stickiness.criteria.registry import EDGES
 from stickiness.remaining import predict
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
+from stickiness.statistics import COVERS
+from stickiness.surface import synthesise
+from stickiness.verdicts.wording import tell_widest
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -88,3 +91,25 @@ def test_verdict_is_the_prediction_of_what_remains(modulus, reach):
 def test_steel_does_not_stick(h_rms):
     """Nor does its contact grow by itself, from polished to coarse."""
     assert WORDS[int(judge_one(230e9, 3e-10, h_rms).verdict)] == "does not stick"
+
+
+@pytest.mark.parametrize(
+    ("known", "widest", "remedy"),
+    [
+        ({}, "spectrum", "a finer measurement"),
+        ({"extend_to": 0.25e-6}, "map", "a map of 8 µm"),  # there are no shorter waves
+    ],
+)
+def test_errors_of_a_map_add_up_and_the_widest_is_named(known, widest, remedy):
+    side = 4e-6
+    waves = SelfAffine(hurst=0.8, q0=2 * np.pi / side, q1=32 * np.pi / side, h_rms=5e-9)
+    heights = synthesise(waves, 128, side, seed=3)
+    rough = Surface.from_heights(heights, length=side, detrend="mean", window="none", **known)
+    cell = verdict(rough, youngs_modulus=1e8, work_of_adhesion=0.05, range=3e-10).cell
+    errors = {name: float(cell[f"error_of_{name}"]) for name in ("spectrum", "map", "model")}
+    assert max(errors, key=errors.get) == widest
+    assert remedy in tell_widest(cell)
+    # In quadrature they are the error of the margin, whose limits cover 90 %.
+    low, _, high = np.log(cell.margin.values)
+    total = np.hypot.reduce(list(errors.values()))
+    assert total == pytest.approx((high - low) / 2 / COVERS, rel=0.25)

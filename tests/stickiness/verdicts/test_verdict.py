@@ -313,6 +313,6 @@ def test_thresholds_beyond_use_are_told_in_words(modulus, threshold, limits, wor
     )
     lines = str(StickinessVerdict(told)).splitlines()
     assert words in lines
-    assert "below 17 times the work of adhesion remains" in lines[0]
+    assert "below 1700 % of the work of adhesion remains" in lines[0]
     none = StickinessVerdict(cell.assign(remaining=("limit", [0.0, 5.3e-8, 1e-4])))
     assert ": 0 % of the work of adhesion remains" in str(none)
