@@ -60,8 +60,9 @@ dag: $(VENV)/.run  ## what would run
 # Sphinx runs the notebook, too, and takes the root of the project for its folder of sources.
 SPHINX := $(BIN)/python -m sphinx -W --keep-going -c docs
 
-docs: $(VENV)/.docs  ## pages in docs/_build/html, and the reference of the configuration
+docs: $(VENV)/.docs  ## pages in docs/_build/html, the reference of the configuration, and the validation
 	PYTHONPATH=scripts $(BIN)/python -m common.config.reference
+	PYTHONPATH=scripts $(BIN)/python -m limits.validation
 	$(SPHINX) -b html . docs/_build/html
 
 pictures: $(VENV)/.run  ## pictures and examples of README.md and docs, from results/standard and with Chromium

@@ -19,10 +19,11 @@ from stickiness import __version__ as release  # noqa: E402, F401
 
 project = "stickiness"
 root_doc = "docs/index"
-include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "examples/*"]
+include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "docs/theory/*.md"]
+include_patterns += ["config/README.md", "examples/*"]
 exclude_patterns = [
     *(".*", "**/__pycache__", "*.egg-info", "docs/_build", "examples/*.py"),
-    *("benchmarks", "config", "data", "envs", "logs", "profiles", "report", "results"),
+    *("benchmarks", "data", "envs", "logs", "profiles", "report", "results"),
     *("rules", "scripts", "tests"),
 ]
 extensions = [
@@ -32,6 +33,7 @@ extensions = [
     "sphinx.ext.napoleon",
 ]
 myst_heading_anchors = 3
+myst_enable_extensions = ["amsmath", "dollarmath"]
 
 nb_execution_mode = "force"
 nb_execution_raise_on_error = True
