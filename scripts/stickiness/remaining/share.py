@@ -59,11 +59,11 @@ def decay_energy(gap: ArrayLike) -> tuple[NDArray, NDArray]:
 
 # Contact without adhesion at the mean gaps over h_rms that are searched; full contact is a tough
 # state.
-_GAPS = np.linspace(0.05, 10.0, 200)
+_GAPS = np.arange(1, 201) / 20  # up to 10; 4, where contact begins, is one of them
 _DECAY, _SLOPE = decay_energy(_GAPS)
 _ENERGY = np.exp(-_DECAY)
 # The inverse of -ln F, from full contact on.
-_FINE_GAPS = np.geomspace(1e-9, _GAPS[-1], 1000)
+_FINE_GAPS = np.geomspace(_GAPS[0], _GAPS[-1], 500)
 _FINE_LOG_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
 
 
@@ -205,8 +205,9 @@ def tough_tension(energy_ratio: ArrayLike, onset: ArrayLike) -> float | NDArray:
     first = np.minimum(onset - _spread(onset), x)
     y = first * (x / first) ** np.linspace(0.01, 1.0, 100).reshape(-1, *[1] * x.ndim)
     stored = y * _area_of_tough(y, onset) - _gain_of_tough(y, onset)
-    # The mean gap at which contact without adhesion stores the same energy.
-    decay = np.maximum(-np.log(np.clip(stored, 1e-300, 1.0)), 1e-6)
+    # The mean gap at which contact without adhesion stores the same energy. Nearer to full contact
+    # than the least mean gap of the fit, its slope would grow without limit.
+    decay = np.maximum(-np.log(np.clip(stored, 1e-300, 1.0)), _DECAY[0])
     gap = np.exp(np.interp(np.log(decay), _FINE_LOG_DECAY, np.log(_FINE_GAPS)))
     # d(F - x area)/du = dF/du (1 - x/y), where y is dF/d(area).
     rise = decay_energy(gap)[1] * np.exp(-decay) * (x / y - 1)
@@ -251,9 +252,9 @@ def _find_weak_states(
     x, e = np.broadcast_arrays(x, e)
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
     # Beyond the first touch it stores no energy and has no area.
-    energy = np.where(np.asarray(first_touch)[..., None] > _GAPS, _ENERGY, 0.0)
+    energy = np.where(np.asarray(first_touch)[..., None] >= _GAPS, _ENERGY, 0.0)
     scale = np.sqrt(np.pi) * np.asarray(load_scale)[..., None]
-    touching = slice(np.count_nonzero(np.max(first_touch) > _GAPS))
+    touching = slice(np.count_nonzero(np.max(first_touch) >= _GAPS))
     area = np.zeros(np.broadcast_shapes(energy.shape, scale.shape))
     area[..., touching] = scipy.special.erf((scale * _SLOPE * energy)[..., touching])
     # Mean attraction is costly and depends on the range alone, of which grids of pairs have few.

@@ -309,3 +309,12 @@ def test_the_committed_predictions_are_those_of_the_code():
     )
     share = rough.share(plain.adhesion_length.to_numpy(), plain.range.to_numpy())
     assert share == pytest.approx(plain.predicted.to_numpy(), rel=1e-3, abs=1e-5)
+
+
+@pytest.mark.parametrize("onset", [0.05, 0.47, 0.8, 0.99])
+def test_tension_near_full_contact_grows_with_the_energy_ratio(onset):
+    """It has no kink where the gap of the energy stored falls below the gaps of the fit."""
+    energy_ratios = np.geomspace(8.0, 8e4, 60)
+    rise = np.diff(np.log(tough_tension(energy_ratios, onset))) / np.diff(np.log(energy_ratios))
+    assert rise.max() < 1.6
+    assert rise[-9:].mean() == pytest.approx(1.0, abs=0.1)
