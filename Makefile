@@ -11,7 +11,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-com
 COMPILE := $(BIN)/python -m compileall -qq -j$(CORES) -x '/tests?/' $(VENV)/lib || true
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test test-quick test-processors coverage lint format dag benchmark docs pictures
+.PHONY: install reproduce draft test test-quick test-processors test-wheel coverage lint format dag benchmark docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -32,6 +32,9 @@ test-quick: $(VENV)/.dev  ## two to three minutes: no workflow, no other codes, 
 
 test-processors: $(VENV)/.dev  ## tests of what rounding may move, with the arithmetic of other processors
 	$(BIN)/python tests/helpers/run_processors.py -n $(CORES) --dist worksteal
+
+test-wheel: $(VENV)/.run  ## the package as it is installed, in an environment of its own
+	$(BIN)/python tests/helpers/try_wheel.py
 
 coverage: $(VENV)/.dev  ## statements and branches of the library that its quick tests reach
 	OMP_NUM_THREADS=1 $(BIN)/python -m coverage run -m pytest tests/stickiness \
