@@ -1,7 +1,7 @@
 """Ultrananocrystalline diamond at three scales: each is predicted from the other two.
 
-docs/findings.md has the table of these numbers. Limits of 90 %, of the spectrum and of the mean of a
-measurement, are 1.645 standard errors of ln C.
+docs/findings.md has the table of these numbers. Limits of 90 %, of the spectrum and of the mean of
+a measurement, are 1.645 standard errors of ln C.
 """
 
 from dataclasses import replace
