@@ -185,7 +185,7 @@ REFUSED = {
     "a header as text": ("# pixel size = 1e-6 m\n" + table(), {"format": "text"}, "instrument"),
     "x y z off the grid": (points(shift=0.3), ENTRY, "three columns"),
     "few x y z": (points(slice(None, None, 40)), ENTRY, "three columns"),
-    "x y z twice": (points() + "\n0 0 1", ENTRY, "two points at one place"),
+    "x y z twice": (points() + "\n0 0 1", ENTRY, "16385 points at 16384 places, and several"),
     "x y z without a unit": (points(), {"height_unit": "um"}, "give position_unit"),
     "numbered rows": (
         table(np.vstack([np.arange(N), ROUGH])),

@@ -285,13 +285,8 @@ class Reading(Analysis, MeasuredFile):
             )
             raise EntryError("max_missing", self.max_missing, text)
         kind = readers.format_of(self.file, self.format)
-        if kind != readers.INSTRUMENT and self.channel is not None:
-            raise EntryError(
-                "channel", self.channel, f"a {kind} file has no channels; leave it out"
-            )
-        if kind not in ("netcdf", "numpy") and self.variable is not None:
-            text = "is for NetCDF and npz, this file is neither"
-            raise EntryError("variable", self.variable, text)
+        if misfit := readers.find_misfit(kind, channel=self.channel, variable=self.variable):
+            raise EntryError(misfit[0], getattr(self, misfit[0]), misfit[1])
         if self.fit_from and self.fit_to and not self.fit_to < self.fit_from:
             raise EntryError("fit_to", self.fit_to, f"must be below fit_from = {self.fit_from!r}")
 

@@ -19,10 +19,12 @@ from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers, scanning
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
-from stickiness.measured.readers import Length, Raw, metres_per, sides
+from stickiness.measured.readers import Length, Raw, fold, metres, metres_per, sides
 from stickiness.measured.scanning import Scan
 
 Size = Length | Sequence[Length] | None
+_MARK = 1.70141e38  # as Surfer and others mark missing points, or more
+_UNITS_OF_LENGTH = ("m", "cm", "mm", "um", "nm", "angstrom", "pm", "inch", "mil")
 
 
 @dataclass(frozen=True)
@@ -250,14 +252,17 @@ def read(
     raw = readers.read(path, format, variable, channel)
     size = length or pixel_size
     _ask_for_units(raw, size, height_unit, position_unit)
-    heights = raw.heights
-    if missing_value is not None:
-        heights = np.where(heights == missing_value, np.nan, heights)
+    raw = _fold(raw, length)
+    heights, notices = _find_marks(raw, missing_value)
     places = _places(raw, length, pixel_size, position_unit)
 
     # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
     in_metres = raw.unit == "m" and readers.format_of(path, format) == readers.INSTRUMENT
-    contradictions = tuple(_contradict(raw, size, places, height_unit, in_metres))
+    contradictions = (
+        *notices,
+        *_contradict_unit(raw, height_unit, in_metres),
+        *_contradict_size(raw, size, places, position_unit),
+    )
     if size is not None and heights.ndim == 2:
         told = None if raw.places is None else raw.places[0] / raw.places[1]
         contradictions += tuple(doubt_pixels(raw.source, heights.shape, places, told))
@@ -460,8 +465,15 @@ def _sort_profile(heights: NDArray, steps: ArrayLike, source: str) -> tuple[NDAr
         )
     order = np.argsort(positions, kind="stable")
     positions = positions[order]
-    if len(positions) < 2 or not np.all(np.diff(positions) > 0):
-        raise ValueError(f"{source}: positions of a line profile must all differ")
+    if len(positions) < 2:
+        raise ValueError(f"{source}: one number is no map and no profile")
+    repeated = positions[1:][~(np.diff(positions) > 0)]
+    if repeated.size:
+        raise ValueError(
+            f"{source}: positions of a line profile must all differ, but "
+            f"{len(np.unique(repeated))} occur twice or more, the first is {repeated[0]:g}: "
+            "average their heights, or give one line of them"
+        )
     return heights[order], positions
 
 
@@ -477,10 +489,10 @@ def _resample(heights: NDArray, positions: NDArray) -> tuple[NDArray, float]:
 def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape = raw.heights.shape
+    if raw.places is not None and not np.all(np.isfinite(raw.places)):
+        raise ValueError(f"{raw.source}: a position of the profile is missing")
     if length is None and pixel_size is None:
         assert raw.places is not None  # `_ask_for_units` has seen to it
-        if not np.all(np.isfinite(raw.places)):
-            raise ValueError(f"{raw.source}: a position of the profile is missing")
         return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
     if length is None:
         counts = (1,) * len(shape)
@@ -488,9 +500,47 @@ def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
     else:
         counts = shape
         size = sides(length, counts, f"{raw.source}: length")
-    if len(shape) == 1:
-        return np.arange(shape[0]) * size[0] / counts[0]
-    return np.divide(size, counts)
+    steps = np.divide(size, counts)
+    if len(shape) == 2:
+        return steps
+    if raw.places is None or not np.ptp(raw.places) > 0:
+        return np.arange(shape[0]) * steps[0]
+    return raw.places * steps[0] / _steps(raw.places, raw)  # which may be uneven
+
+
+def _steps(places: NDArray, raw: Raw) -> NDArray:
+    """Steps of a map, or the mean step of the points of a profile."""
+    return places if raw.heights.ndim == 2 else np.ptp(places, keepdims=True) / (len(places) - 1)
+
+
+def _fold(raw: Raw, length: Size) -> Raw:
+    """Take a column of heights for the map that two sides mean, if its pixels are square."""
+    if not isinstance(length, list | tuple) or raw.heights.ndim == 2 or raw.places is not None:
+        return raw
+    folded = fold(raw.heights, [metres(side, "length") for side in length])
+    if folded is None:
+        return raw
+    points = " x ".join(map(str, folded.shape))
+    remark = f"{raw.source}: one column of heights, taken for a map of {points} points row by row"
+    return replace(raw, heights=folded, remarks=(*raw.remarks, remark))
+
+
+def _find_marks(raw: Raw, missing_value: float | None) -> tuple[NDArray, list[str]]:
+    """Heights with NaN in place of marks of missing points, and a notice of one that is not there.
+
+    Numbers near the largest of single precision are marks in any file.
+    """
+    is_given = raw.heights == missing_value
+    is_missing = is_given | (raw.heights == raw.missing_value) | (np.abs(raw.heights) >= _MARK)
+    heights = np.where(is_missing, np.nan, raw.heights)
+    is_known = missing_value in (None, raw.missing_value) or abs(missing_value) >= _MARK
+    if is_known or is_given.any():
+        return heights, []
+    known = heights[np.isfinite(heights)]
+    told = f"; heights in the file are {known.min():.9g} to {known.max():.9g}" if known.size else ""
+    return heights, [
+        f"{raw.source}: no point is {missing_value:.9g}, the missing_value given{told}"
+    ]
 
 
 def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
@@ -506,15 +556,34 @@ def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
         raise UntoldError(raw.source, unknown)
 
 
-def _contradict(raw: Raw, size, steps, height_unit, in_metres: bool) -> Iterator[str]:
-    """Say where the file tells otherwise than the caller, and which of them is taken."""
+def _contradict_unit(raw: Raw, height_unit, in_metres: bool) -> Iterator[str]:
+    """Say if the file tells another unit of heights than the caller."""
     if in_metres and height_unit is not None and metres_per(height_unit, "height_unit") != 1:
         yield f"{raw.source}: the heights are in m; height_unit = {height_unit!r} is not used"
-    in_file = raw.heights.ndim == 2 and raw.places is not None and raw.place_unit is not None
-    if size is not None and in_file:
-        ratio = np.max(np.divide(steps, _places(raw, None, None, None)))
-        if not np.isclose(ratio, 1, rtol=0.01):
-            yield f"{raw.source}: the size given is used, {ratio:.3g} times the size in the file"
+
+
+def _contradict_size(raw: Raw, size, places: NDArray, position_unit) -> Iterator[str]:
+    """Say if the size given is not that in the file; without a unit, not that in any unit."""
+    if size is None or raw.places is None:
+        return
+    unit = raw.place_unit or position_unit
+    told = _steps(raw.places, raw)
+    if not np.all(told > 0) or (unit is None and np.all(told == 1)):  # numbers of pixels
+        return
+    factors = [metres_per(each, "position_unit") for each in ([unit] if unit else _UNITS_OF_LENGTH)]
+    ratios = _steps(places, raw) / told
+    # Sides may count from the first to the last point.
+    tolerance = max(0.01, 1.1 / min(raw.heights.shape))
+    is_told = np.isclose(ratios[:, None], factors, rtol=tolerance, atol=0).any(axis=1)
+    if is_told.all():
+        return
+    ratio = ratios[np.argmin(is_told)]
+    how = (
+        f", {ratio / factors[0]:.3g} times the size in the file"
+        if unit
+        else f"; with it, a unit of position in the file would be {ratio:.3g} m, which none is"
+    )
+    yield f"{raw.source}: the size given is used{how}"
 
 
 def _scale(source: str, key: str, from_caller: str | None, in_file: str | None) -> float:

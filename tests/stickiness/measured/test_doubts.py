@@ -50,9 +50,7 @@ def test_numbers_that_were_not_measured_are_doubted_and_those_of_surfaces_not(va
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "marker", [1.9558671260099585, -1e-9, 1 / 3e7, -3.4028234663852886e38, 7.0]
-)
+@pytest.mark.parametrize("marker", [1.9558671260099585, -1e-9, 1 / 3e7, -1.5e38, 7.0])
 def test_the_marker_that_the_message_names_is_read_as_missing(tmp_path, marker):
     np.save(tmp_path / "a.npy", np.where(rough() > 1.3, marker, rough() + 5))
     given = {"length": "1 mm", "height_unit": "um", "missing": "fill", "max_missing": 0.5}

@@ -8,6 +8,8 @@ import h5py
 import numpy as np
 import pytest
 import scipy.io
+import tifffile
+import xarray as xr
 from PIL import Image, TiffImagePlugin
 
 from stickiness import Surface
@@ -25,6 +27,7 @@ JITTER = np.random.default_rng(0).normal(0, 0.03, (NX * NY, 2))
 UNIT = {"height_unit": "um"}
 PLACED = UNIT | {"position_unit": "um"}
 SIZED = UNIT | {"length": "48 um"}
+COUNTED = SIZED | {"height_unit": "1e-5 um"}
 
 
 def lines(table, separator=" ", form="{:.5f}"):
@@ -86,6 +89,17 @@ def tiff(path, description=None, values=MAP):
     Image.fromarray(values).save(path, tiffinfo=tags)
 
 
+def pages(path, values=MAP):
+    tifffile.imwrite(path, values)
+
+
+def netcdf(path, values, kind="NETCDF4", keep=None):
+    """A NetCDF file of the last axes y and x, of which so many bytes are kept."""
+    dims = ("t", "y", "x")[3 - values.ndim :]
+    xr.Dataset({"z": (dims, values)}).to_netcdf(path, format=kind)
+    path.write_bytes(path.read_bytes()[:keep])
+
+
 def component(name, kind, content):
     return name.encode() + b"\0" + kind.encode() + content
 
@@ -95,8 +109,9 @@ def packed(name, *components):
     return name.encode() + b"\0" + struct.pack("<I", len(content)) + content
 
 
-def gwyddion(path, unit=""):
+def gwyddion(path, unit="", scale=1.0):
     """A .gwy file of one channel, lengths in m and heights without a unit."""
+    heights = (scale * MAP).astype("<f8")
     field = packed(
         "GwyDataField",
         component("xres", "i", struct.pack("<i", NX)),
@@ -107,7 +122,7 @@ def gwyddion(path, unit=""):
         component(
             "si_unit_z", "o", packed("GwySIUnit", component("unitstr", "s", unit.encode() + b"\0"))
         ),
-        component("data", "D", struct.pack("<I", MAP.size) + MAP.astype("<f8").tobytes()),
+        component("data", "D", struct.pack("<I", MAP.size) + heights.tobytes()),
     )
     title = component("/0/data/title", "s", b"Z\0")
     content = packed("GwyContainer", title, component("/0/data", "o", field))
@@ -136,6 +151,11 @@ NANOSCOPE = (
     "\\@2:Z scale: V [Sens. Zsens] (0.0067 V/LSB) 5 V\nHeight(um)\n"
 )
 ESRI = "ncols 24\nnrows 16\nxllcorner 0\nyllcorner 0\ncellsize 2\nNODATA_value -9999\n"
+SDF = (
+    "ManufacID = a\nCreateDate = 010120261200\nModDate = 010120261200\nNumPoints = 24\n"
+    "NumProfiles = 16\nXscale = 2e-6\nYscale = 2e-6\nZscale = 1e-6\nZresolution = -1\n"
+    "Compression = 0\nDataType = 7\nCheckType = 0\n*\n" + lines(MAP) + "*\n"
+)
 GSF = "XReal = 48e-6\nYReal = 32e-6\nXYUnits = m\n"
 STRUCTURED = np.rec.fromarrays(POINTS.T, names="x,y,z")
 
@@ -247,6 +267,47 @@ READ = {
         "\\Scan Size: 48 um\n\\Aspect ratio: 1.5:1\n\nHeight(um)\n" + lines(MAP),
         UNIT,
     ),
+    "several fields in a line": (
+        "a.txt",
+        "Width: 48 um Height: 32 um, 24 x 16 pixels\n" + lines(MAP),
+        UNIT,
+    ),
+    "one column below a resolution": (
+        "a.txt",
+        "24 x 16 pixels\n" + lines(MAP.reshape(-1, 1)),
+        SIZED,
+    ),
+    "one column and two sides": (
+        "a.txt",
+        lines(MAP.reshape(-1, 1)),
+        UNIT | {"length": ["48 um", "32 um"]},
+    ),
+    "commas for thousands": ("a.txt", lines(1e5 * MAP, "\t", "{:,.1f}"), COUNTED),
+    "points for thousands": (
+        "a.txt",
+        lines(1e5 * MAP, ";", "{:,.1f}").translate(str.maketrans(",.", ".,")),
+        COUNTED,
+    ),
+    "commas for millions": (
+        "a.csv",
+        lines(1e8 * MAP, ",", '"{:,.0f}"'),
+        SIZED | {"height_unit": "1e-8 um"},
+    ),
+    "apostrophes": ("a.txt", lines(1e5 * MAP, form="{:,.1f}").replace(",", "'"), COUNTED),
+    "signs of print": ("a.txt", lines(MAP).replace("-", "\u2212"), SIZED),
+    "powers of Fortran": ("a.txt", lines(MAP, form="{:.6E}").replace("E", "D"), SIZED),
+    "surface data": ("a.txt", "aISO-1.0\n" + SDF, {}),
+    "surface data before the standard": ("a.sdf", "aBCR-1.0\n" + SDF, {}),
+    "gwy in a unit": ("a.gwy", lambda p: gwyddion(p, "Angstrom", 1e4), {}),
+    "npz with the size of a pixel": ("a.npz", lambda p: np.savez(p, z=MAP, dx=STEP), PLACED),
+    "npy of points": ("a.npy", POINTS, PLACED),
+    "TIFF of 64 bits": ("a.tif", pages, SIZED),
+    "TIFF of counts": (
+        "a.tif",
+        lambda p: tiff(p, values=np.rint(1e5 * MAP).astype("i4")),
+        COUNTED,
+    ),
+    "NetCDF of one map": ("a.nc", lambda p: netcdf(p, MAP[None]), SIZED),
     "points beside a grid": ("a.xyz", lines(POINTS + np.c_[JITTER, 0 * JITTER[:, 0]]), PLACED),
 }
 
@@ -274,13 +335,28 @@ def test_every_file_of_a_map_gives_what_npy_gives(tmp_path, kind):
     assert found.steps == pytest.approx(same.steps, rel=tolerance)
     np.testing.assert_allclose(found.heights, same.heights, atol=2e-11)
     assert found.contradictions == ()
-    told = {"points and colours", "points with an index", "points beside a grid"}
+    told = {
+        "points and colours",
+        "points with an index",
+        "points beside a grid",
+        "one column and two sides",
+    }
     assert bool(found.remarks) == (kind in told)
 
 
-def test_an_infinite_height_in_the_first_place_is_missing(tmp_path):
-    path = write(tmp_path, "a.txt", "inf" + lines(MAP)[lines(MAP).index(" ") :])
-    found = topography.read(path, **SIZED)
+@pytest.mark.parametrize(
+    ("header", "mark", "options"),
+    [
+        ("", "inf", SIZED),
+        ("", "1e300", SIZED),
+        (ESRI.partition("NODATA")[0], "-9999", PLACED | {"missing_value": -9999}),
+        (ESRI.partition("NODATA")[0], "-9999", PLACED),
+    ],
+)
+def test_a_mark_in_the_first_place_is_missing(tmp_path, header, mark, options):
+    path = write(tmp_path, "a.txt", header + mark + lines(MAP)[lines(MAP).index(" ") :])
+    found = topography.read(path, **options)
+    assert found.contradictions == ()
     assert found.heights.shape == (NX, NY)
     assert found.missing == 1
 
@@ -332,7 +408,7 @@ REFUSED = {
         "a.mat",
         lambda p: scipy.io.savemat(p, {"a": MAP, "b": MAP}),
         SIZED,
-        "found ['a', 'b']; name one as channel",
+        "found ['a', 'b']; choose one by channel",
     ),
     "uneven positions": ("a.h5", lambda p: hdf5(p, x=X**2, y=Y, z=MAP), UNIT, "'x' is not evenly"),
     "no matrix": ("a.mat", lambda p: scipy.io.savemat(p, {"a": "text"}), SIZED, "no matrix of"),
@@ -349,6 +425,39 @@ REFUSED = {
         SIZED,
         "no channel of heights: it has 'Z' (V)",
     ),
+    "a current": ("a.gwy", lambda p: gwyddion(p, "A"), {}, "of heights: it has 'Z' (A)"),
+    "half of NetCDF 3": (
+        "a.nc",
+        lambda p: netcdf(p, MAP, "NETCDF3_64BIT", keep=1000),
+        SIZED,
+        "incomplete or damaged",
+    ),
+    "maps in NetCDF": (
+        "a.nc",
+        lambda p: netcdf(p, np.stack([MAP, MAP])),
+        SIZED,
+        "no map or profile, but 'z' of 2 x 16 x 24 points; save one map",
+    ),
+    "pages": ("a.tif", lambda p: pages(p, np.stack([MAP, MAP])), SIZED, "several pages; save"),
+    "points of few digits": (
+        "a.xyz",
+        lines(POINTS / 50, form="{:.1f}"),
+        PLACED,
+        "places, and several of them at x = 0, y = 0: export positions with more digits",
+    ),
+    "points and commas in one column": (
+        "a.txt",
+        "1.026,00\n1.031,50\n998,20\n",
+        SIZED,
+        "may hold two numbers, or one with a comma",
+    ),
+    "points for thousands and decimals": (
+        "a.txt",
+        "1.026,00\t1.5\n998,20\t1.6\n",
+        SIZED,
+        "line 1: '.' separates decimals, but thousands elsewhere",
+    ),
+    "one number": ("a.txt", "5", SIZED, "one number is no map and no profile"),
     "half a grid": ("a.grd", "DSAA\n24 16\n0 1\n0 1\n0 1\n1 2 3\n", PLACED, "has 3 heights, but"),
     "half of Zygo's": (
         "a.xyz",
@@ -398,6 +507,39 @@ def test_only_what_a_file_lacks_is_asked_for(tmp_path, kind, wanted):
     with pytest.raises(topography.UntoldError) as caught:
         topography.read(write(tmp_path, name, content))
     assert {keys[0] for keys in caught.value.unknown.values()} == wanted
+
+
+UNEVEN = lines(np.column_stack([X**2, X]))
+# What an option says otherwise than the file: name, content, options, words, and the side taken.
+CONTRADICTED = {
+    "a size": ("a.nc", contact_engineering, {"length": "96 um"}, "used, 2 times the size", 96),
+    "positions": ("a.txt", LINE, PLACED | {"length": "96 um"}, "used, 2 times the size", 96),
+    "positions without a unit": (
+        "a.txt",
+        LINE,
+        UNIT | {"length": "96 um"},
+        "a unit of position in the file would be 2e-06 m, which none is",
+        96,
+    ),
+    "points": ("a.xyz", lines(POINTS), PLACED | {"length": "96 um"}, "used, 2 times the size", 96),
+    "pixels": (
+        "a.npz",
+        lambda p: np.savez(p, z=MAP, dx=STEP),
+        UNIT | {"pixel_size": "3 um"},
+        "would be 1.5e-06 m",
+        72,
+    ),
+    "a mark": ("a.npy", MAP, SIZED | {"missing_value": -9999}, "no point is -9999, the", 48),
+}
+
+
+@pytest.mark.parametrize("kind", CONTRADICTED)
+def test_what_is_said_otherwise_than_in_the_file(tmp_path, kind):
+    name, content, options, words, side = CONTRADICTED[kind]
+    found = topography.read(write(tmp_path, name, content), **options)
+    (told,) = found.contradictions
+    assert words in told
+    assert found.size[0] == pytest.approx(side * 1e-6)
 
 
 def test_an_uneven_line_of_contact_engineering(tmp_path):

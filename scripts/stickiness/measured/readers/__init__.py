@@ -16,6 +16,7 @@ from stickiness.measured.readers.raw import (
     MOST_POINTS,
     Length,
     Raw,
+    fold,
     metres,
     metres_per,
     sides,
@@ -26,7 +27,9 @@ __all__ = [
     "MOST_POINTS",
     "Length",
     "Raw",
+    "find_misfit",
     "find_packing",
+    "fold",
     "format_of",
     "holds_heights",
     "metres",
@@ -103,15 +106,30 @@ def format_of(path: str | Path, fmt: str | None = None) -> str:
         return "netcdf"
     if suffix in (".npz", ".npy"):
         return "numpy"
-    if suffix in (".hfm", ".sdf", ".nms"):  # text, but no matrix of heights
+    if suffix in (".hfm", ".nms"):  # text, but no matrix of heights
         return INSTRUMENT
     with Path(path).open("rb") as file:
         head = file.read(1 << 20)  # headers in text may be long
     if head.startswith(b"\x93NUMPY"):
         return "numpy"
-    if grids.is_binary(head) or not head.startswith(text.UTF16) and b"\0" in head:
+    if (
+        head.startswith(instruments.SDF)
+        or grids.is_binary(head)
+        or not head.startswith(text.UTF16)
+        and b"\0" in head
+    ):
         return INSTRUMENT
     return INSTRUMENT if text.is_of_instrument(head[: len(head) // 2 * 2]) else "text"
+
+
+def find_misfit(kind: str, **choices: str | int | None) -> tuple[str, str] | None:
+    """Key of a choice that files of this kind do not have, and what to do instead."""
+    right = {"text": None, INSTRUMENT: "channel"}.get(kind, "variable")
+    for key, choice in choices.items():
+        if choice is not None and key != right:
+            advice = f"give {right}" if right else f"leave {key} out"
+            return key, f"{'an' if kind == INSTRUMENT else 'a'} {kind} file has no {key}s; {advice}"
+    return None
 
 
 def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
@@ -124,10 +142,8 @@ def read(path: Path, fmt=None, variable=None, channel=None) -> Raw:
                 f"{size / 1e6:.0f} MB are more than the {_MOST_BYTES / 1e6:.0f} MB that are read"
             )
         kind = format_of(path, fmt)
-        if channel is not None and kind != INSTRUMENT:
-            raise ValueError(f"a {kind} file has no channels; leave channel out")
-        if variable is not None and kind in (INSTRUMENT, "text"):
-            raise ValueError(f"variable is for NetCDF and npz, this is of kind {kind!r}")
+        if misfit := find_misfit(kind, channel=channel, variable=variable):
+            raise ValueError(misfit[1])
         if kind == INSTRUMENT:
             return _read_binary(path, None if fmt == INSTRUMENT else fmt, channel)
         if kind == "text":
@@ -151,8 +167,8 @@ def _read_binary(path: Path, fmt: str | None, channel: str | int | None) -> Raw:
         return arrays.read_matlab(path, channel)
     if name == "h5":
         return arrays.read_hdf5(path, channel)
-    if name == "gwy" and not reader.channels:  # it takes heights without a unit for none
-        return grids.read_gwyddion(path)
+    if name == "gwy":
+        return grids.read_gwyddion(path, channel)
     if name == "hgt" and fmt is None and path.suffix.lower() != ".hgt":
         # Any file of so many bytes is one.
         raise ValueError(f"no reader knows its first bytes; {instruments.EXPORT}")

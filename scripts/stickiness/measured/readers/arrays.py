@@ -20,10 +20,19 @@ from stickiness.measured.readers.instruments import (
     open_reader,
     read_channel,
 )
-from stickiness.measured.readers.points import map_points
-from stickiness.measured.readers.raw import Raw, check_count, find_step, is_length, metres_per
+from stickiness.measured.readers.points import map_points, read_columns
+from stickiness.measured.readers.raw import (
+    MOST_POINTS,
+    Raw,
+    check_count,
+    find_step,
+    is_length,
+    metres_per,
+)
 
 _POSITION = re.compile(r"(?:^|.*[/_])([xy])[-_]?([xy]|s|v|i|grid|mesh|data|pos\w*|coord\w*|axis)?$")
+# A number beside a matrix: the size of its pixels, along one axis or both.
+_STEP = re.compile(r"(?:^|.*[/_])(?:d_?(?=[xy])|(?:pixel_?size|step|spacing)_?(?=[xy]?$))([xy]?)$")
 _UNITS = ("units", "unit")  # attributes
 _MATLAB = b"MATLAB"
 
@@ -32,17 +41,21 @@ def read_netcdf(path: Path, variable: str | None) -> Raw:
     """Read a variable of a NetCDF file."""
     import xarray as xr  # only this format needs it
 
+    with path.open("rb") as file:
+        # Where the end of a file of NetCDF 3 is missing, the other library reads zeros.
+        engine = "scipy" if file.read(4) in (b"CDF\1", b"CDF\2") else "netcdf4"
     try:
-        dataset = xr.open_dataset(path)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"not a readable NetCDF file ({error})") from error
-    with dataset:
-        for each in dataset.variables.values():
-            check_count(each.shape)
-        try:
-            dataset.load()
-        except (OSError, ValueError) as error:
-            raise ValueError(f"not a readable NetCDF file ({error})") from error
+        with xr.open_dataset(path, engine=engine) as dataset:
+            if all(each.size <= MOST_POINTS for each in dataset.variables.values()):
+                dataset = dataset.load().squeeze()
+    except MemoryError:
+        raise
+    except Exception as error:  # libraries raise nearly anything of broken files
+        raise ValueError(
+            "not a readable NetCDF file: it is of another kind, incomplete or damaged"
+        ) from error
+    for each in dataset.variables.values():
+        check_count(each.shape)
     if variable in (None, "heights") and _is_of_contact_engineering(dataset):
         return replace(read_channel(path, open_reader(path, "nc")), source=f"{path}: heights")
     name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
@@ -101,10 +114,12 @@ def _choose(
     if wanted is not None:
         if wanted not in arrays:
             raise ValueError(f"no {what} {wanted!r}; the file has {sorted(arrays)}")
-        if arrays[wanted].ndim not in (1, 2):
-            raise ValueError(f"{what} {wanted!r} is neither a map (2D) nor a profile (1D)")
-        return wanted, ()
+        candidates = {wanted: arrays[wanted]}
     usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
+    if not usable:
+        shapes = {name: " x ".join(map(str, arrays[name].shape)) for name in candidates}
+        told = ", ".join(f"{name!r} of {shape} points" for name, shape in shapes.items())
+        raise ValueError(f"no map or profile, but {told or 'nothing'}; save one map")
     usable = [
         name for name in usable if not NO_HEIGHTS.search(name) or HEIGHTS.search(name)
     ] or usable
@@ -114,8 +129,8 @@ def _choose(
         eligible = named
     if len(eligible) != 1:
         raise ValueError(
-            f"needs one two-dimensional {what}, or one profile, found {sorted(eligible)}; name "
-            f"one as {'channel' if what == 'channel' else 'variable'}"
+            f"needs one two-dimensional {what}, or one profile, found {sorted(eligible)}; choose "
+            f"one by {'channel' if what == 'channel' else 'variable'}"
         )
     chosen = eligible[0]
     return chosen, tuple(name for name in usable if name != chosen)
@@ -148,7 +163,7 @@ def read_numpy(path: Path, variable: str | None) -> Raw:
                 f"needs a two-dimensional array or a profile, got shape {loaded.shape}; save one "
                 "map of them"
             )
-        return Raw(_as_real(heights, "the array").T, str(path))
+        return _read_alone(Raw(_as_real(heights, "the array").T, str(path)))
     with loaded:
         arrays = dict(loaded)
     return read_arrays(arrays, str(path), variable, "key")
@@ -215,15 +230,42 @@ def read_arrays(
             points = np.stack([*same, heights]).astype(float)
             grid = map_points(points)
             remarks = tuple(f"{source}: {text}" for text in grid.remarks)
-            return Raw(grid.heights, source, unit, others, grid.steps, place_unit, remarks=remarks)
-        places = np.array(same[0], dtype=float) if same else None
-        return Raw(heights, source, unit, others, places, place_unit if same else None)
+            return Raw(grid.heights, source, unit, others, grid.places, place_unit, remarks=remarks)
+        if same:
+            return Raw(heights, source, unit, others, np.array(same[0], dtype=float), place_unit)
+        return _read_alone(Raw(heights, source, unit, others, *_find_steps(arrays, units)))
     heights = heights if _first_is_x(heights.shape, x, y) else heights.T
     line_x, line_y = _line(x, heights.shape[0]), _line(y, heights.shape[1])
     if line_x is None or line_y is None:
-        return Raw(heights, source, unit, others)
+        return _read_alone(Raw(heights, source, unit, others, *_find_steps(arrays, units)))
     steps = np.array([find_step(line_x, "x"), find_step(line_y, "y")])
     return Raw(heights, source, unit, others, steps, place_unit)
+
+
+def _read_alone(raw: Raw) -> Raw:
+    """Read an array without positions beside it, only steps: its columns are as those of a text."""
+    found = read_columns(np.atleast_2d(raw.heights))
+    places = raw.places if found.places is None else found.places
+    if raw.places is not None and raw.heights.ndim == 1:
+        places = raw.places[0] * np.arange(len(raw.heights))
+    remarks = tuple(f"{raw.source}: {text}" for text in found.remarks)
+    return replace(raw, heights=found.heights, places=places, remarks=remarks)
+
+
+def _find_steps(
+    arrays: Mapping[str, NDArray], units: Mapping[str, str]
+) -> tuple[NDArray | None, str | None]:
+    """Steps along x and y that numbers beside a matrix tell, and their unit."""
+    found = {
+        match[1]: (float(array.flat[0]), units.get(name))
+        for name, array in arrays.items()
+        if array.size == 1 and array.dtype.kind in "iuf" and (match := _STEP.match(name.lower()))
+    }
+    x = found.get("x", found.get(""))
+    y = found.get("y", x)
+    if x is None or y is None or not (0 < x[0] < np.inf and 0 < y[0] < np.inf):
+        return None, None
+    return np.array([x[0], y[0]]), x[1] if x[1] == y[1] else None
 
 
 def _find_positions(arrays: Mapping[str, NDArray]) -> dict[str, str]:
@@ -231,7 +273,8 @@ def _find_positions(arrays: Mapping[str, NDArray]) -> dict[str, str]:
     found: dict[str, str] = {}
     for name, array in arrays.items():
         match = _POSITION.match(name.lower())
-        if match and array.dtype.kind in "biuf" and (array.ndim == 1 or _is_mesh(array)):
+        is_line = array.ndim == 1 and array.size > 1
+        if match and array.dtype.kind in "biuf" and (is_line or _is_mesh(array)):
             found.setdefault(match[1], name)
     return found
 
@@ -306,7 +349,7 @@ def _load_hdf5(path: Path) -> tuple[dict[str, NDArray], dict[str, str]]:
         is_text = node.attrs.get("MATLAB_class") == b"char"
         if not isinstance(node, h5py.Dataset) or is_text or name.startswith("#"):
             return
-        if node.dtype.kind in "biuf" and node.ndim in (1, 2, 3) and node.size > 1:
+        if node.dtype.kind in "biuf" and node.ndim <= 3 and node.size > 0:
             arrays[name] = node[...]
             if (unit := _find_unit(node.attrs)) is not None:
                 units[name] = unit

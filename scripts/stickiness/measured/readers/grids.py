@@ -1,6 +1,6 @@
 """Maps as other programs write them and SurfaceTopography does not read them.
 
-Gwyddion's simple field and its files without units, float TIFF, Surfer's grids, MetroPro's text.
+Gwyddion's files and simple field, TIFF, Surfer's grids, MetroPro's text.
 """
 
 from __future__ import annotations
@@ -15,13 +15,18 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.measured.readers.instruments import EXPORT, HEIGHTS, open_reader, read_channel
-from stickiness.measured.readers.raw import Raw, metres
+from stickiness.measured.readers.instruments import (
+    EXPORT,
+    HEIGHTS,
+    NO_HEIGHTS,
+    open_reader,
+    read_channel,
+)
+from stickiness.measured.readers.raw import Raw, is_length, metres
 
 _GSF = b"Gwyddion Simple Field 1."
 _TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 _DSBB = b"DSBB"
-_BLANK = 1.70141e38  # Surfer's mark of missing points, or more
 _ZYGO_MISSING = 2147483640  # or more
 _ZYGO_STEPS = {0: 4096, 1: 32768, 2: 131072}  # of phase per wave, by "PhaseRes"
 
@@ -66,8 +71,11 @@ def read_simple_field(path: Path) -> Raw:
     return Raw(heights, f"{path}: {title}", fields.get("ZUnits") or None, (), places, unit)
 
 
-def read_gwyddion(path: Path) -> Raw:
-    """Read the heights of a .gwy file that tells no unit of height, after its specification."""
+def read_gwyddion(path: Path, channel: str | int | None = None) -> Raw:
+    """Read a channel of a .gwy file in a unit of length, or else without one.
+
+    SurfaceTopography takes A, which is ampere there, for ångström.
+    """
     raw = path.read_bytes()
     content, _ = _read_object(raw, 4)
     fields = [
@@ -77,20 +85,31 @@ def read_gwyddion(path: Path) -> Raw:
     ]
     titles = [str(content.get(f"{key}/title") or key) for key, _ in fields]
     units = [_unit(field.get("si_unit_z")) for _, field in fields]
-    unitless = [i for i, unit in enumerate(units) if not unit]
-    chosen = [i for i in unitless if HEIGHTS.search(titles[i])] or unitless
-    if len(chosen) != 1:
+    titles = [
+        title if titles.count(title) == 1 else f"{title}#{titles[: i + 1].count(title)}"
+        for i, title in enumerate(titles)
+    ]
+    lengths = [i for i, unit in enumerate(units) if unit and is_length(unit)]
+    usable = lengths or [i for i, unit in enumerate(units) if not unit]
+    named = [i for i in usable if HEIGHTS.search(titles[i])]
+    chosen = [i for i in usable if i in named or not NO_HEIGHTS.search(titles[i])] or usable
+    chosen = chosen if lengths else named or chosen
+    if channel is not None:
+        chosen = [i for number, i in enumerate(usable) if channel in (number, titles[i])]
+    if not chosen or len(chosen) > 1 and not lengths:
         told = ", ".join(f"{title!r} ({unit})" for title, unit in zip(titles, units, strict=True))
-        raise ValueError(f"no channel of heights: it has {told or 'none'}; {EXPORT}")
-    field = fields[chosen[0]][1]
+        asked = "" if channel is None else f" {channel!r}"
+        raise ValueError(f"no channel{asked} of heights: it has {told or 'none'}; {EXPORT}")
+    key, field = fields[chosen[0]]
     counts = int(field["xres"]), int(field["yres"])
     heights = np.array(field["data"]).reshape(counts[::-1]).T
-    if (mask := content.get(fields[chosen[0]][0].replace("/data", "/mask"))) is not None:
+    if (mask := content.get(key.replace("/data", "/mask"))) is not None:
         heights = np.where(np.reshape(mask["data"], counts[::-1]).T > 0.5, np.nan, heights)
     places = np.abs([field["xreal"], field["yreal"]]) / counts
-    others = tuple(title for i, title in enumerate(titles) if i != chosen[0])
+    others = tuple(titles[i] for i in usable if channel is None and i != chosen[0])
     unit = _unit(field.get("si_unit_xy"))
-    return Raw(heights, f"{path}: {titles[chosen[0]]}", None, others, places, unit)
+    source = f"{path}: {titles[chosen[0]]}"
+    return Raw(heights, source, units[chosen[0]], others, places if places.all() else None, unit)
 
 
 def _unit(unit: dict | None) -> str | None:
@@ -136,13 +155,18 @@ def _read_value(raw: bytes, start: int, kind: str) -> tuple[Any, int]:
 
 
 def read_tiff(path: Path) -> Raw:
-    """Read a TIFF: of Park Systems by SurfaceTopography, of others one channel of numbers."""
+    """Read a TIFF: of Park Systems by SurfaceTopography, of others one channel of numbers.
+
+    Whole numbers of 16 bits or more are counts, of which the caller gives the unit.
+    """
     try:
         return read_channel(path, open_reader(path))
     except ValueError:  # of other programs
         pass
-    from PIL import Image  # matplotlib needs it, too
+    import tifffile  # SurfaceTopography needs it, too
+    from PIL import Image  # so does matplotlib
 
+    pages, mode, tags = 1, "", {}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -152,11 +176,15 @@ def read_tiff(path: Path) -> Raw:
                 tags = dict(getattr(image, "tag_v2", {}))
                 values = np.array(image)
     except Exception as error:  # of broken files, nearly anything
-        raise ValueError(
-            f"not a readable TIFF ({error}); save it uncompressed, in 32-bit floats, or {EXPORT}"
-        ) from error
-    if pages > 1:
-        raise ValueError(f"the TIFF has {pages} pages; save that of the heights alone")
+        try:  # which reads all kinds of numbers, but not all compressed
+            values = tifffile.imread(path)
+        except Exception:
+            raise ValueError(
+                f"not a readable TIFF ({error}); save it uncompressed, in 32-bit floats, or "
+                f"{EXPORT}"
+            ) from error
+    if pages > 1 or values.ndim > 2 and values.shape[-1] > 4:
+        raise ValueError("the TIFF has several pages; save that of the heights alone")
     if values.ndim != 2 or values.dtype.itemsize < 2:
         raise ValueError(
             f"the TIFF holds colours or grey levels ({mode}), no heights: save it in 32-bit "
@@ -206,7 +234,7 @@ def read_surfer_text(path: Path, words: list[str]) -> Raw:
 
 
 def _of_surfer(path: Path, values: NDArray, counts: tuple[int, int], ends: list[float]) -> Raw:
-    heights = np.where(values >= _BLANK, np.nan, values).reshape(counts[::-1]).T
+    heights = values.reshape(counts[::-1]).T
     # The sides go from the first to the last point.
     places = np.array([ends[1] - ends[0], ends[3] - ends[2]]) / (np.array(counts) - 1)
     return Raw(heights, str(path), None, (), places)

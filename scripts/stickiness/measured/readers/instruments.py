@@ -5,6 +5,7 @@ It is imported when it is needed, which takes two seconds.
 
 from __future__ import annotations
 
+import io
 import re
 import warnings
 import zipfile
@@ -16,6 +17,8 @@ import numpy as np
 from stickiness.measured.readers.raw import Raw, check_count, metres_per
 
 EXPORT = "export the heights as text (a matrix or x y z), .npy, .nc, .gsf or X3P"
+#: First bytes of surface data files, before the standard and of ISO 25178-71: else the same.
+SDF = (b"aBCR-1.0", b"bBCR-1.0", b"aISO-1.0", b"bISO-1.0")
 _X3P = "main.xml"  # in the archive
 _HDF5 = b"\x89HDF"  # first bytes of many formats
 
@@ -77,7 +80,12 @@ def open_reader(path: Path, fmt: str | None = None):
     if fmt is not None and fmt not in IO.lookup_reader_by_format:
         formats = ", ".join(sorted(IO.lookup_reader_by_format))
         raise ValueError(f"SurfaceTopography has no format {fmt!r}; it knows {formats}")
-    return _call(path, lambda: IO.open_topography(str(path), format=fmt))
+    with path.open("rb") as file:
+        head = file.read(len(SDF[0]))
+    if head not in SDF[:2]:
+        return _call(path, lambda: IO.open_topography(str(path), format=fmt))
+    content = io.BytesIO(head.replace(b"BCR", b"ISO") + path.read_bytes()[len(head) :])
+    return _call(path, lambda: IO.open_topography(content, format="sdf"))
 
 
 def holds_heights(channel) -> bool:

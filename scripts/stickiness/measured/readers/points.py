@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 _SLACK = 0.01  # of a step, by which positions may be off the grid
 _MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points
+FEWEST_POINTS = 16  #: fewer rows of three numbers are a map
 #: Of a step, by which measured positions may scatter about a grid: rms and largest.
 SNAPPED_RMS, SNAPPED_MOST = 0.05, 0.25
 RESAMPLE = (
@@ -20,9 +21,19 @@ RESAMPLE = (
 class Gridded(NamedTuple):
     """Points on a grid."""
 
-    heights: NDArray  #: (nx, ny), NaN where there is no point
-    steps: NDArray  #: along both axes
-    remarks: tuple[str, ...]
+    heights: NDArray  #: (nx, ny), NaN where there is no point; of a profile (n,)
+    places: NDArray | None  #: steps along both axes, or positions on a line
+    remarks: tuple[str, ...] = ()
+
+
+def read_columns(columns: NDArray) -> Gridded:
+    """Heights of a table (columns, rows): of points x y z, a profile or, otherwise, a map."""
+    count = columns.shape[1]
+    if len(columns) == 3 and count >= FEWEST_POINTS:
+        return map_points(columns)
+    if len(columns) == 1 or (len(columns) == 2 and count > 2):
+        return Gridded(columns[-1], columns[0] if len(columns) == 2 else None)
+    return Gridded(columns, None)
 
 
 def map_points(points: NDArray) -> Gridded:
@@ -42,8 +53,15 @@ def map_points(points: NDArray) -> Gridded:
             f"three columns, which as x y z leave most of a grid of {heights.shape[0]} x "
             f"{heights.shape[1]} points empty; {RESAMPLE}, or export a matrix"
         )
-    if len(np.unique(i * heights.shape[1] + j)) < points.shape[1]:
-        raise ValueError("as x y z it has two points at one place; remove one")
+    found, first, counts = np.unique(
+        i * heights.shape[1] + j, return_index=True, return_counts=True
+    )
+    if len(found) < points.shape[1]:
+        x, y = points[:2, first[np.argmax(counts > 1)]]
+        raise ValueError(
+            f"as x y z it has {points.shape[1]} points at {len(found)} places, and several of them "
+            f"at x = {x:g}, y = {y:g}: export positions with more digits, or leave one point each"
+        )
     heights[i, j] = points[2]
     off = max(off_x, off_y)
     remark = (

@@ -26,6 +26,7 @@ class Raw:
     places: NDArray | None = None  #: steps of a map, or positions on a line (n,)
     place_unit: str | None = None
     periodic: bool = False  #: whether the file says that the heights go on periodically
+    missing_value: float | None = None  #: number that marks missing points
     remarks: tuple[str, ...] = ()  #: what was done to the content that nobody asked for
 
 
@@ -49,6 +50,15 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
         many = "one length or two (x, y)" if len(shape) == 2 else "one length for a line profile"
         raise ValueError(f"{name} must be {many}, got {value!r}")
     return tuple(metres(v, name) for v in value)
+
+
+def fold(column: NDArray, ratio: Sequence[float]) -> NDArray | None:
+    """Map whose rows follow each other in a column, with square pixels and sides in this ratio."""
+    if len(ratio) != 2:
+        return None
+    nx = round((column.size * ratio[0] / ratio[1]) ** 0.5)
+    ny = round(nx * ratio[1] / ratio[0])
+    return column.reshape(ny, nx).T if min(nx, ny) > 1 and nx * ny == column.size else None
 
 
 def metres_per(unit: str, name: str) -> float:

@@ -8,6 +8,7 @@ headers that Gwyddion, GIS, NanoScope and Keyence write and names of columns wit
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,8 +17,8 @@ from numpy.typing import NDArray
 
 from stickiness.measured.readers import grids
 from stickiness.measured.readers.instruments import EXPORT
-from stickiness.measured.readers.points import RESAMPLE, Gridded, map_points
-from stickiness.measured.readers.raw import Raw, is_length, metres, sides
+from stickiness.measured.readers.points import RESAMPLE, Gridded, map_points, read_columns
+from stickiness.measured.readers.raw import Raw, fold, is_length, metres, sides
 
 UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 MOST_COLUMNS = 12  #: of a table of points; more are a matrix
@@ -27,6 +28,17 @@ ROWS_PER_COLUMN = 32  #: of such a table, at least
 # What a comma or a point may mean: groups of three digits, beside smaller numbers without any.
 _GROUPS = {mark: re.compile(rf"[-+]?[1-9]\d{{0,2}}(?:{re.escape(mark)}\d{{3}})+") for mark in ",."}
 _SMALLER = re.compile(r"[-+]?\d{1,3}|[^\d]*")
+# A number with groups of three digits that can mean nothing else, and the mark between them.
+_GROUPED = re.compile(
+    r"(?<![\d.,])[1-9]\d{0,2}([.,])(?:\d{3}\1)*\d{3}(?:(?!\1)[.,]\d|\1\d{3}(?![\d.,]))"
+)
+# A line that may be one number, with groups of digits or a decimal comma.
+_ONE_NUMBER = re.compile(r"[-+]?(?:[1-9]\d{0,2}(?:[.,]\d{3})+|\d+)[.,]\d+")
+_QUOTED = re.compile(r'"\s*[-+\u2212]?[\d.]*,[\d.,]*\s*"')  # a number with a comma
+# Signs, groups of digits and powers of ten (of Fortran) as no keyboard or Python writes them.
+_SIGNS = str.maketrans("\u2212\u2013", "--")
+_APOSTROPHE = re.compile(r"(?<=\d)['\u2019](?=\d{3}(?!\d))")
+_FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d+(?![\d.]))")
 # How a row begins: with a number, or with missing points before one.
 _NUMERIC = re.compile(
     r'"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:[-+]?(?:nan|inf)\b|[-+]?\.?\d)', re.IGNORECASE
@@ -36,6 +48,10 @@ _FIELD = re.compile(
     r"^\W*(width|height|value unit|lateral unit|breite|höhe|werteinheit|laterale einheit)(?:s|en)?"
     r"\s*[:=]\s*(.+?)\s*$",
     re.I,
+)
+# What stands before another field in one line, or before a number of points.
+_NEXT_FIELD = re.compile(
+    r"[\s,;]+(?=(?:width|height|value units?|lateral units?|\d+\s*[x×]\s*\d+)\b)", re.IGNORECASE
 )
 _GERMAN = {  # fields as Gwyddion writes them in German
     "breite": "width",
@@ -68,6 +84,10 @@ _COLUMNS = re.compile(
 _ROWS = re.compile(
     _COUNT.format(r"ny|rows|y[-_ ]?pixels?|number of lines|(?:vertical|vertik\.)", "nrows"),
     re.IGNORECASE,
+)
+# Columns and rows as of a picture, in a line that may begin with them.
+_RESOLUTION = re.compile(
+    r"(?:^|[\s,;:=])(\d+)\s*[x×]\s*(\d+)\s*(?:pixels?|points?|px|pts)?\W*$", re.I
 )
 # A number behind a key, without a unit: of the grids of geographic information systems.
 _CELL = re.compile(r"^\W*(cellsize|dx|dy|nodata_value)\s+([-+.\deE]+)\s*$", re.IGNORECASE)
@@ -103,12 +123,13 @@ class _Header:
     names: tuple[str, ...] = ()  #: of columns
     units: tuple[str | None, ...] = ()  #: of columns, or of the heights of a matrix
 
-    def count(self, pattern: re.Pattern) -> int | None:
-        """Count of columns or rows, if a line tells one."""
-        for line in self.lines:
-            if match := pattern.search(line):
-                return int(match[1] or match[2])
-        return None
+    def count(self) -> list[int]:
+        """Counts of columns and rows that lines tell, the first of each."""
+        patterns = (_COLUMNS, _ROWS, _RESOLUTION)
+        told = [next(filter(None, map(each.search, self.lines)), None) for each in patterns]
+        if told[2] and not (told[0] and told[1]):
+            return [int(told[2][1]), int(told[2][2])]
+        return [int(match[1] or match[2]) for match in told[:2] if match]
 
 
 def read_text(path: Path) -> Raw:
@@ -132,13 +153,11 @@ def read_text(path: Path) -> Raw:
                 "instrument"
             )
     rows, counted = _drop_count(rows)
-    is_german = any(name in _GERMAN for name in _name_fields(header_lines))
+    is_german = any(field[1].lower() in _GERMAN for field in _find_fields(header_lines))
     matrix = _read_rows(rows, has_decimal_commas=is_german)
     header = _read_header(header_lines, matrix.shape[1])
     _refuse_factors(header)
     _refuse_blocks(rows, matrix.shape[1])
-    if (missing := header.cells.get("nodata_value")) is not None:
-        matrix = np.where(matrix == missing, np.nan, matrix)
     matrix, header, remarks = _order_columns(matrix, header)
     return _make_raw(path, matrix.T, header, counted, remarks)
 
@@ -150,25 +169,16 @@ def _make_raw(
     columns, count = heights.shape
     unit = header.fields.get("value unit") or (header.units[-1] if header.units else None)
     place_unit = header.fields.get("lateral unit") or _unit_of_positions(header)
-    places = None
-    shapes = [heights.shape]  # (columns, rows) that the header may mean
     folded = _fold(heights, header) if columns == 1 else None
     if columns > 3 and count > 3:
         _refuse_positions(heights)
-    if columns == 3 and count >= 16:  # fewer rows of three numbers are a matrix
-        grid = map_points(heights)
-        heights, places = grid.heights, grid.steps
-        remarks += grid.remarks
-        shapes.insert(0, heights.shape)
-    elif folded is not None:
-        heights = folded
-        shapes = [heights.shape, (1, count)]
-    elif columns == 1 or (columns == 2 and count > 2):
-        # Headers of profiles count points along x, or rows of the table.
-        shapes.append((count, 1))
-        places = heights[0] if columns == 2 else None
-        heights = heights[-1]
-        _refuse_repeats(places)
+    read = read_columns(heights) if folded is None else Gridded(folded, None)
+    heights, places = read.heights, read.places
+    remarks += read.remarks
+    # Columns and rows that the header may mean: of a map, of the table, or points of a profile.
+    shapes = [heights.shape, (columns, count)]
+    if heights.ndim == 1:
+        shapes = [(columns, count), (count, 1)]
     if places is None and heights.ndim == 2:
         places, place_unit = _find_steps(header, heights.shape)
     _check_counts(header.lines, shapes)
@@ -179,7 +189,8 @@ def _make_raw(
             "is the file complete?"
         )
     remarks = tuple(f"{path}: {remark}" for remark in remarks)
-    return Raw(heights, str(path), unit, (), places, place_unit, remarks=remarks)
+    mark = header.cells.get("nodata_value", -9999 if "cellsize" in header.cells else None)
+    return Raw(heights, str(path), unit, (), places, place_unit, False, mark, remarks)
 
 
 def _decode(raw: bytes) -> str:
@@ -197,17 +208,27 @@ def split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
 def _split_lines(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
     header: list[str] = []
     rows: list[tuple[int, str]] = []
+    has_commas = any('"' in line and _QUOTED.search(line) for line in lines)
     for number, line in enumerate(lines, start=1):
         stripped = line.strip(" \r\n")
-        if '"' in stripped:  # a comma in quotes separates no numbers
-            quoted = re.sub(r'"(\s*[-+]?\d+),(\d+\s*)"', r"\1.\2", stripped)
-            stripped = quoted.replace('"', "").strip(" ")
+        if has_commas:  # a comma in quotes separates no numbers
+            stripped = re.sub(r'("[^"]*")|,', lambda match: match[1] or "\t", stripped)
+        stripped = stripped.replace('"', "").strip(" ")
+        row = _write_plainly(stripped)
         is_comment = stripped.startswith(("#", "%", "//"))
-        if is_comment or not (rows or _NUMERIC.match(stripped)):
+        is_numeric = _NUMERIC.match(row) and not _RESOLUTION.match(row)
+        if is_comment or not (rows or is_numeric):
             header.append(stripped)
         elif stripped.strip():
-            rows.append((number, stripped))
+            rows.append((number, row))
     return header, rows
+
+
+def _write_plainly(row: str) -> str:
+    """Write numbers as Python does, but for their commas."""
+    if row.isascii() and not any(sign in row for sign in "'dD"):
+        return row  # as nearly all are
+    return _FORTRAN.sub("e", _APOSTROPHE.sub("", row.translate(_SIGNS)))
 
 
 def _drop_count(rows: list[tuple[int, str]]) -> tuple[list[tuple[int, str]], list[int]]:
@@ -220,13 +241,14 @@ def _drop_count(rows: list[tuple[int, str]]) -> tuple[list[tuple[int, str]], lis
     return rows[1:], [int(word) for word in words[0]]
 
 
-def _name_fields(lines: list[str]) -> list[str]:
-    """Names of the fields that Gwyddion writes, in its language."""
-    return [match[1].lower() for match in map(_FIELD.match, lines) if match]
+def _find_fields(lines: list[str]) -> list[re.Match]:
+    """Fields that Gwyddion writes, in its language; others write several in one line."""
+    told = [part for line in lines if _FIELD.match(line) for part in _NEXT_FIELD.split(line)]
+    return [match for match in map(_FIELD.match, told) if match]
 
 
 def _read_header(lines: list[str], columns: int) -> _Header:
-    matches = [match for match in map(_FIELD.match, lines) if match]
+    matches = _find_fields(lines)
     fields = {_GERMAN.get(match[1].lower(), match[1].lower()): match[2] for match in matches}
     if matches and matches[0][1].lower() in _GERMAN:
         fields = {name: text.replace(",", ".") for name, text in fields.items()}
@@ -361,15 +383,12 @@ def _try_points(points: NDArray, columns: int) -> Gridded:
 
 def _fold(column: NDArray, header: _Header) -> NDArray | None:
     """Map whose rows follow each other in one column, if the header tells its sides."""
-    count = column.size
-    nx, ny = header.count(_COLUMNS), header.count(_ROWS)
-    if nx is None and ny is None and {"width", "height"} <= header.fields.keys():
-        x, y = _sides_in_header(header, (1, 1))
-        nx = round((count * x / y) ** 0.5)
-        ny = round(nx * y / x)
-    if nx is None or ny is None or min(nx, ny) < 2 or nx * ny != count:
+    counts: Sequence[float] = header.count()
+    if not counts and {"width", "height"} <= header.fields.keys():
+        counts = _sides_in_header(header, (1, 1))
+    elif np.prod(counts) != column.size:
         return None
-    return column.reshape(ny, nx).T
+    return fold(column, counts)
 
 
 def _find_steps(header: _Header, shape: tuple[int, int]) -> tuple[NDArray | None, str | None]:
@@ -406,19 +425,6 @@ def _refuse_positions(heights: NDArray) -> None:
             )
 
 
-def _refuse_repeats(positions: NDArray | None) -> None:
-    """Refuse positions of a profile that occur more than once."""
-    if positions is None:
-        return
-    values, counts = np.unique(positions[np.isfinite(positions)], return_counts=True)
-    if np.any(counts > 1):
-        repeated = values[counts > 1]
-        raise ValueError(
-            f"positions of a line profile must all differ, but {len(repeated)} occur twice or "
-            f"more, the first is {repeated[0]:g}: average their heights, or give one line of them"
-        )
-
-
 def _check_counts(header: list[str], shapes: list[tuple[int, ...]]) -> None:
     """Check the columns and rows that a header names against the shapes that they may mean."""
     for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
@@ -437,9 +443,12 @@ def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) ->
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
     if separator is None and not has_decimal_commas and re.search(r",\s|^[^ ]*,[^ ]*$", first):
         separator = ","
-    if separator != "," and not has_decimal_commas:
-        _refuse_groups(rows, separator, ",")
-    if not has_decimal_commas:
+    mark = None if separator == "," else _find_mark_of_thousands(rows)
+    if mark:
+        rows = _join_groups(rows, mark)
+    elif not has_decimal_commas:
+        if separator != ",":
+            _refuse_groups(rows, separator, ",")
         _refuse_groups(rows, separator, ".")
     values: list[list[float]] = []
     for number, line in rows:
@@ -471,13 +480,33 @@ def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) ->
                 "decimal commas, which its separating commas hide; separate by tabs or "
                 "semicolons, or write decimal points"
             )
-    is_repeated = matrix.shape[1] == 2 and len(np.unique(matrix[:, 0])) < len(matrix)
-    if separator == "," and is_repeated and not any("." in line for _, line in rows):
+    is_repeated = len(np.unique(matrix[:, 0])) < len(matrix)
+    may_be_one = separator == "," and (is_repeated or "." in first.partition(",")[0])
+    if may_be_one and all(_ONE_NUMBER.fullmatch(line) for _, line in rows):
         raise ValueError(
-            f"lines such as {first!r} may hold two numbers, or one with a decimal comma: write "
-            "decimal points, or separate numbers by tabs or semicolons"
+            f"lines such as {first!r} may hold two numbers, or one with a comma: write decimal "
+            "points and no thousands, or separate numbers by tabs or semicolons"
         )
     return matrix
+
+
+def _find_mark_of_thousands(rows: list[tuple[int, str]]) -> str:
+    """Mark between groups of three digits, if a number shows that it is one."""
+    # Most lines have points alone, and no group of digits between two of them.
+    odd = (line for _, line in rows if "," in line or re.search(r"\.\d{3}\.", line))
+    return next((found[1] for line in odd if (found := _GROUPED.search(line))), "")
+
+
+def _join_groups(rows: list[tuple[int, str]], mark: str) -> list[tuple[int, str]]:
+    """Rows without a mark of thousands, which nowhere may be the decimal one."""
+    groups = re.compile(rf"(?<=\d){re.escape(mark)}(?=\d{{3}}(?!\d))")
+    joined = [(number, groups.sub("", line)) for number, line in rows]
+    if mixed := [number for number, line in joined if mark in line]:
+        raise ValueError(
+            f"line {mixed[0]}: {mark!r} separates decimals, but thousands elsewhere: write "
+            "decimal points, and no thousands"
+        )
+    return joined
 
 
 def _refuse_groups(rows: list[tuple[int, str]], separator: str | None, mark: str) -> None:
