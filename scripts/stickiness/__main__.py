@@ -24,6 +24,7 @@ from stickiness.formatting import printable
 SURFACE = "surface"  #: name of the one that is judged, in files
 TEXTS = tomllib.loads(Path(__file__).with_name("command.toml").read_text(encoding="utf-8"))
 #: Options by the keys of the configuration, for which they stand.
+SIDES = ("length", "pixel_size")  #: keys of one value or two
 OPTIONS = {key: option for group in ("material", "surface") for key, option in TEXTS[group].items()}
 
 
@@ -68,7 +69,8 @@ def answer() -> None:
         say(f"Example: python -m stickiness {shlex.join(arguments)}", file=progress)
     for path in filter(None, [options.file, options.tape]):
         if not path.is_file():
-            fail(f"{path}: {'a folder; give a file' if path.is_dir() else 'no such file'}")
+            kind = "a folder" if path.is_dir() else "no file of data"
+            fail(f"{path}: {kind}; give a file" if path.exists() else f"{path}: no such file")
     if not options.no_page:
         check_output(options.output)
     radius = None if options.radius is None else read_radius(options.radius)
@@ -160,7 +162,7 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
         group = parser.add_argument_group(title)
         texts = describe_keys(title)
         for key, option in TEXTS[title].items():
-            kind = str if key == "label" else read_value
+            kind = str if key == "label" else read_sides if key in SIDES else read_value
             text = texts[key].replace("%", "%%")
             if key in TEXTS["defaults"]:
                 text = f"{text} (default: {TEXTS['defaults'][key]})"
@@ -205,14 +207,24 @@ def read_radius(text: str) -> float:
 
 
 def read_value(text: str) -> Any:
-    """Return a number, a list of two values around an x that is not before 10^5, or the text."""
+    """Return a number, or what else JSON has, or the text."""
     try:
         return json.loads(text)
     except ValueError:
         if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", text, re.IGNORECASE):
             return float(text)  # .5, which is no JSON
-        sides = re.split(r"\s*[x×]\s*(?=\d)(?!10\s*(?:\^|\*\*|[⁻⁰¹²³⁴-⁹]))", text)
-        return sides if len(sides) == 2 else text
+        return text
+
+
+def read_sides(text: str) -> Any:
+    """Return a value, or a list of two around an x that is not before 10^5.
+
+    A unit behind the second alone is that of both.
+    """
+    if both := re.fullmatch(r"([\d.]+)\s*[x×]\s*([\d.]+)\s*([A-Za-zµμÅ].*)", text):
+        return [f"{side} {both[3]}" for side in both.group(1, 2)]
+    sides = re.split(r"\s*[x×]\s*(?=\d)(?!10\s*(?:\^|\*\*|[⁻⁰¹²³⁴-⁹]))", text)
+    return sides if len(sides) == 2 else read_value(text)
 
 
 def choose_given(options: argparse.Namespace, group: str) -> dict[str, Any]:
@@ -290,7 +302,7 @@ def judge(materials: dict[str, Any], surface: Any, with_page: bool) -> Any:
 
 def tell_entry_error(error: Any) -> str:
     """Return what is wrong with a value, by the option that gave it."""
-    option = OPTIONS.get(error.key)
+    option = OPTIONS.get(error.key.partition("[")[0])
     message = name_options(error.message)
     return str(error) if option is None else f"{option} {error.value!r}: {message}"
 

@@ -258,6 +258,18 @@ def test_another_tape_replaces_the_page(folder, first):
         ),
         (["wall#1.npy", *TAPE, "--radius", "2,5 mm"], "--radius '2,5 mm' holds a comma, where"),
         (["wall#1.npy", *TAPE, "--max-missing", "-.2"], "--max-missing -0.2: "),
+        (
+            ["wall#1.npy", *TAPE, "--max-missing", "10 %"],
+            "--max-missing '10 %': must be a valid number; did you mean 0.1?",
+        ),
+        (
+            ["wall#1.npy", *TAPE, "--poisson", "0,49"],
+            "--poisson '0,49': must be a valid number; did you mean 0.49?",
+        ),
+        (["wall#1.npy", *TAPE, "--modulus", "0x10 Pa"], "--modulus '0x10 Pa': cannot be read"),
+        (["wall#1.npy", *TAPE, "--label", ""], "--label '': must not be empty"),
+        (["wall#1.npy", *TAPE, "--length", "40x24"], "--length '40': has no unit; a length is"),
+        (["/dev/null", *TAPE], "/dev/null: no file of data; give a file"),
     ],
 )
 def test_errors_are_one_line_in_terms_of_the_command(folder, arguments, line):
@@ -271,6 +283,7 @@ PLACES = {
     "terminal without signs": ("wänd 二.txt", [], {"PYTHONIOENCODING": "ascii"}, "wänd 二"),
     "control characters": ("w\x1b[31m\u202e{1}.txt", [], {}, "w[31m{1}"),
     "number as ending": ("scan.001", ["--missing-value", "-3.4e38"], {}, "scan.001"),
+    "one unit of two sides": ("w.x", ["--length", "2x2 mm"], {}, "w"),
     "thousands": ("w.x", ["--length", "2 000 um x 2×10⁻³ m"], {}, "w"),
 }
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import difflib
+import math
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # pydantic takes long to import, and jobs do not need it
     import pydantic
-
-# What YAML reads as a text, although it looks like a number.
-_HINT = "; leave off quotes, and write 1.0e-2 for 1e-2"
 
 
 class EntryError(ValueError):
@@ -66,7 +64,9 @@ def first_error(error: pydantic.ValidationError, content: Mapping[str, Any]) -> 
         value = problem["ctx"]["tag"]
         message = f"must be one of {problem['ctx']['expected_tags']}"
     if problem["type"] == "float_type" and isinstance(value, str):
-        message += _HINT
+        message += _ask_for_number(value)
+    if problem["type"] == "string_too_short":
+        message = "must not be empty"
     if problem["type"] == "missing":
         message = "the key is missing"
     if problem["type"] == "literal_error":
@@ -79,6 +79,21 @@ def first_error(error: pydantic.ValidationError, content: Mapping[str, Any]) -> 
     if problem["type"] == "missing" or isinstance(value, Mapping):
         value = None
     return EntryError(key, value, message)
+
+
+def _ask_for_number(text: str) -> str:
+    """Ask for the number that is meant by a text in place of one."""
+    is_share = text.rstrip().endswith("%")
+    meant = text.rstrip(" %").replace(",", ".")
+    try:
+        number = float(meant) / (100 if is_share else 1)
+    except ValueError:
+        number = math.nan
+    if not math.isfinite(number):
+        return ""
+    # What YAML reads as a text, although it looks like a number.
+    hint = "; leave off quotes, and write 1.0e-2 for 1e-2"
+    return f"; did you mean {number:g}?" if is_share or "," in text else hint
 
 
 def _find_key(problem: Any, content: Any) -> str:
