@@ -1,10 +1,10 @@
 # Simulations behind the limits of verdicts: on other solids, on patches of surfaces, at ranges
-# shorter than a grid resolves, their pull-offs, with waves that it lacks, and on surfaces larger than
-# a scan. Limits are calibrated on the committed tables.
+# shorter than a grid resolves, their pull-offs, with waves that it lacks, on surfaces larger than a
+# scan, and of balls. Limits are calibrated on the committed tables.
 
 SIMULATED_SETS = {
     kind: LIMIT_CAMPAIGN[kind]["sets"]
-    for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved", "larger")
+    for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved", "larger", "balls")
 }
 
 
@@ -16,6 +16,7 @@ wildcard_constraints:
     pull_off_set=choices(SIMULATED_SETS["pull_offs"]),
     unresolved_set=choices(SIMULATED_SETS["unresolved"]),
     larger_set=choices(SIMULATED_SETS["larger"]),
+    ball_set=choices(SIMULATED_SETS["balls"]),
 
 
 def solid_of(wildcards):
@@ -166,6 +167,27 @@ rule measure_larger:
         "Simulate surfaces larger than a scan: {wildcards.larger_set}, seed {wildcards.seed}"
     script:
         "../scripts/limits/measure_larger.py"
+
+
+rule measure_balls:
+    output:
+        f"{LIMITS}/balls/{{ball_set}}/seed{{seed}}.nc",
+    log:
+        f"{LIMITS}/logs/measure_balls/{{ball_set}}/seed{{seed}}.log",
+    benchmark:
+        f"{LIMITS}/benchmarks/measure_balls/{{ball_set}}/seed{{seed}}.tsv"
+    conda:
+        "../envs/environment.yaml"
+    resources:
+        mem_mb=2000,
+        runtime=30,
+    params:
+        surface=lambda wildcards: SIMULATED_SETS["balls"][wildcards.ball_set],
+        code=source_hash("limits/measure_balls.py"),
+    message:
+        "Simulate the pull-off of balls: {wildcards.ball_set}, seed {wildcards.seed}"
+    script:
+        "../scripts/limits/measure_balls.py"
 
 
 def simulated_files(wildcards):

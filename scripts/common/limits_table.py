@@ -50,6 +50,10 @@ COLUMNS = {
         *("whole_skewness", "whole_full_contact_energy", "range"),
         *(f"whole_threshold_{share}" for share in SHARES),
     ),
+    "balls": (
+        *("set", "role", "tabor", "law", "hurst", "skewness", "shortest", "side", "points"),
+        *("seed", "waves", "height", "place", "simulated"),
+    ),
 }
 DESCRIPTIONS = {
     "solids": """\
@@ -92,6 +96,11 @@ share of the energy in longer waves. whole_threshold_3 … whole_threshold_60: l
 length at which 3 % … 60 % of w remains on the surface, simulated. value_10 … high_30: the same with
 its limits, predicted, without what a scan does not tell of a larger contact; none where so much
 remains at any.""",
+    "balls": """\
+Pull-off forces of balls from rough heights, over those of smooth balls. tabor: 0 of rigid solids,
+whose tractions are summed; others by boundary elements. waves: longest ones across the zone of a
+smooth ball. height: rms height over w over the strength of the law. shortest, side: shortest wave
+and cell, over the radius of the zone. simulated: none where a ball did not pull off.""",
 }
 ALL = """\
 role: limits are fitted to rows that are fitted, and compared with those that are unseen.

@@ -156,8 +156,10 @@ class Observation:
         if "radius" not in self.inputs:
             return None
         radius = self.inputs["radius"][:, None]
-        length = pair.adhesion_length
-        return [sphere.pull_off(pair.rough, radius, length, pair.range, sign) for sign in SIGNS]
+        given = (radius, pair.adhesion_length, pair.range)
+        zone = sphere.pull_off(sphere.narrow(pair.rough, 1.0), *given).zone_radius
+        rough = sphere.narrow(pair.rough, np.asarray(zone) * pair.q0 / np.pi)
+        return [sphere.pull_off(rough, *given, sign) for sign in SIGNS]
 
 
 @dataclass(frozen=True)

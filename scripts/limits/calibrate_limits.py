@@ -10,7 +10,9 @@ from common import heights_table, limits_table, remaining_table
 from common.conventions import Q0, annotate
 from common.job import start
 from common.model_surfaces import make_heights
+from limits import measure_balls
 from stickiness import __version__, datasets
+from stickiness.entries.material import Material
 from stickiness.formatting import number, percent, table
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import find_height_shape
@@ -18,6 +20,8 @@ from stickiness.remaining.roughness import PULL_OFF_KNOWN, Roughness
 from stickiness.remaining.share import FIRST_TOUCH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.longer_waves import find_unlikeness, weigh_larger
+from stickiness.verdicts.rough_ball import press_ball
+from stickiness.verdicts.rough_surface import Surface
 
 COVERAGE = 0.9
 TAILS = (0.05, 0.95)
@@ -31,6 +35,12 @@ UNRESOLVED_SHARES = {"10": 0.1, "30": 0.3}  # at which what lacks is calibrated,
 LEAST_LACKING = 0.02  # energy, over that of the others
 MOST_RATIO = 0.3  # of the range to that simulated, for a place between both bounds
 LEAST_ROOM = 0.005  # between both bounds of a share, for a place between them
+SUMMITS = (4.0, 9.3, 20.0)  # independent heights in a zone one wave wide that are tried
+HARD = 1.0  # Tabor's parameter, from which on solids are soft
+LEAST_LOST = 1e-3  # ln of what roughness takes from the force, of weights
+BALL_RANGE = 3e-10  # m
+BALL_WORK = 0.05  # J/m^2
+NEARLY_LEAST = 1.05  # of errors: factor within which they are taken as equal
 ROUNDING = 1e-4  # of shares: tolerance of simulations, rounding of tables
 SOURCES = {
     "spectrum": "heights.csv",
@@ -40,14 +50,16 @@ SOURCES = {
     "patch": "patches.csv",
     "larger": "larger.csv",
     "larger non-Gaussian": "larger.csv",
+    "ball": "balls.csv",
 }
 ERROR_VARIABLES = {
     "row": "simulation",
     "kind": "by what the share is predicted",
     "role": "whether limits are fitted to it",
-    "needed": "error of ln w with which limits hold the simulated share",
-    "limit": "error of ln w by the limits",
+    "needed": "error of ln w, of balls of ln of the force, with which limits hold a simulation",
+    "limit": "that error by the limits",
     "weight": "what the error goes with: of patches the rms distance of the quarters in ln w",
+    "tabor": ("1", "Tabor's parameter of a ball", "no ball"),
 }
 COLUMNS = ("kind", "quantity", "value", "low", "high", "fitted", "unseen", "source")
 COMMENT = f"""\
@@ -62,7 +74,9 @@ COMMENT = f"""\
 # ln_approach, ln_separation, of simulated over predicted ones; place, of a share between both
 # bounds, over w/U_full (1 - ratio of ranges)^2; shortening, exponent of the ratio of ranges with
 # which the distance of the attraction falls; unresolved, ln w beyond the energy that lacks, over
-# the root of ln(1 + lacking energy) and the cube of the share lost; least, of a patch.
+# the root of ln(1 + lacking energy) and the cube of the share lost; least, of a patch; ln_force, of
+# balls, over the root of ln of the factor that roughness takes from the force; summits, independent
+# heights in a zone one wave wide, low and high with errors within 5 % of the least.
 """
 
 
@@ -70,10 +84,8 @@ def main(job):
     tables = {Path(path).stem: path for path in job.input}
     heights = add_roles(heights_table.read(tables["heights"]))
     remaining = remaining_table.read(tables["remaining"])
-    simulated = {
-        kind: limits_table.read(tables[kind], kind)
-        for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved", "larger")
-    }
+    simulated = {kind: limits_table.read(tables[kind], kind) for kind in limits_table.COLUMNS}
+    summits, balls = compare_balls(simulated["balls"])
     cells = [
         set_limit(compare_cells("spectrum", find_gaussian(heights, window=4))),
         set_limit(compare_cells("two waves", find_gaussian(heights, window=2))),
@@ -87,10 +99,12 @@ def main(job):
             *(compare_solid(kind, rows, base) for kind, rows in group_solids(simulated["solids"])),
             compare_patches(simulated["patches"]),
             *compare_larger(simulated["larger"]),
+            balls,
         ]
     )
     rows = [
         *describe_errors(errors),
+        describe("ball", "summits", summits, find_hard(simulated["balls"]), "balls.csv"),
         *calibrate_weak(heights, job.params.touching),
         *calibrate_paths(remaining),
         *calibrate_states(heights, simulated["ranges"], simulated["unresolved"]),
@@ -223,7 +237,8 @@ def describe_errors(errors):
     """Rows of the table for the errors in ln w."""
     for kind, rows in errors.groupby("kind", sort=False):
         source = SOURCES.get(kind, "solids.csv")
-        yield describe(kind, "ln_work", symmetric(rows.slope.iloc[0]), rows, source)
+        quantity = "ln_force" if kind == "ball" else "ln_work"
+        yield describe(kind, quantity, symmetric(rows.slope.iloc[0]), rows, source)
         if kind == "patch":
             yield describe(kind, "least", symmetric(rows.least.iloc[0]), rows, source)
 
@@ -428,6 +443,65 @@ def compare_larger(larger):
     gaussian = compare("larger", ~is_unlike, doublings, base)
     base = np.hypot(base, gaussian.slope.iloc[0] * doublings)
     return gaussian, compare("larger non-Gaussian", is_unlike, unlike, base)
+
+
+def compare_balls(balls):
+    """Number of independent heights in a zone, and errors of ln of the force of balls with it.
+
+    They go with the root of ln of the factor that roughness takes from the force. The number is
+    that with which hard solids have the least error.
+    """
+    hard = find_hard(balls)
+    fitted = hard[hard.role == "fitted"]
+    slopes = np.array([find_ball_errors(fitted, each).slope.iloc[0] for each in SUMMITS])
+    good = np.array(SUMMITS)[slopes <= NEARLY_LEAST * slopes.min()]
+    best = SUMMITS[slopes.argmin()]
+    return (best, good.min(), good.max()), find_ball_errors(balls, best)
+
+
+def find_hard(balls):
+    """Rows of hard solids, of which the height of first touch matters."""
+    return balls[balls.tabor < HARD]
+
+
+def find_ball_errors(balls, summits):
+    """Errors of ln of the force of balls in all rows."""
+    parts = [predict_ball(rows, summits) for _, rows in balls.groupby(["set", "waves", "height"])]
+    rows = pd.concat(parts)
+    error = np.log(rows.simulated / rows.force)
+    base = np.where(error > 0, np.log(rows.high / rows.force), np.log(rows.force / rows.low))
+    weight = np.sqrt(np.maximum(-np.log(rows.force), LEAST_LOST)).to_numpy()
+    errors = make_errors("ball", rows, error.abs().to_numpy(), weight)
+    return add_limits(errors, base).assign(tabor=rows.tabor.to_numpy())
+
+
+def predict_ball(rows, summits):
+    """Rows of one roughness with the force of the ball, without errors of the place.
+
+    Forces are over that of a smooth ball. The surface is a user's who knows its spectrum, and the
+    skewness of its heights.
+    """
+    row = rows.iloc[0]
+    zone = BALL_RANGE / measure_balls.make_ball(row.law, row.tabor).law.range
+    ball = measure_balls.make_ball(row.law, row.tabor, zone)
+    rough = Surface.from_spectrum(ball.rough(row.waves, row.height, row.shortest, row.hurst))
+    shape, shape_error = find_height_shape(row.skewness)
+    material = Material(
+        youngs_modulus=BALL_WORK / ball.law.adhesion_length,
+        poisson_ratio=0.0,
+        work_of_adhesion=BALL_WORK,
+        range=BALL_RANGE,
+        law=row.law,
+    )
+    found = press_ball(
+        Surface(rough.data.assign(shape=shape, shape_error=shape_error)),
+        material,
+        ball.radius,
+        error=0.0,
+        summits=summits,
+    )
+    low, high = np.divide(found.force_limits, found.smooth_force)
+    return rows.assign(force=found.force / found.smooth_force, low=low, high=high)
 
 
 def find_distance(rows):

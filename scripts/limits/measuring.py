@@ -18,7 +18,12 @@ THRESHOLDS = {
 def write_rows(job, measure, variables, title):
     """Make the heights of a set, and write the rows that `measure` finds on them."""
     setting = job.params.surface
-    seed = int(job.wildcards.seed)
-    rows = list(measure(make_set(setting, seed), setting, job.params))
+    heights = make_set(setting, int(job.wildcards.seed))
+    write_table(job, measure(heights, setting, job.params), variables, title)
+
+
+def write_table(job, rows, variables, title):
+    """Write rows of one seed of a set."""
     dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **variables)
-    datasets.write(dataset, job.output[0], title=title, parameters={**setting, "seed": seed})
+    parameters = {**job.params.surface, "seed": int(job.wildcards.seed)}
+    datasets.write(dataset, job.output[0], title=title, parameters=parameters)

@@ -19,6 +19,7 @@ LABELS = {
     "patch": "map",
     "larger": "larger contact",
     "larger non-Gaussian": "not Gaussian",
+    "ball": "ball",
 }
 LEAST = 0.01  # error of ln w that is shown, of those that are smaller
 SPREAD = 0.28  # half the width of a column of points

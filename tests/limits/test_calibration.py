@@ -18,7 +18,7 @@ from stickiness.remaining import calibration
 ROOT = Path(__file__).parents[2]
 TABLES = (
     *("heights", "remaining", "solids", "patches", "ranges", "pull_offs", "unresolved"),
-    "larger",
+    *("larger", "balls"),
 )
 LEAST = 0.82  #: share of the unseen simulations of a kind within limits of 90 %
 #: Median ratio of both limits of the threshold, on unseen surfaces, that limits may not exceed.
@@ -34,7 +34,9 @@ WIDEST = {
     "patch": 1.9,
     "larger": 10.0,
     "larger non-Gaussian": 60.0,
+    "ball": 4.5,
 }
+WIDEST_BALL = {"hard": 6.0, "soft": 3.0}  #: median ratio of both limits of the force, the same
 WIDEST_PULL_OFF = 3.1  #: ratio of both limits of a pull-off by states
 
 pytestmark = pytest.mark.slow
@@ -88,6 +90,15 @@ def test_limits_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrated):
         assert inside.mean() >= LEAST, kind
     for kind, limits in unseen.groupby("kind").limit:
         assert np.exp(2 * limits.median()) <= WIDEST[kind], kind
+
+
+@pytest.mark.parametrize("stiffness", WIDEST_BALL)
+def test_limits_of_balls_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrated, stiffness):
+    errors = datasets.read(calibrated.dataset, ["kind", "role", "needed", "limit", "tabor"])
+    unseen = errors.to_dataframe().query("kind == 'ball' and role == 'unseen'")
+    rows = unseen[(unseen.tabor < 1) == (stiffness == "hard")]
+    assert 0.86 <= (rows.needed <= rows.limit).mean() <= 0.96
+    assert np.exp(2 * rows.limit.median()) <= WIDEST_BALL[stiffness]
 
 
 def test_states_tell_shares_within_their_limits_however_little_remains():

@@ -15,7 +15,7 @@ from common.topographies import FAMILIES
 ROOT = Path(__file__).parents[2]
 CAMPAIGN = complete(LimitCampaign, **load.load(ROOT / load.CAMPAIGNS["limits"]))
 KINDS = tuple(limits_table.COLUMNS)
-CLASS = dict.fromkeys(KINDS, "family") | {"solids": "kind"}
+CLASS = dict.fromkeys(KINDS, "family") | {"solids": "kind", "balls": "tabor"}
 
 
 def read(kind):
@@ -37,6 +37,8 @@ def rows_of_set(kind, entry):
         return len(campaign["strides"]) * len(campaign["ranges"])
     if kind == "larger":
         return len(entry["parts"]) * campaign["count"]
+    if kind == "balls":
+        return len(entry["waves"]) * len(entry["heights"]) * entry["places"]
     return None  # as many works of adhesion as have such shares
 
 
@@ -148,3 +150,16 @@ def test_larger_contacts_are_judged_both_ways():
     assert known.unevenness[is_skewed].median() > 0.2
     # Where the spectrum shows no roll-off within a patch, none is found.
     assert known.found_rolloff[known.waves < 4 * known.parts].isna().all()
+
+
+def test_forces_of_balls_are_possible():
+    """Roughness takes from the force, but for its longer reach, 4/3, and long waves that curve."""
+    table = read("balls")
+    assert table.simulated.notna().all()
+    assert table.simulated.between(0, 2).all()
+    assert (table.simulated > 4 / 3).mean() < 0.02
+    assert table.waves.min() <= 0.1
+    assert table.waves.max() >= 30
+    medians = table.groupby(["set", "waves", "height"]).simulated.median().unstack()
+    finest = medians.loc[medians.index.get_level_values("waves") >= 1, [0.3, 1.0, 3.0]]
+    assert not (np.diff(finest.dropna(), axis=1) >= 0).any()

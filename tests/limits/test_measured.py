@@ -9,11 +9,12 @@ from helpers.entries import complete
 from helpers.jobs import make_job
 
 from common import limits_table
-from common.config.campaigns import LargerSet, RangeSet, SolidSet, TopographySet
+from common.config.campaigns import BallSet, LargerSet, RangeSet, SolidSet, TopographySet
 from common.model_surfaces import cell_size, make_heights
 from common.topographies import make_set
 from limits import (
     calibrate_limits,
+    measure_balls,
     measure_larger,
     measure_patches,
     measure_pull_offs,
@@ -23,6 +24,7 @@ from limits import (
     tabulate_limits,
 )
 from stickiness import surface
+from stickiness.remaining import sphere
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.remaining.prediction import predict
@@ -52,6 +54,10 @@ COARSE = complete(
     refinements=[{"ratio": 1.0, "finer": 2}, {"ratio": 0.25, "finer": 8}],
 )
 SCANNED = complete(LargerSet, **TOPOGRAPHY | {"waves": 2}, shortest=4.0, parts=[1, 2])
+
+BALL = {"role": "fitted", "law": "exponential", "hurst": 0.8, "waves": [0.5], "heights": [0.1, 2.0]}
+BALL |= {"shortest": 0.5, "side": 6.0, "points": 64, "places": 2, "seeds": [5]}
+STIFFNESSES = (0.0, 0.05, 2.0)
 
 
 def tabulate(folder, kind, script, settings, **params):
@@ -114,6 +120,12 @@ def larger(folder):
 def unresolved(folder):
     params = {"ranges": [0.3], "strides": [2]}
     return tabulate(folder, "unresolved", measure_unresolved, [ROUGH, FINE], **params)
+
+
+@pytest.fixture(scope="module")
+def balls(folder):
+    settings = [complete(BallSet, **BALL, tabor=tabor) for tabor in STIFFNESSES]
+    return tabulate(folder, "balls", measure_balls, settings)
 
 
 def test_rows_of_solids_tell_set_and_role(solids):
@@ -279,6 +291,27 @@ def test_a_scan_of_half_the_side_tells_less_of_a_contact(larger):
         assert row.low_10 < row.whole_threshold_10 < row.high_10
         assert row.value_10 < row.value_30
     assert half.high_10 - half.low_10 > 2 * (same.high_10 - same.low_10)
+
+
+def test_stiff_balls_pull_off_as_rigid_ones(balls):
+    """Boundary elements at a small Tabor parameter, and sums at the height of first touch."""
+    rigid, stiff, soft = (rows for _, rows in balls.groupby("tabor"))
+    np.testing.assert_allclose(stiff.simulated, rigid.simulated, rtol=0.1)
+    is_rough = rigid.height.values == 2.0
+    assert (soft.simulated.values > rigid.simulated.values)[is_rough].all()
+    assert rigid.height.tolist() == [0.1, 0.1, 2.0, 2.0]
+
+
+@pytest.mark.parametrize("tabor", STIFFNESSES)
+def test_a_smooth_ball_is_that_of_maugis(tabor):
+    ball = measure_balls.make_ball("exponential", tabor)
+    shape = measure_balls.curve(np.zeros((128, 128)), 6 / 128)
+    pull = measure_balls.touching_force if tabor == 0 else measure_balls.pull_off_force
+    maugis = sphere.pull_off(
+        Roughness(1e-9, 1.0, 1e-18), ball.radius, ball.law.adhesion_length, ball.law.range
+    )
+    # Maugis' law of constant traction and this one differ by a few per cent between JKR and DMT.
+    assert pull(shape, 6.0, ball.law) == pytest.approx(maugis.force, rel=0.1)
 
 
 def test_a_table_without_a_column_is_refused(tmp_path):

@@ -324,6 +324,29 @@ class LargerCampaign(Section):
     sets: f.Names[LargerSet]
 
 
+class BallSet(Section):
+    """Balls on rough heights, in units of the zone of a smooth ball at pull-off."""
+
+    role: Role
+    tabor: Annotated[float, Field(ge=0)] = needed("Tabor's parameter; 0: rigid solids")
+    law: f.Law
+    hurst: f.Hurst
+    skewness: float = optional("of the heights; by default they are Gaussian", 0.0)
+    waves: Values = needed("longest waves across the zone")
+    heights: Values = needed("rms heights over the distance of the attraction")
+    shortest: f.Positive = needed("shortest wave, over the radius of the zone")
+    side: f.Positive = needed("of the cell, over the radius of the zone")
+    points: Annotated[int, Field(ge=32, multiple_of=2)]
+    places: f.Count = needed("that a ball touches")
+    seeds: f.Several[f.Index]
+
+
+class BallCampaign(Section):
+    """Pull-off of balls from rough heights."""
+
+    sets: f.Names[BallSet]
+
+
 class TouchingSurface(ModelSurface):
     """A surface whose highest summits are looked for."""
 
@@ -341,4 +364,5 @@ class LimitCampaign(Section):
     pull_offs: PullOffCampaign
     unresolved: UnresolvedCampaign
     larger: LargerCampaign
+    balls: BallCampaign
     touching: f.Several[TouchingSurface]

@@ -27,8 +27,8 @@ def find_spread(kind: str, quantity: str) -> Limited[float]:
         What was predicted: by the spectrum on half-spaces ("spectrum"), in contacts of few of the
         longest waves along a side ("two waves", "one wave"), for the skewness of heights
         ("skewness"), on other solids ("layer", "film", "thin", "skin"), by states simulated on
-        heights ("states"), on a surface by a map that was cut from it ("patch"), or in a contact
-        larger than a scan ("larger", "larger non-Gaussian").
+        heights ("states"), on a surface by a map that was cut from it ("patch"), in a contact
+        larger than a scan ("larger", "larger non-Gaussian"), or of a ball ("ball").
     quantity : str
         "ln_work" is the error of the logarithm of the work of adhesion; others are described in the
         table.

@@ -81,7 +81,8 @@ class Roughness:
     #: Energy of full contact of waves that are not simulated, over that of the others
     lacking: float | NDArray = 0.0
     height_factor: float | NDArray = 1.0  #: on the heights simulated
-    #: Mean gap over h_rms at which hard solids first touch; NaN: that of contacts of many waves
+    #: Mean gap over h_rms at which hard solids first touch; NaN: that of contacts of many waves,
+    #: whose error and that of next to nothing then count
     first_touch: float | NDArray = np.nan
     #: Instantaneous modulus over E* after a dwell, by which fast separation may exceed the share
     instant_ratio: float | NDArray = 1.0
@@ -173,9 +174,9 @@ class Roughness:
         # A limit is the value at another work of adhesion, and another height of the summits.
         error = self._find_error(length, range) if error is None else error
         shifted = length * np.exp(deviation * error)
+        is_wide = np.isnan(self.first_touch)
         touch = find_spread("spectrum", "first_touch")
-        of_waves = np.where(np.isnan(self.first_touch), touch.value, self.first_touch)
-        scatter = np.interp(deviation, (-1, 0, 1), (touch.high, touch.value, touch.low))
+        of_many = np.interp(deviation, (-1, 0, 1), (touch.high, touch.value, touch.low))
         energy_ratio = self._energy_ratio(shifted) * np.exp(self.shape)
         compliance = np.asarray(self.relative_compliance)
         # Points of a skin are coupled, so that the limit of independent springs does not apply.
@@ -188,11 +189,11 @@ class Roughness:
             load_scale=self.load_scale,
             law=self.law,
             gain=find_gain(energy_ratio, compliance, self.flow),
-            first_touch=np.maximum(of_waves + scatter - touch.value, 0.0),
+            first_touch=np.where(is_wide, of_many, self.first_touch),
         )
         # Where next to nothing remains an error is absolute, and fades with the adhesion.
         fading = np.minimum(self._energy_ratio(length) / self.onset(length, range), 1.0) ** 2
-        share = share + deviation * fading * find_spread("spectrum", "share").high
+        share = share + is_wide * deviation * fading * find_spread("spectrum", "share").high
         if np.isfinite(self.half_space_energy).any():
             share = self._bound_by_half_space(share, length, range, deviation)
 

@@ -3,7 +3,7 @@
 Waves that are shorter than the zone of contact change the work of adhesion and the distance over
 which it acts, both by `Roughness`. Maugis' solution goes from JKR to DMT. Longer waves tilt, shift
 and curve what the sphere touches: whoever calls gives the roughness without them, `narrow`s it to
-the waves across the zone, and `curve`s the radius.
+the waves across the zone, and gives their curvature.
 """
 
 from __future__ import annotations
@@ -20,10 +20,8 @@ from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.roughness import Roughness
 from stickiness.traction_laws import find_strength
 
+LEAST_SHARE = 1e-200  #: whose logarithm may be taken
 FEWEST_WAVES = 5.0  #: longest waves across the contact, below which forces scatter much
-#: Independent heights in a zone that is one of the longest waves wide, by the height at which rigid
-#: spheres touch (`tests/references/rough_spheres.py`): 0.1 to 16 waves, to 0.3 h_rms.
-SUMMITS = 9.3
 _LEAST_PARAMETER = 1e-3  # of Maugis; below DMT to 0.2 %
 _POINT_CONTACT = np.pi / 2  # the angle arccos(a/c) of a point contact within a cohesive zone
 
@@ -47,32 +45,74 @@ def pull_off(
     adhesion_length: ArrayLike,
     range: ArrayLike,
     deviation: ArrayLike = 0,
+    curvature: float = 0.0,
+    error: float | None = None,
 ) -> SpherePullOff:
-    """Pull-off after a contact formed by load; `deviation` as of `Roughness.share`."""
+    """Pull-off after a contact formed by load.
+
+    Parameters
+    ----------
+    rough : Roughness
+        What the sphere touches.
+    radius : float or array
+        Of the sphere [length].
+    adhesion_length : float or array
+        Work of adhesion over E* [length].
+    range : float or array
+        Of the attraction [length].
+    deviation : float or array
+        Error of the force in units of its limits, as of `Roughness.share`.
+    curvature : float
+        Rms mean curvature of the waves that are longer than the zone of contact [1/length].
+    error : float, optional
+        Of ln of the force from place to place, over the root of ln of the factor that roughness
+        takes from it; by default the calibrated one.
+    """
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
-    work = np.asarray(rough.separation(length, range, deviation))
-    remaining_length = np.maximum(work, 1e-200) * length  # that may be divided by
+    deviation = np.asarray(deviation)
+    error = find_spread("ball", "ln_force").high if error is None else error
     reach = np.asarray(rough.distance(length, range))
-    force = work * length * _coefficient(radius, remaining_length, reach)
-    smooth = length * _coefficient(radius, length, range / find_strength(rough.law))
-    jkr_contact = np.cbrt(9 * np.pi / 8 * remaining_length * radius**2)
+    share = np.maximum(rough.share(length, range), LEAST_SHARE)
+
+    def find_force(share: NDArray, radius: NDArray) -> NDArray:
+        """Force over pi E*."""
+        return radius * share * length * _coefficient(radius, share * length, reach)
+
+    force = find_force(share, radius)
+    smooth = radius * length * _coefficient(radius, length, range / find_strength(rough.law))
+    work = np.asarray(rough.separation(length, range, deviation))
+    if np.any(deviation):
+        # Errors of the share, the radius and the place are independent: they add in quadrature.
+        of_place = deviation * error * np.sqrt(np.maximum(np.log(smooth / force), 0.0))
+        of_radius = np.log(find_force(share, curve(radius, curvature, deviation)) / force)
+        with np.errstate(divide="ignore"):  # nothing remains at a low limit
+            of_limit = np.asarray(rough.share(length, range, deviation))
+            of_share = np.log(find_force(of_limit, radius) / force)
+            of_work = np.log(work / share)
+        work = share * np.exp(np.sign(deviation) * np.hypot(of_work, of_place))
+        of_force = np.sqrt(of_share**2 + of_radius**2 + of_place**2)
+        force = force * np.exp(np.sign(deviation) * of_force)
+
+    jkr_contact = np.cbrt(9 * np.pi / 8 * share * length * radius**2)
     derjaguin_zone = np.sqrt(2 * radius * reach)
     return SpherePullOff(
-        force=plain(np.pi * radius * force),
-        smooth_force=plain(np.pi * radius * smooth),
+        force=plain(np.pi * force),
+        smooth_force=plain(np.pi * smooth),
         relative=plain(force / smooth),
         work=plain(work),
         zone_radius=plain(np.maximum(jkr_contact, derjaguin_zone)),
     )
 
 
-def narrow(rough: Roughness, waves: ArrayLike) -> Roughness:
+def narrow(rough: Roughness, waves: ArrayLike, summits: float | None = None) -> Roughness:
     """Roughness in a zone of contact that is a number of its longest waves wide.
 
     Few waves have few summits, so that hard solids touch at a lower one: the expected highest of n
     Gaussian heights is about sqrt(2 ln n) times h_rms. Contacts of many waves are as between flats.
+    `summits` are independent heights in a zone one wave wide; by default the calibrated number.
     """
-    touch = np.sqrt(2 * np.log1p(SUMMITS * np.square(waves)))
+    summits = find_spread("ball", "summits").value if summits is None else summits
+    touch = np.sqrt(2 * np.log1p(summits * np.square(waves)))
     most = find_spread("spectrum", "first_touch").value
     return replace(
         rough,
@@ -81,12 +121,13 @@ def narrow(rough: Roughness, waves: ArrayLike) -> Roughness:
     )
 
 
-def curve(radius: float, curvature: float, deviation: ArrayLike) -> NDArray:
+def curve(radius: ArrayLike, curvature: float, deviation: ArrayLike) -> NDArray:
     """Radius of a sphere [length] on waves that are longer than the zone of contact.
 
     Their rms mean `curvature` [1/length] scatters it by at most 1/(1/radius - curvature), and not
     further than a factor of e, for a sphere that is large beside their summits bridges valleys.
     """
+    radius = np.asarray(radius)
     curved = curvature * radius
     return radius * np.exp(np.asarray(deviation) * curved / (1 + curved))
 

@@ -11,6 +11,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
 
 from stickiness.arguments import number
@@ -25,10 +26,7 @@ from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness,
 from stickiness.verdicts.rough_surface import Surface
 
 ROUGH = 1  #: row of the rough end
-HALVINGS = 16  #: of the interval in which the longest wave in the zone of contact is searched
-#: Error of ln of the force over the root of the share of the smooth ball's that is lost: beside the
-#: other errors it covers 90 % of boundary elements, see the tests
-LOST_ERROR = 0.3
+LOOSE = 1e-3  #: relative, of the longest wave in the zone of contact
 WIDEST = 1.0  #: radii across the zone of contact, in which a paraboloid stands for the ball
 
 
@@ -49,10 +47,12 @@ class BallPullOff:
         return self.waves < sphere.FEWEST_WAVES
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the numbers in SI units, ready for JSON; what is not known is left out."""
+        """Return the numbers in SI units, ready for JSON, or `not_judged`, a text a reason."""
         low, high = self.force_limits
         force = {"value": self.force, "low": low, "high": high, "unit": "N"}
         contents: dict[str, Any] = {"radius": {"value": self.radius, "unit": "m"}}
+        if self.not_judged:
+            contents["not_judged"] = self.not_judged.splitlines()
         if np.isfinite(self.force):
             contents["pull_off_force"] = force
             contents["smooth_pull_off_force"] = {"value": self.smooth_force, "unit": "N"}
@@ -107,8 +107,23 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
             "skin and dwell"
         )
 
+    return press_ball(surface, material, radius)
+
+
+def press_ball(
+    surface: Surface,
+    material: Material,
+    radius: float,
+    error: float | None = None,
+    summits: float | None = None,
+) -> BallPullOff:
+    """`pull_off_of_ball` with an `error` and a number of `summits` that are to be calibrated.
+
+    Those are as of `sphere.pull_off` and `sphere.narrow`; None stands for the calibrated ones.
+    """
     whole = combine_roughness(material, surface)
-    contact = _find_contact(_Contact(whole, material, surface, radius))
+    pressed = _Contact(whole, material, surface, radius, error=error, summits=summits)
+    contact = _find_contact(pressed)
     low, value, high = contact.force
     doubt = whole.not_judged or contact.doubt
     if doubt:
@@ -132,6 +147,8 @@ class _Contact:
     surface: Surface
     radius: float  #: of the ball [m]
     curvature: float = 0.0  #: rms mean curvature of the longer waves [1/m]
+    error: float | None = None  #: as of `sphere.pull_off`
+    summits: float | None = None  #: as of `sphere.narrow`
 
     def shorter(self, q: float) -> _Contact:
         """The same where the ball meets the waves from a wave number on [1/m]."""
@@ -161,12 +178,15 @@ class _Contact:
     def press(self, waves: ArrayLike, deviation: ArrayLike) -> sphere.SpherePullOff:
         """Pull-off in every row, where so many of the longest waves lie across the zone."""
         pair = self.pair
-        rough = sphere.narrow(pair.rough, waves)
-        radius = sphere.curve(self.radius, self.curvature, deviation)
-        exact = sphere.pull_off(rough, self.radius, pair.adhesion_length, pair.range)
-        found = sphere.pull_off(rough, radius, pair.adhesion_length, pair.range, deviation)
-        lost = np.maximum(1 - np.asarray(exact.relative), 0.0)
-        return replace(found, force=found.force * np.exp(LOST_ERROR * deviation * np.sqrt(lost)))
+        return sphere.pull_off(
+            sphere.narrow(pair.rough, waves, self.summits),
+            self.radius,
+            pair.adhesion_length,
+            pair.range,
+            deviation,
+            self.curvature,
+            self.error,
+        )
 
     @cached_property
     def zone(self) -> float:
@@ -177,8 +197,7 @@ class _Contact:
     @cached_property
     def force(self) -> tuple[float, ...]:
         """Low limit, value and high limit of the pull-off force [N]."""
-        # Errors of the model raise the high limits alone, by jumps and pinned edges, so that the
-        # value is that without them.
+        # The value is that without errors of the model.
         waves = self.zone * self.pair.q0 / (2 * np.pi)
         low, _, high = self._limit(self.press(waves, self.pair.deviation).force)
         value = self._limit(self.press(waves, 0.0).force)[VALUE]
@@ -220,10 +239,15 @@ def _find_contact(whole: _Contact) -> _Contact:
         whole = whole.without_states()
     if whole.zone >= 2 * np.pi / lowest:
         return whole
-    low, high = np.log(lowest), np.log(highest)
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        contact = whole.shorter(np.exp(middle))
-        is_wider = contact.zone > 2 * np.pi / np.exp(middle)
-        low, high = (low, middle) if is_wider else (middle, high)
-    return whole.shorter(np.exp(high))
+
+    def compare_zone(logarithm: float) -> float:
+        """Logarithm of the zone over the longest wave that the ball meets, by that of its q."""
+        zone = whole.shorter(np.exp(logarithm)).zone
+        return float(np.log(zone / (2 * np.pi))) + logarithm
+
+    longest, shortest = float(np.log(lowest)), float(np.log(highest))
+    if compare_zone(longest) >= 0:
+        return whole
+    if compare_zone(shortest) <= 0:
+        return whole.shorter(highest)
+    return whole.shorter(np.exp(scipy.optimize.brentq(compare_zone, longest, shortest, xtol=LOOSE)))

@@ -322,9 +322,18 @@ class Surface:
         return Surface(lengthen(self.data, contact))
 
     def shorter(self, q: float) -> Surface:
-        """The surface without its waves below a wave number [1/m], itself if it has none.
+        """The surface without its long waves, as a contact that is smaller than these meets it.
 
-        Their rms mean curvature is `lost_curvature`.
+        Parameters
+        ----------
+        q : float
+            Wave number [1/m] of the longest wave that is kept.
+
+        Returns
+        -------
+        Surface
+            With the rms mean curvature of the waves taken out as `lost_curvature`; the same surface
+            if it has no waves below `q`.
         """
         if q <= min(spectrum.band[0] for spectrum in self.spectra) * (1 + 1e-9):
             return self

@@ -48,14 +48,15 @@ def test_smooth_spheres_are_those_of_maugis():
 @pytest.mark.parametrize("sign", [-1, 0, 1])
 def test_a_rough_sphere_is_that_of_maugis_with_what_remains_and_its_distance(sign):
     surface, radius, length, reach = draw(300)
-    found = sphere.pull_off(surface, radius, length, reach, sign)
-    # Whatever the limit, attraction acts over the distance of the value.
+    found = sphere.pull_off(surface, radius, length, reach, sign, error=0.0)
+    # Whatever the limit, zone and distance are those of the value.
     distance = surface.distance(length, reach)
-    held = found.work * length
+    held = surface.share(length, reach) * length
     contact, derjaguin = np.cbrt(9 * np.pi / 8 * held * radius**2), np.sqrt(2 * radius * distance)
     np.testing.assert_allclose(found.zone_radius, np.maximum(contact, derjaguin), rtol=1e-9)
     assert min(np.sum(contact > derjaguin), np.sum(contact < derjaguin)) > 50
-    checked = np.flatnonzero(found.work > 0.05)[:40]
+    held = surface.share(length, reach, sign) * length
+    checked = np.flatnonzero(held > 0.05 * length)[:40]
     factors = []
     for i in checked:
         expected = -MaugisSphere(radius[i], held[i], distance[i]).pull_off.force
@@ -64,6 +65,27 @@ def test_a_rough_sphere_is_that_of_maugis_with_what_remains_and_its_distance(sig
     assert len(checked) == 40
     assert min(factors) < 1.6
     assert max(factors) > 1.9
+
+
+def test_errors_of_share_radius_and_place_add_in_quadrature():
+    surface, radius, length, reach = draw(300)
+    curvature = 0.3 / radius.max()
+
+    def find_log_force(**errors):
+        return np.log(sphere.pull_off(surface, radius, length, reach, **errors).force)
+
+    value = find_log_force()
+    parts = [
+        find_log_force(deviation=1, error=0.0) - value,
+        find_log_force(deviation=1, error=0.0, curvature=curvature) - value,
+        find_log_force(deviation=1, error=0.5) - value,
+    ]
+    of_share, with_radius, with_place = np.square(parts)
+    both = find_log_force(deviation=1, error=0.5, curvature=curvature) - value
+    np.testing.assert_allclose(both**2, with_radius + with_place - of_share, atol=1e-9)
+    smooth = sphere.pull_off(surface, radius, length, reach).smooth_force
+    lost = np.maximum(np.log(smooth) - value, 0)
+    np.testing.assert_allclose(with_place - of_share, 0.25 * lost, atol=1e-9)
 
 
 def test_limits_hold_the_value():
