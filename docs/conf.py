@@ -19,7 +19,7 @@ from stickiness import __version__ as release  # noqa: E402, F401
 
 project = "stickiness"
 root_doc = "docs/index"
-include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/*.md", "docs/theory/*.md"]
+include_patterns = ["README.md", "CHANGELOG.md", "CONTRIBUTING.md", "docs/**.md"]
 include_patterns += ["config/README.md", "examples/*"]
 exclude_patterns = [
     *(".*", "**/__pycache__", "*.egg-info", "docs/_build", "examples/*.py"),

@@ -98,10 +98,3 @@ def test_signatures_have_readable_types(monkeypatch):
     assert "ArrayLike | None" in shown[1]
     assert "Callable[[NDArray], NDArray]" in shown[3]
     assert not any("Ref(" in text for text in shown)
-
-
-@pytest.mark.parametrize("page", ["docs/inputs.md", "docs/tutorial.md", "docs/running.md"])
-def test_blocks_of_yaml_can_be_read(page):
-    text = (ROOT / page).read_text(encoding="utf-8")
-    for block in re.findall(r"```yaml\n(.*?)```", text, re.S):
-        assert yaml.safe_load(block) is not None, block

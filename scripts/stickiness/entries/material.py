@@ -363,7 +363,7 @@ class Material(ElasticPair, f.Labelled):
         Parameters
         ----------
         path : path
-            The file; its keys are those of the configuration, see docs/inputs.md.
+            The file; its keys are those of the configuration, see docs/guides/tape.md.
         name : str, optional
             Which material to read; by default the only one in the file.
 
