@@ -233,7 +233,7 @@ def weak_share(
 
 
 class _WeakStates(NamedTuple):
-    """Contact without adhesion at the mean gaps `_GAPS`, with attraction."""
+    """Contact without adhesion at mean gaps of `_GAPS`, with attraction."""
 
     energy_ratio: NDArray  #: (..., 1)
     energy: NDArray  #: (..., gap), with attraction, over U
@@ -250,25 +250,26 @@ def _find_weak_states(
 ) -> _WeakStates:
     x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
     x, e = np.broadcast_arrays(x, e)
+    # Beyond the first touch there is no energy and no area, and attraction falls ever more slowly:
+    # neither the deepest state nor the steepest rise is further away than the next two gaps.
+    count = int(np.count_nonzero(np.max(first_touch) >= _GAPS)) + 3
+    gaps = _GAPS[:count]
+    energy = np.where(np.asarray(first_touch)[..., None] >= gaps, _ENERGY[:count], 0.0)
     # In contact without adhesion the area grows with the load p as erf(sqrt(pi) p/h').
-    # Beyond the first touch it stores no energy and has no area.
-    energy = np.where(np.asarray(first_touch)[..., None] >= _GAPS, _ENERGY, 0.0)
     scale = np.sqrt(np.pi) * np.asarray(load_scale)[..., None]
-    touching = slice(np.count_nonzero(np.max(first_touch) >= _GAPS))
-    area = np.zeros(np.broadcast_shapes(energy.shape, scale.shape))
-    area[..., touching] = scipy.special.erf((scale * _SLOPE * energy)[..., touching])
+    area = scipy.special.erf(scale * _SLOPE[:count] * energy)
     # Mean attraction is costly and depends on the range alone, of which grids of pairs have few.
     ranges, place = np.unique(e, return_inverse=True)
-    attraction = _mean_attraction(ranges)[place.reshape(e.shape)]
+    attraction = _mean_attraction(ranges, gaps)[place.reshape(e.shape)]
     # Where undeformed heights overlap but do not touch, attraction falls short of contact. The
     # decay with the range was fitted to simulations.
-    open_overlap = np.maximum(scipy.special.ndtr(-_GAPS) - area, 0.0)
+    open_overlap = np.maximum(scipy.special.ndtr(-gaps) - area, 0.0)
     attraction = attraction - open_overlap * np.exp(-2.6 * e[..., None])
     # Other laws: what they attract beyond the exponential one.
     law = np.broadcast_to(law, e.shape)
     for name in set(np.unique(law).tolist()) - {EXPONENTIAL}:
         ranges, place = np.unique(e[law == name], return_inverse=True)
-        attraction[law == name] += _mean_excess(ranges, name)[place]
+        attraction[law == name] += _mean_excess(ranges, name, count)[place]
     x = x[..., None]
     return _WeakStates(x, energy - x * np.maximum(attraction, area), area)
 
@@ -282,23 +283,23 @@ def _open_gaps() -> tuple[NDArray, NDArray]:
     return gaps, weights
 
 
-def _mean_excess(range_ratio: NDArray, law: str) -> NDArray:
-    """Mean over open gaps of what a law attracts beyond the exponential, ``(range, gap)``."""
+def _mean_excess(range_ratio: NDArray, law: str, count: int) -> NDArray:
+    """Mean over open gaps of what a law attracts beyond the exponential, ``(range, count)``."""
     gaps, weights = _open_gaps()
     gaps_over_range = gaps / range_ratio[:, None]
     exponential = LAWS[EXPONENTIAL](1.0, 1.0).potential(gaps_over_range)
-    return (exponential - LAWS[law](1.0, 1.0).potential(gaps_over_range)) @ weights
+    return (exponential - LAWS[law](1.0, 1.0).potential(gaps_over_range)) @ weights[:, :count]
 
 
-def _mean_attraction(range_ratio: NDArray) -> NDArray:
+def _mean_attraction(range_ratio: NDArray, gaps: NDArray) -> NDArray:
     """Mean of exp(-gap/range) over undeformed heights, ``(range, gap)``; overlap counts as 1."""
-    away = 1 / range_ratio[:, None] - _GAPS
-    open_part = np.exp(-(_GAPS**2) / 2) * scipy.special.erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
+    away = 1 / range_ratio[:, None] - gaps
+    open_part = np.exp(-(gaps**2) / 2) * scipy.special.erfcx(np.maximum(away, 0) / np.sqrt(2)) / 2
     far = away <= 0  # nowhere if the range is short
     if far.any():
-        gaps = np.broadcast_to(_GAPS, away.shape)[far]
-        open_part[far] = np.exp((away[far] ** 2 - gaps**2) / 2) * scipy.special.ndtr(-away[far])
-    return open_part + scipy.special.ndtr(-_GAPS)
+        of_far = np.broadcast_to(gaps, away.shape)[far]
+        open_part[far] = np.exp((away[far] ** 2 - of_far**2) / 2) * scipy.special.ndtr(-away[far])
+    return open_part + scipy.special.ndtr(-gaps)
 
 
 def spring_share(energy_ratio: ArrayLike, range_ratio: ArrayLike) -> float | NDArray:
@@ -393,8 +394,9 @@ def find_deepest_state(
     is_tough = share > weak
     # The tension is the steepest rise of the energy beyond its minimum, up to the strength.
     lowest = np.argmin(states.energy, axis=-1)[..., None]
-    beyond = np.arange(_GAPS.size - 1) >= lowest
-    slopes = np.diff(states.energy) / np.diff(_GAPS)
+    count = states.energy.shape[-1]
+    beyond = np.arange(count - 1) >= lowest
+    slopes = np.diff(states.energy) / np.diff(_GAPS[:count])
     weak_tension = np.max(slopes, axis=-1, where=beyond, initial=0.0)
     tension = np.where(is_tough, tough_tension(energy_ratio, onset), weak_tension)
     strength = find_strength(law) * states.energy_ratio[..., 0] / range_ratio

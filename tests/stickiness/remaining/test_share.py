@@ -100,9 +100,9 @@ def test_mean_attraction_is_that_of_gaussian_heights(law, reach):
     """Against adaptive quadrature over the gaps, decade by decade."""
     potential, ranges = LAWS[law](1.0, reach).potential, np.array([reach])
     ends = np.array([0, *np.geomspace(1e-9, 10, 11), 30])
-    found = module._mean_attraction(ranges)[0] - ndtr(-module._GAPS)
+    found = module._mean_attraction(ranges, module._GAPS)[0] - ndtr(-module._GAPS)
     if law != "exponential":
-        found = found + module._mean_excess(ranges, law)[0]
+        found = found + module._mean_excess(ranges, law, module._GAPS.size)[0]
     for place in (0, 20, 80):
         mean_gap = module._GAPS[place]
 
