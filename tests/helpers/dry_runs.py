@@ -1,36 +1,13 @@
 """Dry-runs without Snakemake's start, which takes longer than most of them."""
 
-import atexit
-import json
-import os
 import re
-import subprocess
-import sys
-import tempfile
-from functools import cache
-from pathlib import Path
 
-
-@cache
-def server():
-    command = [sys.executable, Path(__file__).with_name("serve_snakemake.py")]
-    started = subprocess.Popen(
-        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8"
-    )
-    atexit.register(started.communicate)  # which ends it
-    return started
+from helpers import served
 
 
 def dry_run(folder, *arguments):
     """``snakemake -n`` in a folder to its end; output and errors together."""
-    command = ["-n", "-j2", *map(str, arguments)]
-    with tempfile.NamedTemporaryFile("r", encoding="utf-8") as output:
-        order = (str(folder), command, dict(os.environ), output.name)
-        names = ("folder", "arguments", "environment", "output")
-        server().stdin.write(json.dumps(dict(zip(names, order, strict=True))) + "\n")
-        server().stdin.flush()
-        code = int(server().stdout.readline())
-        return subprocess.CompletedProcess(command, code, output.read())
+    return served.run("snakemake", folder, "-n", "-j2", *arguments, together=True)
 
 
 def outputs(done):
