@@ -7,7 +7,7 @@ from references.energy_minimiser import find_full_contact_energy, minimise
 from common.topographies import FAMILIES, make_topography
 from stickiness import Surface, verdict
 
-N = 96
+N = 64
 SIDE = 1e-3  # [m]
 H_RMS = 1e-6  # [m]
 ENERGY_RATIO = 0.8

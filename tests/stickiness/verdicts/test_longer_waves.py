@@ -22,6 +22,7 @@ from stickiness.verdicts.simulated_surface import find_simulated_shape
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
+N = 512
 SIDE = 1e-3
 BAND = {"q0": 2 * np.pi / SIDE, "q1": 256 * np.pi / SIDE, "h_rms": 10e-6}
 ROUGH = SelfAffine(hurst=0.8, **BAND)
@@ -30,11 +31,11 @@ TAPE = Material(youngs_modulus=1e6, work_of_adhesion=0.06, range=3e-10)
 
 def take_patch(seed, parts, hurst=0.8, contact=None):
     """A surface of side `SIDE`, and what a square of 1/`parts` of its side tells of it."""
-    heights = synthesise(SelfAffine(hurst=hurst, **BAND), n=1024, length=SIDE, seed=seed)
-    points = 1024 // parts
+    heights = synthesise(SelfAffine(hurst=hurst, **BAND), n=N, length=SIDE, seed=seed)
+    points = N // parts
     patch = heights[:points, -points:]
     resolved = 1.3 * 2 * np.pi / ROUGH.q1
-    side = SIDE * points / 1024
+    side = SIDE * points / N
     surface = Surface.from_heights(patch, side, contact=contact, fit_to=resolved)
     return heights, surface
 
