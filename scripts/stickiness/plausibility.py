@@ -32,7 +32,10 @@ class Limits(NamedTuple):
 
 
 _OF_LENGTH = "give the side of the heights in m (2e-3 for 2 mm)"
-_OF_SLOPE = "small slopes are assumed; give heights and lengths both in m"
+_OF_SLOPE = (
+    "small slopes are assumed; check the units of heights and lengths, and how far waves are "
+    "extrapolated"
+)
 _OF_WORK = (
     "solids other than clean metals have up to 0.1 J/m^2; is it in mJ/m^2, or an energy of "
     "peeling, which includes dissipation? If it was measured on smooth surfaces, set "

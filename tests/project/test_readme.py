@@ -62,7 +62,7 @@ def count_failed_claims(results):
             read_heights("theory", ["Gaussian"], "within_quarter"),
         ),
         (
-            "On as many skewed surfaces its limits contain only 7 %",
+            "On skewed heights the limits of this theory contain only 7 %",
             7,
             0.5,
             read_heights("theory", ["skewed", "transformed"], "inside"),

@@ -328,7 +328,7 @@ def test_the_report_shows_what_is_in_the_files(page):
         "1.2 pixels in the zone of attraction",
         "ε/h rms = 0.1 (paper: 0.0075) by",
         "≠ not checked: the configuration differs loops.fig4a.surface: H = 0.6 (paper: 0.8)",
-        "≠ not checked: the configuration differs: the configuration sets",  # legend
+        "≠ not checked: the configuration differs: the configuration changes",  # legend
         # Experiments.
         "30 mJ/m² (relation)",
         "20 mJ/m² (10 … 25 mJ/m²)",

@@ -157,8 +157,10 @@ def _rows(heights: NDArray, axis: int) -> NDArray:
 
 
 def _medians_of_rows(rows: NDArray) -> NDArray:
-    """Median of every row; between its neighbours if all of the row is missing."""
+    """Median of every row; between its neighbours if all of it is missing, 0 if all are."""
     is_known = np.isfinite(rows).any(axis=1)
+    if not is_known.any():
+        return np.zeros(len(rows))
     medians = np.full(len(rows), np.nan)
     of_known = rows[is_known]
     is_complete = np.isfinite(of_known).all()

@@ -21,6 +21,8 @@ from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.pressed_heights import Picture
 from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
 
+MOST_WIDTH = 0.98  #: of limits of a share, beyond which a page says that nothing is known
+
 
 def write_surface_page(
     page: str | Path,
@@ -63,6 +65,7 @@ def write_surface_page(
     if followed:
         curves["interactive"] = interactive.embed(interactive.draw_curves(followed))
         curves["still"] = draw_png(surface_figures.draw_still, followed)
+        curves["axes"] = list(followed)
     reading = None
     if "heights_as_read" in surface and surface_figures.shows_change(surface):
         reading = draw_png(surface_figures.draw_reading, surface)
@@ -105,13 +108,18 @@ def describe_verdict(pair: xr.Dataset) -> dict[str, Any]:
 
 
 def describe_larger(pair: xr.Dataset) -> dict[str, str] | None:
-    """Verdict and share for a contact larger than the scan; None where none is judged."""
+    """Verdict and share for a contact larger than the scan; None where none is judged.
+
+    Limits that hold nearly all shares say nothing, and get no share.
+    """
     if np.isnan(pair.larger_contact):
         return None
+    share = read_limited(pair.larger_remaining)
+    says_nothing = share.high - share.low > MOST_WIDTH
     return {
         "contact": wording.tell_larger_size(pair),
         "word": wording.WORDS[int(pair.larger_verdict)],
-        "remaining": wording.tell_share(*read_limited(pair.larger_remaining)),
+        "remaining": "" if says_nothing else wording.tell_share(*share),
     }
 
 
