@@ -260,3 +260,11 @@ def test_measurement_takes_the_key():
     ).heights.remarks
     with pytest.raises(ValueError, match="scan must be 'detect', 'align' or 'keep', got 'flat'"):
         topography.from_array(faulty, 20e-9, scan="flat")
+
+
+def test_parts_without_a_point_are_no_obstacle():
+    faulty = jump(rough(), 10.0, np.random.default_rng(0))
+    faulty[:20] = np.nan
+    mended = scanning.mend(faulty)
+    assert len(mended.remarks) == 1
+    assert np.nanstd(mended.heights) == pytest.approx(np.std(rough()), rel=0.1)
