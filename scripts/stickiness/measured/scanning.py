@@ -157,10 +157,8 @@ def _rows(heights: NDArray, axis: int) -> NDArray:
 
 
 def _medians_of_rows(rows: NDArray) -> NDArray:
-    """Median of every row; between its neighbours if all of it is missing, 0 if all are."""
+    """Median of every row; between its neighbours if all of the row is missing."""
     is_known = np.isfinite(rows).any(axis=1)
-    if not is_known.any():
-        return np.zeros(len(rows))
     medians = np.full(len(rows), np.nan)
     of_known = rows[is_known]
     is_complete = np.isfinite(of_known).all()
@@ -170,9 +168,15 @@ def _medians_of_rows(rows: NDArray) -> NDArray:
 
 
 def _block_medians(rows: NDArray, count: int) -> NDArray:
-    """Medians of differences between neighbouring rows in equal parts of the rows."""
-    parts = np.array_split(np.diff(rows, axis=0), count, axis=1)
-    return np.stack([_medians_of_rows(part) for part in parts], axis=1)
+    """Medians of differences between neighbouring rows in equal parts of the rows.
+
+    A part without any point has the mean of the others.
+    """
+    medians = np.full((len(rows) - 1, count), np.nan)
+    for place, part in enumerate(np.array_split(np.diff(rows, axis=0), count, axis=1)):
+        if np.isfinite(part).any():
+            medians[:, place] = _medians_of_rows(part)
+    return np.where(np.isnan(medians), np.nanmean(medians, axis=1, keepdims=True), medians)
 
 
 def _spread(values: NDArray) -> NDArray:
