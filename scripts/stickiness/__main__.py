@@ -255,7 +255,7 @@ def name_options(text: str) -> str:
     Keys that are words, too, are told by what stands before them.
     """
     keys = "|".join(sorted(TEXTS["surface"], key=len, reverse=True))
-    before = "(?<=give )|(?<=correct )|(?<=or )|(?<=by )|(?<=leave )"
+    before = "(?<=give )|(?<=correct )|(?<=or )|(?<=by )|(?<=leave )|(?<=with )|(?<=set )"
     named = rf"(?:\b(?=\w+_)|{before})({keys})\b(?:: (\S+))?"
     return re.sub(named, lambda m: " ".join(filter(None, (OPTIONS[m[1]], m[2]))), text)
 
