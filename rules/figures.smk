@@ -90,7 +90,9 @@ for figure, files in FIGURE_INPUTS.items():
             "../envs/environment.yaml"
         params:
             pressure=config["criteria"]["a_v"]["pressure"],
-            labels={name: LABELS[name] for name in FIG6_SURFACES} if figure == "fig6" else {},
+            labels={"fig6": {name: LABELS[name] for name in FIG6_SURFACES}, "fig9": LABELS}.get(
+                figure, {}
+            ),
             figure=figure,  # the path of the script is formatted when the job runs
             code=source_hash(f"figures/plot_{figure}.py"),
         message:

@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.colors import ListedColormap
+from matplotlib.patches import Patch
 
 from common.experiment_outcomes import COMPATIBLE, MARKS, SILENT
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
@@ -98,6 +99,13 @@ def draw_criteria(ax, dataset, experiments):
     # From wrong to right, grey where nothing is decided; light enough for the marks.
     outcome_colours = ("#DDDDDD", "#F2B48C", "#F7E6A1", "#9CD1BE")
     ax.imshow(outcomes, cmap=ListedColormap(outcome_colours), aspect="auto", **limits)
+    texts = "not tested", "none", "some", "all plausible inputs"
+    keys = [
+        Patch(color=colour, label=f"{MARKS[code]}  {text}")
+        for code, (colour, text) in enumerate(zip(outcome_colours, texts, strict=True), SILENT)
+    ]
+    place = {"loc": "upper right", "bbox_to_anchor": (-0.3, -0.02)}
+    ax.legend(handles=keys[::-1], title="right for", alignment="left", **place)
     for (row, column), code in np.ndenumerate(outcomes):
         ax.text(column, row, MARKS[int(code)], ha="center", va="center", fontsize=8)
     labels = [criterion.label.replace("a_V", "$a_V$") for criterion in CRITERIA.values()]

@@ -102,7 +102,7 @@ def draw_ratios(ax, points):
 
 
 def draw_simulation(ax, ensemble, lattice):
-    """Simulated P(u) with its errors against theory on the spectrum of the window."""
+    """Simulated P(u) with its errors against theory on the spectrum of the cell."""
     for colour, load in zip(COLOURS, LOADS, strict=False):
         measured = ensemble.sel(pressure=load, method="nearest")
         draw_measured(ax, measured, colour)

@@ -5,7 +5,17 @@ import numpy as np
 from common import remaining_table
 from common.job import start
 from stickiness.pages import plotting
-from stickiness.pages.plotting import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE, RED, make_dot
+from stickiness.pages.plotting import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    RED,
+    make_dot,
+    make_key,
+)
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.roughness import SHORT_RANGE, Roughness
@@ -41,12 +51,17 @@ def draw_shares(ax, table):
     ax.plot(ratios, rough.share(length, SHORT_RANGE), "--", color=BLACK, label="range → 0")
     ax.plot(ratios, np.maximum(1 - 1 / ratios, 0), ":", color=RED, label="full contact")
     hurst_colours = {0.3: PURPLE, 0.5: RED, 0.6: ORANGE, 0.7: GREEN, 0.8: BLUE, 0.9: BLACK}
-    markers = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D", 128: "v"}
+    markers = {4: "o", 8: "P", 16: "s", 32: "^", 64: "D"}
     for (hurst, magnification), group in tough.groupby(["hurst", "magnification"]):
         colour = hurst_colours[min(hurst_colours, key=lambda value: abs(value - hurst))]
         marker = markers[min(markers, key=lambda value: abs(np.log(value / magnification)))]
         ax.plot(group.energy_ratio, group.bound, marker, color=colour, markersize=3.5)
-    ax.legend(loc="upper left")
+    limits = make_key("its limits, 90 %", linewidth=6, alpha=0.25)
+    ax.add_artist(plotting.add_legend(ax, limits, loc="upper left"))
+    keys = [make_dot(f"H = {h:g}", color=c, marker="s") for h, c in hurst_colours.items()]
+    keys += [make_dot(f"ζ = {zeta}", marker=marker) for zeta, marker in markers.items()]
+    look = {"title": "simulation, nearest H, ζ", "ncols": 2, "fontsize": 7, "title_fontsize": 7}
+    ax.legend(handles=keys, loc="lower right", handletextpad=0, markerscale=0.9, **look)
     ax.set(xlabel=ENERGY_RATIO, ylabel="share of $w$ that remains", xlim=(0.2, 2.5), ylim=(0, 0.7))
 
 
@@ -54,7 +69,8 @@ def draw_errors(ax, table):
     """Theory over simulation in the works, where more than a little remains."""
     table = table[table.wide & (table.separation > LEAST)]
     goal = 0.25  # error that a theory may have where more than LEAST remains
-    ax.axhspan(1 - goal, 1 + goal, color=GREY, alpha=0.2, linewidth=0)
+    within = f"within {100 * goal:.0f} %"
+    ax.axhspan(1 - goal, 1 + goal, color=GREY, alpha=0.2, linewidth=0, label=within)
     ax.axhline(1, color=GREY, linewidth=0.9)
     for name, marker in WORKS.items():
         for independent, colour in ((False, BLUE), (True, RED)):
@@ -63,8 +79,9 @@ def draw_errors(ax, table):
             ratio = rows.predicted / rows[name]
             draw_works(ax, rows.energy_ratio, ratio, rows, **look, markersize=3.5)
     keys = [make_dot(name, marker=marker) for name, marker in WORKS.items()]
-    ax.legend(handles=[*keys, make_dot("not used in the fit", color=RED)], loc="lower left")
-    ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 1.6))
+    keys.append(make_dot("not used in the fit", color=RED))
+    plotting.add_legend(ax, *keys, loc="upper left")
+    ax.set(xlabel=ENERGY_RATIO, ylabel="theory over simulation", xscale="log", ylim=(0.4, 2.2))
 
 
 def draw_works(ax, x, y, rows, **look):
@@ -94,7 +111,8 @@ def draw_hysteresis(ax, table):
     for limit in np.exp([late, jumps]):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
-    keys = [make_dot(f"ζ = {a} to {b}", color=c, marker="s") for (a, b), c in colours.items()]
+    keys = [make_key("limits, 90 %", linestyle=":")]
+    keys += [make_dot(f"ζ = {a} to {b}", color=c, marker="s") for (a, b), c in colours.items()]
     keys += [make_dot(name, marker=marker, mfc="white") for name, marker in WORKS.items()]
     ax.legend(handles=[*keys, make_dot("pressed", marker="^")], loc="upper right", ncols=2)
     ax.set(xscale="log", ylim=(0.6, 1.9), xlim=(0.02, 0.3), ylabel="work over energy gained")

@@ -69,7 +69,7 @@ def draw_shares(ax, surface):
     )
     ax.axhline(DEFAULT_SHARE, color=GREY, linewidth=0.9, linestyle=":")
     ax.text(x[-1] / 1.05, DEFAULT_SHARE + 0.01, "sticks", color=GREY, fontsize=8, ha="right")
-    ax.set(xscale="log", xlim=(x[0], x[-1]), ylim=(-0.01, 0.85))
+    ax.set(xscale="log", xlim=(x[0], x[-1]), ylim=(-0.01, 1))
     ax.set(xlabel=r"$w/U_\mathrm{full}$", ylabel="share of $w$ that remains")
     plotting.write_ticks(ax.xaxis, [0.1, 0.2, 0.5, 1, 2])
 

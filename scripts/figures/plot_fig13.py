@@ -4,6 +4,7 @@ import numpy as np
 
 from common import remaining_table
 from common.job import start
+from figures.theory_curves import name_cell
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLUE, GREY, RED, make_dot
 from stickiness.remaining.calibration import find_spread
@@ -16,6 +17,7 @@ CELLS = {4: "D", 2: "o", 1: "s"}  # markers by the longest waves along a cell
 RATIOS = {"A": 0.5, "B": 0.8}  # works of adhesion over the energy of full contact, by panel
 SHARPEST = 0.31  # zone over the finest waves of the works that are shown
 WORKS = {"approach": "v", "separation": "^"}
+ENERGY_RATIO = r"$w/U_\mathrm{full}$"
 MAGNIFICATION = "magnification ζ"
 
 
@@ -44,13 +46,13 @@ def draw_ladder(ax, table, ratio):
             shares = average_ladder(rows[rows.window == window])
             look = {"color": colour, "mfc": colour if window > 1 else "white", "markersize": 4}
             ax.plot(shares.index, shares, marker, **look)
-    ax.set(xscale="log", ylim=(0, 0.26), xlabel=MAGNIFICATION, title=f"$w/U$ = {ratio:g}")
+    ax.set(xscale="log", ylim=(0, 0.26), xlabel=MAGNIFICATION, title=f"{ENERGY_RATIO} = {ratio:g}")
     if ratio == min(RATIOS.values()):
         ax.set_ylabel("share of $w$ that remains")
         keys = [make_dot(f"H = {hurst:g}", color=colour) for hurst, colour in COLOURS.items()]
         for window, marker in CELLS.items():
             filled = {} if window > 1 else {"mfc": "white"}
-            keys.append(make_dot(f"{window} × {window} waves", marker=marker, color=GREY, **filled))
+            keys.append(make_dot(name_cell(window), marker=marker, color=GREY, **filled))
         ax.legend(handles=keys, loc="upper right")
 
 

@@ -92,7 +92,7 @@ def draw_threshold(ax, limit, adhesive, maps, rms_slope):
     ax.add_artist(ax.legend(loc="upper right", borderaxespad=0.2))
     ax.axhspan(-0.65, 0, color=GREY, alpha=0.15, linewidth=0)
     ax.text(0.03, 0.03, "sticky", transform=ax.transAxes, fontsize=8)
-    ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa$ with adhesion")
+    ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"load over area, $1/\kappa$ (sticky below 0)")
     ax.set(ylim=(-0.65, 0.78), xscale="log")
     ax.set_title(state(pressure=load))
     place = {"loc": "lower left", "bbox_to_anchor": (0, 0.07), "fontsize": 7, "handlelength": 1.2}

@@ -7,7 +7,7 @@ import numpy as np
 from common import paper_panels
 from common.conventions import LOAD, VARIANT
 from common.job import start
-from figures.theory_curves import draw_theory, name_case
+from figures.theory_curves import draw_theory, name_case, name_cell
 from stickiness import criteria, datasets
 from stickiness.formatting import number
 from stickiness.pages import plotting
@@ -16,8 +16,8 @@ from stickiness.pages.plotting import BLACK, GREY, MARKERS, make_dot, make_key, 
 EXPONENT = 2 / 3
 SIMULATED_RANGES = slice(3e-3, 0.3)  # over h_rms, of the points of panel A
 LARGEST_RANGE = SIMULATED_RANGES.stop  # in panels A and B
-WIDE_MARKER = MARKERS[3]  # of windows of several wavelengths, in panel C
-THEORY_ON_WINDOW = make_dot("theory, window's spectrum", mfc="white")
+WIDE_MARKER = MARKERS[3]  # of cells of several wavelengths, in panel C
+THEORY_ON_CELL = make_dot("theory, cell's spectrum", mfc="white")
 
 
 class Surface(NamedTuple):
@@ -130,8 +130,8 @@ def draw_a_v(ax, sweep, fit, cases):
     ax.set(xscale="log", yscale="log", ylim=(0.6, 400))
     ax.set(xlabel=plotting.MAGNIFICATION, ylabel=r"$a_V$")
     ax.set_title(state(pressure=float(sweep.pressure[0, 0])))
-    wide = make_dot("BEM, wide window", marker=WIDE_MARKER)
-    kinds = [make_key("theory"), make_dot("BEM"), wide, THEORY_ON_WINDOW]
+    wide = make_dot("BEM, larger cell", marker=WIDE_MARKER)
+    kinds = [make_key("theory"), make_dot(f"BEM, {name_cell(1)}"), wide, THEORY_ON_CELL]
     kinds.append(make_key("Pastewka & Robbins", linestyle="--"))
     plotting.add_legend(ax, *kinds, loc="upper left")
 
@@ -163,7 +163,7 @@ def draw_a_v_of_pressure(ax, sweep, fit, cases):
     plotting.write_ticks(ax.yaxis, [1, 2, 3, 5, 10, 20])
     ax.set_title(state(hurst=hurst))
     theory = make_key(f"theory, {state(magnification=float(sweep.magnification))}")
-    plotting.add_legend(ax, theory, THEORY_ON_WINDOW, loc="upper right")
+    plotting.add_legend(ax, theory, THEORY_ON_CELL, loc="upper right")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 import numpy as np
 import xarray as xr
+from matplotlib.legend_handler import HandlerTuple
 
 from common.adhesion_sets import scaled_law
 from common.conventions import VARIANT
@@ -139,23 +140,30 @@ def draw_lengths(ax, surfaces, a_v):
             ax.plot(lengths, chosen, "x", color=RED, markersize=3.5, zorder=6)
     threshold = 0.5  # of 1/kappa_ad, beyond which the contact is sticky
     ax.axhspan(threshold, 1e3, color=GREY, alpha=0.15, linewidth=0)
-    ax.text(0.03, 0.965, r"sticky: $1/\kappa_\mathrm{ad}$ > 1/2", transform=ax.transAxes, va="top")
+    ax.text(0.03, 0.965, "sticky", transform=ax.transAxes, va="top")
     ax.set(xscale="log", yscale="log", ylim=(1e-7, 1e3))
-    ax.set(xlabel=plotting.ADHESION_LENGTH, ylabel=r"$1/\kappa_\mathrm{ad}$")
+    ax.set_xlabel(plotting.ADHESION_LENGTH)
+    ax.set_ylabel(r"adhesive part of $1/\kappa$, $1/\kappa_\mathrm{ad}$ (sticky above 1/2)")
     ax.set_title(state(pressure=float(surfaces[0].pressure)))
     ranges = plotting.shade(surfaces[0].range_over_h_rms.values)
     families = [make_key(f"{range_:g}", color=colour) for colour, range_ in ranges]
     place = {"loc": "upper left", "bbox_to_anchor": (0, 0.95), "ncols": 2, "alignment": "left"}
     ax.add_artist(ax.legend(handles=families, title=r"$\epsilon/h_\mathrm{rms}$", **place))
-    small = {"markersize": SMALL, "color": BLACK}
-    keys += [
-        make_dot("by fitted slopes", **small),
-        make_dot(r"$p_\mathrm{ad}/2p_\mathrm{rep}$", **small, mfc="white"),
+    # Filled and open symbols of both surfaces.
+    filled, hollow = (
+        tuple(make_dot("", color=BLACK, marker=marker, **look) for marker in MARKERS[:2])
+        for look in ({}, {"markersize": SMALL, "mfc": "white"})
+    )
+    labels = [key.get_label() for key in keys] + ["by fitted slopes"]
+    labels.append(r"$p_\mathrm{ad}/2p_\mathrm{rep}$")
+    lines = [
         make_dot("DMT sum chosen", marker="x", color=RED),
         make_key(f"formula, {state(a_v=A_V_FIG4B)}"),
         make_key("formula, $a_V$ measured", linestyle="--"),
     ]
-    ax.legend(handles=keys, loc="lower right")
+    handles = [*keys, filled, hollow, *lines]
+    labels += [line.get_label() for line in lines]
+    ax.legend(handles, labels, loc="lower right", handler_map={tuple: HandlerTuple(None)})
 
 
 def by_formula(data, lengths, range_, a_v):

@@ -6,6 +6,7 @@ import numpy as np
 
 from common.conventions import LINEAR_UP_TO, LOAD, VARIANT
 from common.job import start
+from figures.theory_curves import name_cell
 from stickiness import datasets
 from stickiness.formatting import interval
 from stickiness.pages import plotting
@@ -43,7 +44,7 @@ def main(job):
         for letter, name in zip("ABC", TITLES, strict=True):
             draw_ratios(panels[letter], name, cases)
         labels = [
-            f"{state(hurst=hurst, magnification=magnification)}, {window:g}×{window:g}"
+            f"{state(hurst=hurst, magnification=magnification)}, {name_cell(window)}"
             for hurst, magnification, window in map(read_surface, cases)
         ]
         panels["A"].set_yticks(range(len(cases)), labels)
@@ -97,7 +98,7 @@ def draw_ratios(ax, name, cases):
 
 
 def draw_theories(ax, cases):
-    """Root mean square of what each theory is off, by quantity, where the windows hold."""
+    """Root mean square of what each theory is off, by quantity, in cells that are large enough."""
     names = [*TITLES, "gap_density"]
     theories = {
         VARIANT: "2018, Yang & Persson",
@@ -120,7 +121,7 @@ def draw_theories(ax, cases):
 
 
 def root_mean_square(name, theory, cases):
-    """In per cent, over every case and load whose window holds."""
+    """In per cent, over every case and load whose cell is large enough."""
     differences = []
     known_to = 0.2  # relative error of P(u) up to which it counts
     largest_gap = 3  # over h_rms, up to which P(u) counts
@@ -179,9 +180,8 @@ def draw_windows(ax, cases):
     ax.set(yscale="log", xlim=(-0.8, 3.2), ylabel=label)
     plotting.write_ticks(ax.yaxis, [0.7, 1, 1.5, 2, 3])
     ax.set_xlabel(r"highest summit less theory's mean gap, over $h_\mathrm{rms}$")
-    several = make_dot("of several", color=BLUE, marker="s")
-    keys = [make_dot("cell of one longest wave", color=RED), several]
-    ax.legend(handles=keys, loc="lower right", handletextpad=0.2)
+    larger = make_dot("larger cells", color=BLUE, marker="s")
+    ax.legend(handles=[make_dot(name_cell(1), color=RED), larger], loc="upper right")
 
 
 def draw_slopes(ax, kappas, lattices):

@@ -1,5 +1,6 @@
 """Figure 9: criteria compared: adhesion that each asks for, and moduli on real surfaces."""
 
+import textwrap
 from dataclasses import dataclass
 
 import numpy as np
@@ -53,7 +54,7 @@ def main(job):
             draw_thresholds(panels[panel], thresholds, limits, parameters, fixed)
         panels["A"].set_xlabel(r"roughness $h_\mathrm{rms}/\epsilon$")
         panels["B"].set_xlabel(r"magnification $\zeta = q_1/q_0$")
-        draw_surfaces(panels["C"], verdicts)
+        draw_surfaces(panels["C"], verdicts, job.params.labels)
 
 
 def draw_thresholds(ax, thresholds, limits, parameters, fixed):
@@ -86,7 +87,7 @@ def look_of(criterion):
     return look | {"linestyle": line.style, "linewidth": line.width}
 
 
-def draw_surfaces(ax, verdicts):
+def draw_surfaces(ax, verdicts, labels):
     """Modulus below which a material sticks, over the one of the verdict, for every surface."""
     # Without surfaces that are not judged.
     by = verdicts.threshold_by_criterion.dropna("surface", how="all")
@@ -107,7 +108,8 @@ def draw_surfaces(ax, verdicts):
         ax.plot(x, middle, color=look["color"], linestyle="none", markersize=4.5, **mark)
         keys.append(make_key(**look, **mark))
     ax.axhline(1, color=RED, linewidth=2)
-    ax.set_xticks(places, [name.replace("_", "\n") for name in by.surface.values])
+    names = [labels[name] for name in by.surface.values]
+    ax.set_xticks(places, [textwrap.fill(n, 12, break_long_words=False) for n in names])
     ax.set(yscale="log", ylim=(1e-5, 3e8), ylabel="threshold of E* over that of the verdict")
     ax.legend(handles=keys, loc="upper left", ncols=2, handlelength=2.6)
 

@@ -39,5 +39,10 @@ def name_case(case):
     """Magnification of a simulated case, and its cell if that holds several longest waves."""
     parameters = datasets.parameters(case)
     window = parameters["window"]
-    side = f", {number(window)}×{number(window)} waves" if window > 1 else ""
+    side = f", {name_cell(window)}" if window > 1 else ""
     return state(magnification=parameters["magnification"]) + side
+
+
+def name_cell(window):
+    """Cell by its sides over the longest wavelength."""
+    return f"cell {number(window)} × {number(window)}"

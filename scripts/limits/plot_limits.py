@@ -9,8 +9,8 @@ from stickiness.pages.plotting import BLUE, GREY, RED
 
 LABELS = {
     "spectrum": "spectrum",
-    "two waves": "of two waves",
-    "one wave": "of one wave",
+    "two waves": "cell 2 × 2",
+    "one wave": "cell 1 × 1",
     "skewness": "with skewness",
     "layer": "layer",
     "film": "layer on a film",

@@ -64,13 +64,15 @@ def main(job):
             draw_column(panels, column, medians, models, job.params)
         kinds = {"plain mean": "--", "with a control variate": "-"}
         keys = [make_key(text, linestyle=line) for text, line in kinds.items()]
+        panels["E"].legend(handles=keys, loc="lower left", bbox_to_anchor=(0, 0.15))
         panels["F"].legend(handles=keys, loc="lower left")
         verdicts = pd.DataFrame(summary.list_verdicts(medians))
         draw_widths(panels["I"], verdicts)
         draw_pairs(panels["J"], verdicts)
         ways = [make_key(way, **pick_look(i)) for i, way in enumerate(verdicts.way.unique())]
-        panels["J"].add_artist(panels["J"].get_legend())  # which a second one would replace
-        panels["J"].legend(handles=ways, loc="lower right", bbox_to_anchor=(1, 0.45))
+        numbers = "verdicts (numbers: points a side; *: on fewer maps)"
+        place = {"loc": "outside lower center", "title": numbers, "ncols": len(ways)}
+        panels["I"].figure.legend(handles=ways, **place)
 
 
 def draw_column(panels, column, medians, models, params):
@@ -82,10 +84,11 @@ def draw_column(panels, column, medians, models, params):
         panels[name].set_title(f"{column.title}: {text}", loc="right")
         chosen = rows[(rows.setting == setting) & (rows.error > smallest)]
         draw_setting(panels[name], chosen, styles, setting)
-    keys = [make_key(column.labels[name], **style) for name, style in styles.items()]
-    panels[column.panels[1]].legend(handles=keys, loc="upper left")
-
     last = panels[column.panels[-1]]
+    keys = [make_key(column.labels[name], **style) for name, style in styles.items()]
+    side = "left" if column.panels[0] == "A" else "right"
+    last.figure.legend(handles=keys, loc=f"outside upper {side}", title=column.title, ncols=3)
+
     last.set_title(f"{column.title}: model, presets", loc="right")
     keys = draw_models(last, rows[rows.setting == "model"], styles)
     problem = Problem(

@@ -466,14 +466,17 @@ def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax)
     dims = ("material", "surface", "end", "criterion")
     coords = {"surface": ["a_line", "wafer"], "criterion": CRITERIA_DRAWN}
     data = xr.Dataset({"threshold_by_criterion": (dims, moduli)}, coords)
-    plot_fig9.draw_surfaces(ax, data)
+    plot_fig9.draw_surfaces(ax, data, {"a_line": "a line of it", "wafer": "ultranano wafer"})
     for index, factor in enumerate(factors[1:4]):
         drawn(ax, np.arange(2) + 0.09 * (index - 1), [factor] * 2)
     bars = [c for c in ax.collections if isinstance(c, LineCollection)]
     assert len(bars) == 3  # Dahlquist's modulus does not depend on the surface
     ends = np.array(bars[0].get_segments())[:, :, 1]
     np.testing.assert_allclose(ends, [[2.5, 40.0]] * 2)
-    assert [text.get_text() for text in ax.get_xticklabels()] == ["a\nline", "wafer"]
+    assert [text.get_text() for text in ax.get_xticklabels()] == [
+        "a line of it",
+        "ultranano\nwafer",
+    ]
 
 
 @pytest.fixture
