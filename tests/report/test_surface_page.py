@@ -325,6 +325,10 @@ def test_curves_pass_through_the_pair_as_it_is(pairs):
             drawn[["low", "value", "high"]], 100 * pair.remaining.values, rtol=1e-9
         )
         assert drawn.x == pytest.approx(actual[name], rel=0.01)
+    # From a decade below the threshold and the material's modulus to a decade above them.
+    reach = surface_figures.find_moduli(pair) / 1e6
+    ends = axes["modulus"].curves[-1].points.x.agg(["min", "max"])
+    np.testing.assert_allclose(ends, [reach.min() / 10, reach.max() * 10], rtol=0.3)
     alone = surface_figures.find_curves(pairs, ["gel"], ["gel"])
     assert alone["modulus"].label == "Young's modulus E [MPa]"
 

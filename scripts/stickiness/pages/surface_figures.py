@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -17,16 +17,16 @@ from stickiness.measured.levelling import detrend
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLACK, COLOURS, GREY, MARKERS
 from stickiness.verdicts.limits import LIMITS
-from stickiness.verdicts.wording import is_judged, name_modulus
+from stickiness.verdicts.wording import LEAST_STRESS, MOST_STRESS, is_judged, name_modulus
 
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
 LEAST_CHANGE = 0.02  # of the rms height that a picture shows
 SHOWN = 3  # materials in print: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
-MATTERS = 0.99, 1e-3  # shares beyond which a curve along the modulus says nothing more
 LEAST_PERCENT = 0.1  # that a logarithmic axis shows
-ROOM = 3.0  # factor on the modulus by which its curve goes on there
+ROOM = 10.0  # factor by which a curve along the modulus goes beyond the threshold and the pair
+PANEL = (plotting.WIDTH / 2, 3.3)  # inches
 LABELS = {
     "modulus": "{symbol} [{unit}]",
     "roughness": "factor on the heights",
@@ -37,14 +37,10 @@ MODULI = {"E": "Young's modulus E", "E*": "plane-strain modulus E*"}
 REMAINS = "remaining share [%]"
 
 
-def draw_surface(surface: xr.Dataset, output: str | Path) -> None:
-    """Write a figure with the heights, if there are any, and the spectrum."""
-    pictured = [name for name in ("heights", "profile") if name in surface]
-    row = "AB" if pictured else "AA"
-    with plotting.open_figure([output], row, 3.3) as panels:
-        if pictured:
-            draw_heights(panels["A"], surface[pictured[0]])
-        draw_spectrum(panels[row[1]], surface)
+def draw_panel(draw: Callable[..., None], *shown: Any, output: str | Path) -> None:
+    """Write one panel, which a page shows beside others or, if it is narrow, below them."""
+    with plotting.open_figure([output], [["panel"]], 3.3, figsize=PANEL) as panels:
+        draw(panels["panel"], *shown)
 
 
 def shows_change(surface: xr.Dataset) -> bool:
@@ -60,20 +56,24 @@ def shows_change(surface: xr.Dataset) -> bool:
     return bool(np.std(difference) > LEAST_CHANGE * np.std(after))
 
 
-def draw_reading(surface: xr.Dataset, output: str | Path) -> None:
-    """Write small pictures of a map as it was read, with what is not used, and as it is used."""
-    with plotting.open_figure([output], "AB", 2.2) as panels:
-        before = surface.heights_as_read.values
-        per_h, unit = unit_for(np.nanmax(np.abs(before)), "m")
-        look = {"origin": "lower", "interpolation": "nearest"}
-        panels["A"].set_facecolor(GREY)  # seen where points are missing
-        image = panels["A"].imshow(before.T * per_h, cmap="cividis", **look)
-        panels["A"].figure.colorbar(image, ax=panels["A"], label=f"height [{unit}]", shrink=0.8)
-        unused = np.ma.masked_equal(surface.unused.values.T, 0)
-        panels["A"].imshow(unused, cmap=ListedColormap([COLOURS[1]]), **look)
-        panels["A"].set(xticks=[], yticks=[])
-        thin = max(1, max(surface.heights.shape) // max(before.shape))
-        draw_heights(panels["B"], surface.heights[::thin, ::thin])
+def draw_as_read(ax: Axes, surface: xr.Dataset) -> None:
+    """Draw a map as it was read, with what is not used."""
+    before = surface.heights_as_read.values
+    per_h, unit = unit_for(np.nanmax(np.abs(before)), "m")
+    look: dict[str, Any] = {"origin": "lower", "interpolation": "nearest"}
+    ax.set_facecolor(GREY)  # seen where points are missing
+    image = ax.imshow(before.T * per_h, cmap="cividis", **look)
+    ax.figure.colorbar(image, ax=ax, label=f"height [{unit}]", shrink=0.8)
+    unused = np.ma.masked_equal(surface.unused.values.T, 0)
+    ax.imshow(unused, cmap=ListedColormap([COLOURS[1]]), **look)
+    ax.set(xticks=[], yticks=[], title="as read")
+
+
+def draw_as_used(ax: Axes, surface: xr.Dataset) -> None:
+    """Draw a map as it is used, about as coarse as it is kept as read."""
+    thin = max(1, max(surface.heights.shape) // max(surface.heights_as_read.shape))
+    draw_heights(ax, surface.heights[::thin, ::thin])
+    ax.set_title("as used")
 
 
 def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
@@ -100,23 +100,24 @@ def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
 
 
 def draw_spectrum(ax: Axes, surface: xr.Dataset) -> None:
-    """Spectrum with errors, fit, the paper's lines and the ends of the instrument's band."""
+    """Spectrum: measured with its errors and fit, or as assumed beside the paper's lines."""
     q = surface.wave_number.values
+    ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
     if "psd_standard_error" in surface:
         draw_measured(ax, surface, q)
     else:
-        plotting.draw_spectrum(ax, surface, COLOURS[0])
-    for c0, label in LINES.items():
-        line = c0 * q ** (-2 * (HURST + 1))
-        ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
-    ax.set(xscale="log", yscale="log", xlabel="wave number $q$ [1/m]", ylabel="$C(q)$ [m$^4$]")
-    room = 1e9 if "psd_measurement" in surface else 1e3  # for the legend
-    ax.set_ylim(bottom=float(surface.psd.isel(end=0).min()) / room)
-    ax.legend(loc="lower left" if surface.hurst > -1 else "center left")  # clear of the points
+        plotting.draw_spectrum(ax, surface, COLOURS[0], "this surface")
+        for c0, label in LINES.items():
+            line = c0 * q ** (-2 * (HURST + 1))
+            ax.plot(q, line, "--", color=GREY, linewidth=0.8, label=label)
+    ax.figure.legend(loc="outside lower center", ncols=2)
 
 
 def draw_measured(ax: Axes, surface: xr.Dataset, q: np.ndarray) -> None:
-    """Rings within the band of the instrument, the fit with its band beyond, and the cutoff."""
+    """Rings within the band of the instrument, the fit with its band beyond, and the cutoff.
+
+    The axis ends below the fit and its band: single points far below would stretch it.
+    """
     beyond = ~plotting.find_rings(surface)
     plotting.draw_assumed(ax, surface, GREY)
     if "psd_measurement" in surface:  # those behind a stitched spectrum
@@ -128,8 +129,9 @@ def draw_measured(ax: Axes, surface: xr.Dataset, q: np.ndarray) -> None:
             ax.plot(q_measured, levels, color=colour, linewidth=0.8, label=text)
     plotting.draw_spectrum(ax, surface, COLOURS[0], "measured")
     fit = surface.psd_fit.where((surface.fitted == 1) | beyond)
+    lowest_fit = min(fit.min(), surface.psd.isel(end=0).where(~np.isnan(fit)).min())
+    ax.set_ylim(bottom=float(lowest_fit) / 10)
     text = f"fit: $H$ = {float(surface.hurst):.2f} ± {float(surface.hurst_total_error):.2f}"
-    text += ", roll-off" if "q_rolloff" in surface else ""
     ax.plot(q, fit, color=BLACK, linewidth=0.9, zorder=5, label=text)
     # The instrument's cutoff and, if found, the end of the plateau.
     text = "cutoff (found)" if int(surface.cutoff_detected) else "cutoff"
@@ -139,7 +141,8 @@ def draw_measured(ax: Axes, surface: xr.Dataset, q: np.ndarray) -> None:
         corner = float(surface.q_rolloff)
         error = float(surface.q_rolloff_total_error)
         lowest = max(corner - error, corner / 3)
-        ax.axvspan(lowest, corner + error, color=COLOURS[2], alpha=0.25, linewidth=0)
+        look: dict[str, Any] = {"color": COLOURS[2], "alpha": 0.25, "linewidth": 0}
+        ax.axvspan(lowest, corner + error, label="roll-off", **look)
 
 
 class Curve(NamedTuple):
@@ -171,9 +174,9 @@ def find_curves(
     judged = {name: cell for name, cell in cells.items() if is_judged(cell)}
     if not judged:
         return {}
-    # Moduli are in the unit of those shown at first, as they were given.
-    first = [judged[name] for name in at_first if name in judged] or list(judged.values())
-    per_pascal, unit = unit_for(max(float(cell.quoted_modulus) for cell in first), "Pa")
+    # Moduli are in the unit in which the threshold of the first material is told.
+    first = next((name for name in at_first if name in judged), next(iter(judged)))
+    per_pascal, unit = unit_for(find_moduli(judged[first])[-1], "Pa")
     symbols = {name_modulus(cell) for cell in judged.values()}
     symbol = MODULI[symbols.pop()] if len(symbols) == 1 else "modulus E or E*, as given"
     axes = {}
@@ -209,10 +212,16 @@ def follow(axis: str, pair: xr.Dataset, per_pascal: float) -> tuple[pd.DataFrame
     own = points.loc[np.argmin(abs(np.log(factor)))]
     kept = points.low.notna()
     if axis == "modulus":
-        telling = (points.low < 100 * MATTERS[0]) & (points.high > 100 * MATTERS[1])
-        reach = [own.x, *points.x[telling]]
-        kept &= points.x.between(min(reach) / ROOM, max(reach) * ROOM)
+        reach = find_moduli(pair) * per_pascal
+        kept &= points.x.between(reach.min() / ROOM, reach.max() * ROOM)
     return points[kept], own
+
+
+def find_moduli(pair: xr.Dataset) -> np.ndarray:
+    """Modulus of the material, then those limits of its threshold that have a meaning [Pa]."""
+    limits = np.sort(pair.modulus_threshold.values)
+    is_told = (limits > LEAST_STRESS) & (limits < MOST_STRESS)
+    return np.append(float(pair.quoted_modulus), limits[is_told])
 
 
 def find_scale(curves: Sequence[Curve]) -> tuple[str, tuple[float, float]]:
@@ -221,24 +230,14 @@ def find_scale(curves: Sequence[Curve]) -> tuple[str, tuple[float, float]]:
     return ("linear", (-2, 102)) if most <= 100 else ("log", (LEAST_PERCENT, 1.5 * most))
 
 
-def draw_still(axes: Mapping[str, Axis], output: str | Path) -> None:
-    """Write the curves of the first materials for print; say so if nothing is judged."""
-    rows = ("A", "AB", "ABC", "AB;CD")[max(len(axes), 1) - 1]
-    height = 2.9 * len(rows.split(";"))
-    with plotting.open_figure([output], rows, height) as panels:
-        if not axes:
-            panels["A"].set_axis_off()
-            panels["A"].text(0.5, 0.5, "not judged", ha="center")
-            return
-        for ax, (label, wanted, curves) in zip(panels.values(), axes.values(), strict=True):
-            for curve in [curve for curve in curves if curve.shown][:SHOWN]:
-                draw_curve(ax, curve)
-            ax.axhline(100 * wanted, color=GREY, linewidth=0.9, linestyle="--")
-            scale, limits = find_scale(curves)
-            ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=label, ylabel=REMAINS)
-        handles, texts = panels["A"].get_legend_handles_labels()
-        look = {"loc": "outside lower center", "ncols": SHOWN, "handlelength": 3}
-        panels["A"].figure.legend(handles, texts, **look)
+def draw_still(ax: Axes, axis: Axis) -> None:
+    """Draw the curves of the first materials along an axis, for print."""
+    for curve in [curve for curve in axis.curves if curve.shown][:SHOWN]:
+        draw_curve(ax, curve)
+    ax.axhline(100 * axis.wanted, color=GREY, linewidth=0.9, linestyle="--")
+    scale, limits = find_scale(axis.curves)
+    ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=axis.label, ylabel=REMAINS)
+    ax.figure.legend(loc="outside lower center", handlelength=3)
 
 
 def draw_curve(ax: Axes, curve: Curve) -> None:

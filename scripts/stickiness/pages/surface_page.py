@@ -64,11 +64,15 @@ def write_surface_page(
     curves: dict[str, Any] = {}
     if followed:
         curves["interactive"] = interactive.embed(interactive.draw_curves(followed))
-        curves["still"] = draw_png(surface_figures.draw_still, followed)
+        curves["still"] = [draw_panel(surface_figures.draw_still, a) for a in followed.values()]
         curves["axes"] = list(followed)
-    reading = None
+    reading = []
     if "heights_as_read" in surface and surface_figures.shows_change(surface):
-        reading = draw_png(surface_figures.draw_reading, surface)
+        ways = (surface_figures.draw_as_read, surface_figures.draw_as_used)
+        reading = [draw_panel(draw, surface) for draw in ways]
+    pictured = [surface[name] for name in ("heights", "profile") if name in surface][:1]
+    panels = [draw_panel(surface_figures.draw_heights, heights) for heights in pictured]
+    panels.append(draw_panel(surface_figures.draw_spectrum, surface))
     contact = None
     if picture is not None:
         suited = [name for name in own if pairs.half_space.sel(material=name)]
@@ -81,7 +85,7 @@ def write_surface_page(
         made=entry,
         sizes=describe_surface(surface),
         covers=COVERS,
-        figure=draw_png(surface_figures.draw_surface, surface),
+        panels=panels,
         reading=reading,
         wanted=float(pairs.wanted_share),
         doubts=list_doubts(rows if not own else [row for row in rows if row["mine"]]),
@@ -141,11 +145,16 @@ def list_doubts(rows: Sequence[Mapping[str, Any]]) -> list[str]:
 
 
 def draw_png(draw: Callable[..., None], *shown: Any) -> dict[str, Any]:
-    """Picture that a function draws into a file, its last argument, as text for a page."""
+    """Picture that a function draws into a file, its `output`, as text for a page."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "picture.png")
-        draw(*shown, file)
+        draw(*shown, output=file)
         return embed_png(file)
+
+
+def draw_panel(*drawn: Any) -> dict[str, Any]:
+    """Picture of one panel; arguments as of `surface_figures.draw_panel`."""
+    return draw_png(surface_figures.draw_panel, *drawn)
 
 
 def describe_contact(picture: Picture, suited: xr.Dataset) -> dict[str, Any] | None:
@@ -168,7 +177,7 @@ def describe_contact(picture: Picture, suited: xr.Dataset) -> dict[str, Any] | N
     outside = [name for name in compared if not overlap(pull_off, name)]
     return {
         "interactive": interactive.embed(interactive.draw_contact(contact, pull_off, texts)),
-        "still": draw_png(contact_figure.draw_still, contact, pull_off),
+        "still": [draw_png(contact_figure.draw_still, contact, pull_off)],
         "data": contact,
         "loads": loads,
         "pulled": pull_off.attrs["material"],
