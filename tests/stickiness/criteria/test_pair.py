@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from stickiness.criteria.pair import MOST_STRAIN, Pair
+from stickiness.criteria import equivalent_sphere
+from stickiness.criteria.pair import MOST_STRAIN, REGIMES, Pair, find_quantities
 from stickiness.remaining.roughness import Roughness
 
 ENERGY = 0.6e-6  # of full contact over E* [m]: with tough contact at adhesion lengths of as much
@@ -13,11 +14,18 @@ def test_a_pair_knows_whether_a_layer_takes_the_heights():
     rough = Roughness(h_rms=1e-6, q0=1e6, elastic_energy=ENERGY, rms_slope=1.0)
     values = {"modulus": 1e6, "work_of_adhesion": 2e6 * ENERGY, "range": 1e-9}
     usual, strained = (
-        Pair(rough=rough, **values, layer_strain=factor * MOST_STRAIN) for factor in (0.99, 1.01)
+        Pair(rough=rough, **values, layer_strain=factor * MOST_STRAIN) for factor in (1, 1.01)
     )
     assert usual.withstands
     assert not strained.withstands
     assert not usual.scaled(1.1).withstands
+
+
+def test_edges_are_tough_from_the_least_strength_on(monkeypatch):
+    rough = Roughness(h_rms=1e-6, q0=1e5, elastic_energy=ENERGY, rms_slope=1.0)
+    pair = Pair(rough=rough, modulus=1e5, work_of_adhesion=0.05, range=1e-9, a_v=4.0)
+    monkeypatch.setattr(equivalent_sphere, "TOUGH", float(pair.edges.strength))
+    assert REGIMES[find_quantities(pair)["regime"]] == "JKR-like"
 
 
 def test_rows_of_a_pair_are_pairs():

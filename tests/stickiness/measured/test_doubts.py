@@ -95,6 +95,13 @@ def test_a_grating_has_a_period_and_random_surfaces_none(wave):
             assert doubts.find_pattern(heights) is None
 
 
+def test_crossed_gratings_have_the_period_of_the_stronger_one():
+    x = 2 * np.pi * np.arange(128) / 128
+    noise = np.random.default_rng(0).normal(scale=0.5, size=(128, 128))
+    crossed = np.sin(20.3 * x[:, None]) + 0.9 * np.sin(31.2 * x) + noise
+    np.testing.assert_allclose(np.abs(doubts.find_pattern(crossed)), (20.3, 0.0), atol=0.1)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("hurst", "blur", "count"),

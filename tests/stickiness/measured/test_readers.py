@@ -3,6 +3,8 @@
 import io
 import struct
 import warnings
+from pathlib import Path
+from types import SimpleNamespace
 
 import h5py
 import numpy as np
@@ -14,6 +16,7 @@ from PIL import Image, TiffImagePlugin
 
 from stickiness import Surface
 from stickiness.measured import topography
+from stickiness.measured.readers import instruments
 
 pytestmark = pytest.mark.processors
 
@@ -100,6 +103,12 @@ def netcdf(path, values, kind="NETCDF4", keep=None):
     path.write_bytes(path.read_bytes()[:keep])
 
 
+def nothing_but_size(path):
+    """A file of more bytes than are read, which takes no room on most disks."""
+    with path.open("wb") as file:
+        file.truncate(9 * 2**27 + 2**20)
+
+
 def component(name, kind, content):
     return name.encode() + b"\0" + kind.encode() + content
 
@@ -177,6 +186,7 @@ READ = {
     "MATLAB 7.3": ("a.mat", lambda p: matlab_7_3(p, X=MESH[0], Y=MESH[1], Z=MAP), PLACED),
     "HDF5": ("a.h5", lambda p: hdf5(p, data=MAP), SIZED),
     "HDF5 with units": ("a.h5", lambda p: hdf5(p, "um", x=X, y=Y, z=MAP), {}),
+    "HDF5 with the size of a pixel": ("a.h5", lambda p: hdf5(p, "um", dx=STEP, z=MAP), {}),
     "npz, the first axis along x": (
         "a.npz",
         lambda p: np.savez(p, x=MESH[0].T, y=MESH[1].T, z=MAP.T),
@@ -271,6 +281,11 @@ READ = {
         "a.txt",
         "Width: 48 um Height: 32 um, 24 x 16 pixels\n" + lines(MAP),
         UNIT,
+    ),
+    "one column below its columns and a resolution": (
+        "a.txt",
+        f"# columns: {NX}\n# {NX} x {NY} pixels\n" + lines(MAP.reshape(-1, 1)),
+        SIZED,
     ),
     "one column below a resolution": (
         "a.txt",
@@ -411,6 +426,12 @@ REFUSED = {
         "found ['a', 'b']; choose one by channel",
     ),
     "uneven positions": ("a.h5", lambda p: hdf5(p, x=X**2, y=Y, z=MAP), UNIT, "'x' is not evenly"),
+    "a missing position": (
+        "a.npz",
+        lambda p: np.savez(p, x=np.where(X == 6, np.nan, X), z=MAP[0]),
+        PLACED,
+        "a position of the profile is missing",
+    ),
     "no matrix": ("a.mat", lambda p: scipy.io.savemat(p, {"a": "text"}), SIZED, "no matrix of"),
     "colours": ("a.tif", lambda p: tiff(p, values=np.zeros((9, 9, 3), "u1")), SIZED, "colours or"),
     "half a simple field": (
@@ -456,6 +477,18 @@ REFUSED = {
         "1.026,00\t1.5\n998,20\t1.6\n",
         SIZED,
         "line 1: '.' separates decimals, but thousands elsewhere",
+    ),
+    "one column and the sides of a strip": (
+        "a.txt",
+        lines(MAP[0, :, None]),
+        UNIT | {"length": ["48 um", "2 um"]},
+        "one length for a line profile",
+    ),
+    "too large": (
+        "a.npy",
+        nothing_but_size,
+        SIZED,
+        "1209 MB are more than the 1208 MB that are read",
     ),
     "one number": ("a.txt", "5", SIZED, "one number is no map and no profile"),
     "half a grid": ("a.grd", "DSAA\n24 16\n0 1\n0 1\n0 1\n1 2 3\n", PLACED, "has 3 heights, but"),
@@ -547,6 +580,30 @@ def test_an_uneven_line_of_contact_engineering(tmp_path):
     found = topography.read(tmp_path / "a.nc")
     np.testing.assert_allclose(found.heights, 1e-6 * MAP[0], rtol=1e-12)
     assert found.dx == pytest.approx(STEP * 1e-6)
+
+
+def test_heights_are_found_beside_a_first_channel_without_them():
+    phase, height = (
+        SimpleNamespace(
+            name=name,
+            channel_id=name,
+            index=index,
+            unit="um",
+            is_height_channel=True,
+            is_uniform=True,
+            nb_grid_pts=(NX, NY),
+            physical_sizes=(NX * STEP, NY * STEP),
+        )
+        for index, name in enumerate(["Phase", "Height"])
+    )
+    maps = [surface_topography().Topography(z.T, (48, 32), unit="um") for z in (0 * MAP, MAP)]
+    reader = SimpleNamespace(
+        channels=[phase, height],
+        default_channel=phase,
+        topography=lambda channel_index: maps[channel_index],
+    )
+    found = instruments.read_channel(Path("a.spm"), reader)
+    np.testing.assert_array_equal(found.heights, MAP.T)
 
 
 def test_periodic_heights_are_analysed_as_such_unless_told_otherwise(tmp_path):

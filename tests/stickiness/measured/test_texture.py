@@ -65,6 +65,7 @@ def test_energy_of_a_surface_lies_between_the_ends_of_its_drawing(hurst, rolloff
     [
         (0.05e-6, 0, 0.25e-3),
         (0.8e-6, 0, 0.8e-3),
+        (2e-6, 0, 0.8e-3),  # the end of a row belongs to it
         (0.8e-6, 1e-3, 2.5e-3),
         (99e-6, 0, 8e-3),
         # 2 % within and beyond the end of every row

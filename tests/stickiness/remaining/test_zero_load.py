@@ -50,6 +50,22 @@ def test_a_descent_that_stopped_deepest_leaves_the_share_open(
     assert remaining == pytest.approx(share, nan_ok=True)
 
 
+def test_the_longest_waves_tell_whether_a_layer_is_stiff(monkeypatch, state):
+    starts = []
+
+    def descend(*_, start, **__):
+        starts.append(start)
+        return state
+
+    monkeypatch.setattr(adhesive, "solve", descend)
+    layer = Layer(4.0, 0.5)  # that the longest waves of a square cell would not feel
+    for sides, is_stiff in (((1, 1), False), ((4, 1), True), ((1, 4), True)):
+        starts.clear()
+        heights = np.tile(WAVE[:, None] * WAVE, sides)
+        zero_load.share_at_zero_load(heights, LENGTH * np.array(sides), LAW, solid=layer)
+        assert (len(starts) > 4) == is_stiff  # contact is made at longer ranges, too
+
+
 def test_contact_on_a_thin_layer_is_made_at_longer_ranges():
     """States that were simulated for other works of adhesion bound the share from below."""
     rough = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)

@@ -68,6 +68,7 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     contents = ball.to_dict()
     assert contents["pull_off_force"]["value"] == ball.force
     assert contents["radius"] == {"value": LARGE, "unit": "m"}
+    assert contents["longest_waves_across_contact"] == {"value": ball.waves, "unit": "1"}
 
 
 # A hard ball: lengths in units of the zone of a smooth one, sqrt(2 R range).
@@ -130,6 +131,15 @@ def test_shells_are_left_out_one_by_one():
     shells = Surface.from_spectrum(Shells([1e5, 2e5, 4e5], [4e-12, 1e-12, 1e-13]))
     assert shells.shorter(1.5e5).rms_height == pytest.approx(np.sqrt(1.1e-12))
     assert shells.shorter(1e6).rms_height < 1e-3 * shells.rms_height
+
+
+def test_a_second_solid_with_nothing_but_low_short_waves_changes_nothing():
+    rough = on_zone(0.25, 1.0)
+    fine = SelfAffine(hurst=0.8, q0=10 * rough.q0, q1=rough.q1, h_rms=1e-4 * rough.h_rms)
+    alone = pull_off_of_ball(Surface.from_spectrum(rough), hard("exponential"), TIP)
+    second = hard("exponential").replace(surface=Surface.from_spectrum(fine))
+    pair = pull_off_of_ball(Surface.from_spectrum(rough), second, TIP)
+    assert pair.force == pytest.approx(alone.force, rel=1e-3)
 
 
 def test_a_second_rough_solid_counts_as_the_first():

@@ -126,6 +126,14 @@ def test_profiles_of_a_worn_surface_tell_what_remains_on_it():
         assert find_shares(profile, shape=0.0, shape_error=0.0)[1] < share
 
 
+def test_a_continued_spectrum_has_the_end_of_the_measured_one_once():
+    """The last ring of 52 x 52 points lies within 1 % of that end."""
+    rough = SelfAffine(hurst=0.8, q0=6e5, q1=3.6e6, h_rms=1e-7)
+    heights = synthesise(rough, n=52, length=4 * SIDE, seed=1)
+    extended = Surface.from_heights(heights, 4 * SIDE, extend_to=SIDE / 100)
+    assert np.diff(np.log(extended.data.wave_number)).min() > 0.05
+
+
 def test_nothing_is_said_of_a_pair_that_is_not_judged():
     noise = 1e-9 * np.random.default_rng(1).normal(size=(128, 128))
     with warnings.catch_warnings():
