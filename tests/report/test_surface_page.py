@@ -291,6 +291,13 @@ def test_the_page_has_pictures_of_a_map_as_read_where_it_is_used_otherwise(page,
     assert 'id="reading"' not in write_page(line, folder).html
 
 
+def test_a_tilt_is_no_other_picture():
+    s = SelfAffine(hurst=0.8, q0=2 * np.pi, q1=128 * np.pi, h_rms=1e-3)
+    heights = surface.synthesise(s, n=256, length=1.0, seed=4) + np.linspace(0, 0.1, 256)
+    wall = Surface.from_heights(1e-3 * heights, length=1e-3)
+    assert not surface_figures.shows_change(wall.data)
+
+
 def test_heights_as_read_are_kept_with_what_is_not_used():
     s = SelfAffine(hurst=0.8, q0=1.0, q1=25.0, h_rms=1.0)
     heights = surface.synthesise(s, n=200, length=2 * np.pi, seed=4)[:180, :150]

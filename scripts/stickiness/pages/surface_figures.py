@@ -48,7 +48,7 @@ def shows_change(surface: xr.Dataset) -> bool:
     before = surface.heights_as_read.values
     if surface.unused.any() or not np.isfinite(before).all():
         return True
-    thin = max(1, max(surface.heights.shape) // max(before.shape))
+    thin = -(-max(surface.heights.shape) // max(before.shape))
     after = surface.heights.values[::thin, ::thin]
     if after.shape != before.shape:
         return True
