@@ -30,7 +30,7 @@ test: $(VENV)/.dev $(VENV)/.docs $(VENV)/.peers  ## all tests
 test-quick: $(VENV)/.dev  ## two to three minutes: no workflow, no other codes, none that is slow
 	$(PYTEST) -m "not slow and not workflow and not peers"
 
-test-processors: $(VENV)/.dev  ## tests of what rounding may move, with the arithmetic of other processors
+test-processors: $(VENV)/.dev $(VENV)/.peers  ## tests of what rounding may move, with the arithmetic of other processors
 	$(BIN)/python tests/helpers/run_processors.py -n $(CORES) --dist worksteal
 
 test-wheel: $(VENV)/.run  ## the package as it is installed, in an environment of its own

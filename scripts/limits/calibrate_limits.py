@@ -40,6 +40,7 @@ HARD = 1.0  # Tabor's parameter, from which on solids are soft
 LEAST_LOST = 1e-3  # ln of what roughness takes from the force, of weights
 BALL_RANGE = 3e-10  # m
 BALL_WORK = 0.05  # J/m^2
+MOST_OF_PIXEL = 3.0  # forces of one pixel, below which a sum over rigid solids is not resolved
 NEARLY_LEAST = 1.05  # of errors: factor within which they are taken as equal
 ROUNDING = 1e-4  # of shares: tolerance of simulations, rounding of tables
 SOURCES = {
@@ -451,12 +452,19 @@ def compare_balls(balls):
     They go with the root of ln of the factor that roughness takes from the force. The number is
     that with which hard solids have the least error.
     """
+    balls = balls[find_resolved(balls)]
     hard = find_hard(balls)
     fitted = hard[hard.role == "fitted"]
     slopes = np.array([find_ball_errors(fitted, each).slope.iloc[0] for each in SUMMITS])
     good = np.array(SUMMITS)[slopes <= NEARLY_LEAST * slopes.min()]
     best = SUMMITS[slopes.argmin()]
     return (best, good.min(), good.max()), find_ball_errors(balls, best)
+
+
+def find_resolved(balls):
+    """Whether more than a single pixel of a rigid solid holds; one has the strength of the law."""
+    of_pixel = (balls.side / balls.points) ** 2 / np.pi
+    return (balls.tabor > 0) | (balls.simulated > MOST_OF_PIXEL * of_pixel)
 
 
 def find_hard(balls):

@@ -35,10 +35,11 @@ MOST_STRESS = 1e13
 LEAST_SHOWN = 1e-3  #: share of the work of adhesion below which texts say 0 %
 #: What widens limits most, where contact was simulated on a map, and elsewhere
 _WIDEST_ON_MAP = {
-    "spectrum": "The limits are wide mostly because the instrument does not resolve the shortest "
-    "wavelengths: a finer measurement would narrow them.",
-    "map": "The limits are wide mostly because the map holds few of its longest wavelengths: a map "
-    "of {twice} would narrow them.",
+    "spectrum": "The limits are wide mostly because of short wavelengths that the simulation "
+    "lacks, since the instrument or its grid does not resolve them: a finer map of a smaller part "
+    "would narrow them.",
+    "map": "The limits are wide mostly because other places may differ, as the quarters of the map "
+    "do: a larger map would narrow them if the simulation resolved it as well.",
     "model": "The limits are wide mostly because the simulation cannot resolve the range of the "
     "attraction: a better measurement would hardly narrow them.",
 }
@@ -221,8 +222,7 @@ def tell_widest(cell: xr.Dataset) -> str:
     errors = {name: float(cell[f"error_of_{name}"]) for name in ("spectrum", "map", "model")}
     widest = max(errors, key=lambda name: errors[name])
     if errors["map"] > 0:
-        twice = amount(2 * float(cell.scan), "m", 2)
-        return _WIDEST_ON_MAP[widest].format(twice=twice)
+        return _WIDEST_ON_MAP[widest]
     return _WIDEST["spectrum" if widest == "spectrum" else "theory"]
 
 

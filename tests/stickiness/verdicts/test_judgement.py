@@ -96,8 +96,8 @@ def test_steel_does_not_stick(h_rms):
 @pytest.mark.parametrize(
     ("known", "widest", "remedy"),
     [
-        ({}, "spectrum", "a finer measurement"),
-        ({"extend_to": 0.25e-6}, "map", "a map of 8 µm"),  # there are no shorter waves
+        ({}, "spectrum", "a finer map"),
+        ({"extend_to": 0.25e-6}, "map", "a larger map"),  # there are no shorter waves
     ],
 )
 def test_errors_of_a_map_add_up_and_the_widest_is_named(known, widest, remedy):
