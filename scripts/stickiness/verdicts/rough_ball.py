@@ -67,8 +67,8 @@ class BallPullOff:
         text = f"{name}: {force}; a smooth one {amount(self.smooth_force, 'N', 2)}"
         if self.few_waves:
             text += (
-                f"\nthe contact of the ball is {self.waves:.2g} longest waves wide: longer waves "
-                "do not count, and the limits contain how forces scatter from place to place"
+                f"\nthe contact of the ball is {self.waves:.2g} of the longest wavelengths wide: "
+                "the force varies from place to place, which the limits include"
             )
         return text
 
