@@ -88,7 +88,7 @@ def test_iterations_of_both_descents_count(monkeypatch):
         # 206 to 208; 248 if soft directions leave out the repulsion
         (adhesive.LennardJones(adhesion_length=0.1, range=0.1), {"mean_gap": 1.5}, 225),
         # 41.2; 47.8 without the parabola of shorter steps, 3171 if cut steps keep the mean gap
-        (adhesive.Exponential(adhesion_length=0.1, range=0.3), {"pressure": 0.0}, 44),
+        (adhesive.Exponential(adhesion_length=0.1, range=0.3), {"pressure": 0.0}, 45),
     ],
 )
 def test_descents_are_quick(law, control, most):
