@@ -7,7 +7,7 @@ leave, so that both are found together.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -177,30 +177,34 @@ class _Contact:
 
     def press(self, waves: ArrayLike, deviation: ArrayLike) -> sphere.SpherePullOff:
         """Pull-off in every row, where so many of the longest waves lie across the zone."""
-        pair = self.pair
         return sphere.pull_off(
-            sphere.narrow(pair.rough, waves, self.summits),
-            self.radius,
-            pair.adhesion_length,
-            pair.range,
-            deviation,
-            self.curvature,
-            self.error,
+            rough=sphere.narrow(self.pair.rough, waves, self.summits),
+            radius=self.radius,
+            adhesion_length=self.pair.adhesion_length,
+            range=self.pair.range,
+            deviation=deviation,
+            curvature=self.curvature,
+            error=self.error,
         )
+
+    @cached_property
+    def with_one_wave(self) -> sphere.SpherePullOff:
+        """Pull-off in every row where the longest wave is as long as the zone is wide."""
+        return self.press(waves=1.0, deviation=0.0)
 
     @cached_property
     def zone(self) -> float:
         """Width of the zone of contact at pull-off [m]."""
-        zones = self.press(1.0, 0.0).zone_radius
-        return 2 * float(self.rough.limit(zones, self.pair)[VALUE])
+        radii = self.with_one_wave.zone_radius
+        return 2 * float(self.rough.limit(radii, self.pair)[VALUE])
 
     @cached_property
     def force(self) -> tuple[float, ...]:
         """Low limit, value and high limit of the pull-off force [N]."""
         # The value is that without errors of the model.
         waves = self.zone * self.pair.q0 / (2 * np.pi)
-        low, _, high = self._limit(self.press(waves, self.pair.deviation).force)
-        value = self._limit(self.press(waves, 0.0).force)[VALUE]
+        low, _, high = self._limit(self.press(waves, deviation=self.pair.deviation).force)
+        value = self._limit(self.press(waves, deviation=0.0).force)[VALUE]
         return low, value, high
 
     def _limit(self, forces: ArrayLike) -> tuple[float, ...]:
@@ -211,7 +215,7 @@ class _Contact:
     @property
     def smooth_force(self) -> float:
         """Pull-off force of a smooth ball [N]."""
-        return float(self.pair.modulus * np.max(self.press(1.0, 0.0).smooth_force))
+        return float(self.pair.modulus * np.max(self.with_one_wave.smooth_force))
 
     @property
     def doubt(self) -> str:
@@ -240,10 +244,11 @@ def _find_contact(whole: _Contact) -> _Contact:
     if whole.zone >= 2 * np.pi / lowest:
         return whole
 
-    def compare_zone(logarithm: float) -> float:
-        """Logarithm of the zone over the longest wave that the ball meets, by that of its q."""
-        zone = whole.shorter(np.exp(logarithm)).zone
-        return float(np.log(zone / (2 * np.pi))) + logarithm
+    @cache
+    def compare_zone(log_q: float) -> float:
+        """Logarithm of the zone over the longest wave, where the ball meets waves from q on."""
+        zone = whole.shorter(np.exp(log_q)).zone
+        return float(np.log(zone / (2 * np.pi))) + log_q
 
     longest, shortest = float(np.log(lowest)), float(np.log(highest))
     if compare_zone(longest) >= 0:
