@@ -131,12 +131,11 @@ def compare_ranges(ranges):
     )
     is_short = rows.range_ratio < calibrate.MOST_RATIO
     for name, chosen in (("shorter", is_short), ("hardly shorter", ~is_short)):
-        part = Limited(*(each[chosen].to_numpy() for each in predicted))
         yield Compared(
-            f"range {name} than that of the states",
-            "simulated states",
-            part,
-            rows.simulated[chosen].to_numpy(),
+            name=f"range {name} than that of the states",
+            by="simulated states",
+            predicted=Limited(*(limits[chosen].to_numpy() for limits in predicted)),
+            simulated=rows.simulated[chosen].to_numpy(),
         )
 
 
@@ -147,8 +146,8 @@ def compare_patches(patches):
     error = np.hypot(
         find_spread("patch", "least").high, find_spread("patch", "ln_work").high * distance
     )
-    value = rows.threshold_10.to_numpy()
-    predicted = Limited(value, value - error, value + error)
+    threshold = rows.threshold_10.to_numpy()
+    predicted = Limited(value=threshold, low=threshold - error, high=threshold + error)
     return Compared(
         "patch for its surface", "simulated states", predicted, rows.whole_threshold_10.to_numpy()
     )
@@ -173,16 +172,19 @@ def compare_larger(larger):
     rows = larger.dropna(subset=["value_10", "whole_threshold_10"])
     unlike = find_unlikeness(rows.unevenness, rows["shape"])
     error = find_larger_error(unlike, rows.parts)
-    value = rows.value_10
+    threshold = rows.value_10
     predicted = Limited(
-        value=value,
-        low=value - np.hypot(value - rows.low_10, error),
-        high=value + np.hypot(rows.high_10 - value, error),
+        value=threshold,
+        low=threshold - np.hypot(threshold - rows.low_10, error),
+        high=threshold + np.hypot(rows.high_10 - threshold, error),
     )
     for family, chosen in rows.groupby("family").groups.items():
-        part = Limited(*(each[chosen].to_numpy() for each in predicted))
-        name = f"scan for a larger contact, {family.replace('_', ' ')}"
-        yield Compared(name, "scan", part, rows.whole_threshold_10[chosen].to_numpy())
+        yield Compared(
+            name=f"scan for a larger contact, {family.replace('_', ' ')}",
+            by="scan",
+            predicted=Limited(*(limits[chosen].to_numpy() for limits in predicted)),
+            simulated=rows.whole_threshold_10[chosen].to_numpy(),
+        )
 
 
 def compare_paths(remaining):

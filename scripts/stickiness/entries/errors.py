@@ -84,9 +84,9 @@ def first_error(error: pydantic.ValidationError, content: Mapping[str, Any]) -> 
 def _ask_for_number(text: str) -> str:
     """Ask for the number that is meant by a text in place of one."""
     is_share = text.rstrip().endswith("%")
-    meant = text.rstrip(" %").replace(",", ".")
+    digits = text.rstrip(" %").replace(",", ".")
     try:
-        number = float(meant) / (100 if is_share else 1)
+        number = float(digits) / (100 if is_share else 1)
     except ValueError:
         number = math.nan
     if not math.isfinite(number):

@@ -289,8 +289,8 @@ def _find_errors_of_map(pair: Pair) -> NDArray:
         simulated.find_shift(length, np.array([pair.range]), pair.rough.law, lacking, deviation)
         for deviation in (-np.ones(1), np.ones(1))
     )
-    both = (high - low).item() / 2
-    return np.array([of_map, np.sqrt(max(both**2 - of_map**2, 0.0))])
+    half_width = (high - low).item() / 2
+    return np.array([of_map, np.sqrt(max(half_width**2 - of_map**2, 0.0))])
 
 
 def _find_decider(rough: PairRoughness, pair: Pair) -> int:

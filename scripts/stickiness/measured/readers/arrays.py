@@ -59,19 +59,19 @@ def read_netcdf(path: Path, variable: str | None) -> Raw:
     if variable in (None, "heights") and _is_of_contact_engineering(dataset):
         return replace(read_channel(path, open_reader(path, "nc")), source=f"{path}: heights")
     name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
-    data = dataset[name].astype(float)
-    if data.ndim == 2:
-        first, second = (str(dim).lower() for dim in data.dims)
+    heights = dataset[name].astype(float)
+    if heights.ndim == 2:
+        first, second = (str(dim).lower() for dim in heights.dims)
         first_is_x = first in ("x", "lon", "longitude", "easting")
         second_is_y = second in ("y", "lat", "latitude", "northing")
         if not (first_is_x or second_is_y):
-            data = data.transpose()
+            heights = heights.transpose()
     places = None
     place_unit = None
-    coordinates = [dataset[dim] for dim in data.dims]
+    coordinates = [dataset[dim] for dim in heights.dims]
     units = [unit for each in coordinates if (unit := _find_unit(each.attrs)) is not None]
     if len(units) == len(coordinates):
-        if data.ndim == 1:
+        if heights.ndim == 1:
             places = coordinates[0].values.astype(float)
             place_unit = units[0]
         elif all(map(is_length, units)):  # not degrees or pixels: the caller must say
@@ -83,9 +83,9 @@ def read_netcdf(path: Path, variable: str | None) -> Raw:
             )
             place_unit = "m"
     return Raw(
-        heights=np.array(data.values),
+        heights=np.array(heights.values),
         source=f"{path}: {name}",
-        unit=_find_unit(data.attrs),
+        unit=_find_unit(heights.attrs),
         others=others,
         places=places,
         place_unit=place_unit,
@@ -96,8 +96,8 @@ def _is_of_contact_engineering(dataset) -> bool:
     """Whether a dataset is a topography as SurfaceTopography and contact.engineering write it."""
     if "heights" not in dataset.variables:
         return False
-    told = dataset["x"].attrs if "x" in dataset.variables else {}
-    return "length" in told or "periodic" in told or dataset["heights"].dims == ("n",)
+    attributes = dataset["x"].attrs if "x" in dataset.variables else {}
+    return "length" in attributes or "periodic" in attributes or dataset["heights"].dims == ("n",)
 
 
 def _find_unit(attributes: Mapping) -> str | None:
@@ -118,8 +118,8 @@ def _choose(
     usable = [name for name in candidates if arrays[name].ndim in (1, 2)]
     if not usable:
         shapes = {name: " x ".join(map(str, arrays[name].shape)) for name in candidates}
-        told = ", ".join(f"{name!r} of {shape} points" for name, shape in shapes.items())
-        raise ValueError(f"no map or profile, but {told or 'nothing'}; save one map")
+        contents = ", ".join(f"{name!r} of {shape} points" for name, shape in shapes.items())
+        raise ValueError(f"no map or profile, but {contents or 'nothing'}; save one map")
     usable = [
         name for name in usable if not NO_HEIGHTS.search(name) or HEIGHTS.search(name)
     ] or usable
@@ -244,25 +244,25 @@ def read_arrays(
 
 def _read_alone(raw: Raw) -> Raw:
     """Read an array without positions beside it, only steps: its columns are as those of a text."""
-    found = read_columns(np.atleast_2d(raw.heights))
-    places = raw.places if found.places is None else found.places
+    table = read_columns(np.atleast_2d(raw.heights))
+    places = raw.places if table.places is None else table.places
     if raw.places is not None and raw.heights.ndim == 1:
         places = raw.places[0] * np.arange(len(raw.heights))
-    remarks = tuple(f"{raw.source}: {text}" for text in found.remarks)
-    return replace(raw, heights=found.heights, places=places, remarks=remarks)
+    remarks = tuple(f"{raw.source}: {text}" for text in table.remarks)
+    return replace(raw, heights=table.heights, places=places, remarks=remarks)
 
 
 def _find_steps(
     arrays: Mapping[str, NDArray], units: Mapping[str, str]
 ) -> tuple[NDArray | None, str | None]:
     """Steps along x and y that numbers beside a matrix tell, and their unit."""
-    found = {
+    step_by_axis = {
         match[1]: (float(array.flat[0]), units.get(name))
         for name, array in arrays.items()
         if array.size == 1 and array.dtype.kind in "iuf" and (match := _STEP.match(name.lower()))
     }
-    x = found.get("x", found.get(""))
-    y = found.get("y", x)
+    x = step_by_axis.get("x", step_by_axis.get(""))
+    y = step_by_axis.get("y", x)
     if x is None or y is None or not (0 < x[0] < np.inf and 0 < y[0] < np.inf):
         return None, None
     return np.array([x[0], y[0]]), x[1] if x[1] == y[1] else None

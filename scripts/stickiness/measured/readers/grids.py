@@ -166,7 +166,9 @@ def read_tiff(path: Path) -> Raw:
     import tifffile  # SurfaceTopography needs it, too
     from PIL import Image  # so does matplotlib
 
-    pages, mode, tags = 1, "", {}
+    pages = 1
+    mode = ""
+    tags: dict[int, Any] = {}
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -174,24 +176,24 @@ def read_tiff(path: Path) -> Raw:
                 pages = getattr(image, "n_frames", 1)
                 mode = image.mode
                 tags = dict(getattr(image, "tag_v2", {}))
-                values = np.array(image)
+                pixels = np.array(image)
     except Exception as error:  # of broken files, nearly anything
         try:  # which reads all kinds of numbers, but not all compressed
-            values = tifffile.imread(path)
+            pixels = tifffile.imread(path)
         except Exception:
             raise ValueError(
                 f"not a readable TIFF ({error}); save it uncompressed, in 32-bit floats, or "
                 f"{EXPORT}"
             ) from error
-    if pages > 1 or values.ndim > 2 and values.shape[-1] > 4:
+    if pages > 1 or pixels.ndim > 2 and pixels.shape[-1] > 4:
         raise ValueError("the TIFF has several pages; save that of the heights alone")
-    if values.ndim != 2 or values.dtype.itemsize < 2:
+    if pixels.ndim != 2 or pixels.dtype.itemsize < 2:
         raise ValueError(
             f"the TIFF holds colours or grey levels ({mode}), no heights: save it in 32-bit "
             f"floats, or {EXPORT}"
         )
     places, unit = _find_resolution(tags)
-    return Raw(values.T.astype(float), str(path), None, (), places, unit)
+    return Raw(pixels.T.astype(float), str(path), None, (), places, unit)
 
 
 def _find_resolution(tags: dict[int, Any]) -> tuple[NDArray | None, str | None]:
