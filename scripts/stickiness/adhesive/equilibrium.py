@@ -139,9 +139,24 @@ def _relax_frozen(problem, gap, tol, max_iterations, observe):
 
 
 def _surely_stable(problem, state):
-    """Whether the law softens less than elasticity holds the longest wave, at a given mean gap."""
-    softest = min(problem.smoother.shift, np.pi / max(problem.sides))
-    return problem.mean_gap is not None and float(-state.slope.min()) < softest
+    """Whether elasticity surely holds open points more than the law softens, at a mean gap.
+
+    In any mode, the work of softening over that of elasticity is at most the largest displacement
+    under a pressure that equals the softening (Schur's test). The preconditioner gives it, but for
+    its shift, which stiffens long waves.
+    """
+    if problem.mean_gap is None:
+        return False
+    smoother = problem.smoother
+    softest = min(smoother.shift, np.pi / max(problem.sides))
+    give = smoother.apply(_softening(problem, state).astype(np.float32))
+    return float(give.max()) * (1 + smoother.shift / softest) < 1
+
+
+def _softening(problem, state):
+    """How fast the traction falls where open points part."""
+    softening = np.maximum(-state.slope, 0)
+    return np.where(state.gap > 0, softening, 0) if problem.wall else softening
 
 
 def _unstable_mode(problem, state):
@@ -151,7 +166,7 @@ def _unstable_mode(problem, state):
     open points is positive, and a positive right-hand side has a share of it.
     """
     open_points = state.gap > 0 if problem.wall else np.ones(state.gap.shape, bool)
-    softening = np.where(open_points, np.maximum(-state.slope, 0), 0)
+    softening = _softening(problem, state)
     if not softening.any():
         return None
     # A prescribed mean gap leaves a uniform load no work to do: it is varied by long waves.

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stickiness import adhesive, repulsive, spectrum, surface
+from stickiness import adhesive, repulsive, solids, spectrum, surface
 from stickiness.adhesive import equilibrium
 from stickiness.adhesive.descent import descend
 from stickiness.adhesive.preconditioner import LONGEST, Smoother
@@ -30,6 +30,38 @@ def test_the_preconditioner_nearly_inverts_the_stiffness(shape):
     )
     checks = np.indices(shape).sum(0).astype(np.float32) % 2 - np.float32(0.5)
     assert np.vdot(checks, smoother.apply(checks)) > 0
+
+
+@pytest.mark.parametrize("shape", [(12, 12), (24, 6), (6, 24), (9, 12)])
+@pytest.mark.parametrize("solid", [HALF_SPACE, solids.Layer(thickness=0.1, poisson=0.45)])
+def test_what_counts_as_surely_stable_is_stable(shape, solid):
+    """Against the eigenvalues of the energy's curvature, from weak adhesion to strong."""
+    random = np.random.default_rng(4)
+    sides = (1.0, shape[1] / shape[0])
+    judged = []
+    for strength in np.geomspace(0.1, 300, 150):
+        law = adhesive.Exponential(adhesion_length=strength, range=1.0)
+        problem = Problem(np.zeros(shape), sides, law, 1.0, solid=solid, mean_gap=1.0)
+        # Half of the cell, along its longer side, is near; or a random part touches.
+        gap = np.maximum(random.normal(0.5, 1.0, shape), 0.0)
+        if random.random() < 0.5:
+            place = np.indices(shape)[np.argmax(shape)]
+            gap = np.where(place < max(shape) / 2, 0.1, 4.0)
+        state = problem.state(gap)
+        # Curvature of the energy for changes of open gaps that keep their mean.
+        points = np.eye(state.gap.size).reshape(-1, *shape)
+        curvature = np.array([problem.exact.stiffness(point).ravel() for point in points])
+        curvature += np.diag(state.slope.ravel())
+        is_open = state.gap.ravel() > 0
+        change = np.eye(is_open.sum()) - 1 / is_open.sum()
+        modes = np.linalg.eigvalsh(change @ curvature[np.ix_(is_open, is_open)] @ change)
+        stable = modes[0] > -1e-12
+        surely = equilibrium._surely_stable(problem, state)
+        assert stable or not surely
+        judged.append((surely, stable))
+    # At least a third of the stable states are known to be.
+    assert sum(stable for _, stable in judged) <= 3 * sum(surely for surely, _ in judged)
+    assert not all(stable for _, stable in judged)
 
 
 @pytest.mark.parametrize("control", [{"pressure": 0.1}, {"mean_gap": 2.0}])
