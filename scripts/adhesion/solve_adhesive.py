@@ -6,7 +6,6 @@ on all of them, but for what the grid does not resolve, attraction so strong tha
 altogether, and where the DMT sum is good enough. Long ranges may do with grids half as fine.
 """
 
-import itertools
 import logging
 from functools import partial
 
@@ -14,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from common import adhesion_sets, conventions
-from common.adhesion_sets import AXES, LOOSEST, STATE, axes, scaled_law
+from common.adhesion_sets import AXES, LOOSEST, STATE, axes, scaled_law, solve_at_gap
 from common.job import start
 from common.model_surfaces import each_seed, pixels, read_first
 from stickiness import datasets, dmt
@@ -62,7 +61,7 @@ def main(job):
             here = coarser == factor
             subset = adhesion | {"range_over_h_rms": ranges[here]}
             grids = [fine[:: factor * step, :: factor * step] for step in steps]
-            solved = [states(grid, length, subset, chosen[:, :, here]) for grid in grids]
+            solved = states(grids, length, subset, chosen[:, :, here])
             parts.append(xr.concat(solved, resolution, coords="minimal"))
         return xr.concat(parts, AXES[2], data_vars="all") if len(parts) > 1 else parts[0]
 
@@ -99,40 +98,77 @@ def combinations(adhesion, pixel, full):
     return full & ~missing
 
 
-def states(heights, length, adhesion, chosen, loosest=LOOSEST):
-    """Solve the adhesive states on one grid, NaN where none is chosen, and take the DMT sum."""
-    pressures, lengths, ranges = axes(adhesion)
+def states(grids, length, adhesion, chosen, loosest=LOOSEST):
+    """Solve the adhesive states on grids from coarse to fine, NaN where none is chosen.
+
+    Returns a dataset for each grid, which also holds the DMT sum.
+    """
+    pressures = axes(adhesion)[0]
+    tolerance = min(adhesion_sets.TIGHTEST, loosest)
+    paths = [solver.load_path(grid, length, pressures.values, tol=tolerance) for grid in grids]
+    by_load = []
+    for contacts, chosen_here in zip(zip(*paths, strict=True), chosen, strict=True):
+        solved = []
+        closing = {}
+        for heights, contact in zip(grids, contacts, strict=True):
+            of_load, closing = states_at_load(
+                heights, length, adhesion, contact, chosen_here, loosest, closing
+            )
+            solved.append(of_load)
+        by_load.append(solved)
+    return [xr.concat(loads, pressures) for loads in zip(*by_load, strict=True)]
+
+
+def states_at_load(heights, length, adhesion, contact, chosen, loosest, coarser):
+    """Solve the states at the mean gap of one contact without adhesion.
+
+    Returns a dataset, and for each point that is solved the change of the gap by adhesion. That of
+    a grid half as fine, `coarser`, is where strong adhesion starts.
+    """
+    _, lengths, ranges = axes(adhesion)
+    units = [scaled_law(adhesion, adhesion["law"], 1.0, range_) for range_ in ranges.values]
+    sums = [dmt.adhesive_pressure(contact.gap, law) for law in units]
+    attraction = np.outer(lengths, sums)  # in proportion to the length
+    solvable = chosen & (attraction <= adhesion_sets.STRONGEST * contact.mean_pressure)
+    strong = attraction > adhesion_sets.NEARLY_LINEAR * contact.mean_pressure
     flattening = half_space.measure_slope(heights, (length, length)) / 2
-    values = {name: np.full(chosen.shape, np.nan) for name in STATE | DMT}
-    alone = []
     tightest = min(adhesion_sets.TIGHTEST, loosest)
-    path = solver.load_path(heights, length, pressures.values, tol=tightest)
-    for i, contact in enumerate(path):
-        alone.append((contact.area_fraction, contact.mean_gap, subpixel.edge_gap(contact.gap)))
-        units = [scaled_law(adhesion, adhesion["law"], 1.0, range_) for range_ in ranges.values]
-        sums = [dmt.adhesive_pressure(contact.gap, law) for law in units]
-        values["attraction_dmt"][i] = np.outer(lengths, sums)  # in proportion to the length
-        weaker = {}  # by range, the last state with weak adhesion
-        # Of each range from the weakest adhesion on, which starts the next one.
-        for j, k in itertools.product(range(lengths.size), range(ranges.size)):
-            law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
-            attraction = values["attraction_dmt"][i, j, k]
-            if chosen[i, j, k] and attraction <= adhesion_sets.STRONGEST * contact.mean_pressure:
-                weak = attraction <= adhesion_sets.NEARLY_LINEAR * contact.mean_pressure
-                weaker_state = weaker.get(k) if weak else None
-                tolerance = min(max(tightest, SHARE * law.strength / flattening), loosest)
-                state = adhesion_sets.solve_at_gap(
-                    heights, length, law, contact, tolerance, weaker_state
-                )
-                for name in STATE:
-                    values[name][i, j, k] = getattr(state, adhesion_sets.ATTRIBUTES.get(name, name))
-                if weak:
-                    weaker[k] = law.adhesion_length, state.gap
-    return xr.Dataset(
-        {name: (AXES, value) for name, value in values.items()}
-        | {n: ("pressure", v) for n, v in zip(ALONE, np.transpose(alone), strict=True)},
-        coords={axis.name: axis for axis in (pressures, lengths, ranges)},
+    values = {name: np.full(chosen.shape, np.nan) for name in STATE}
+    closing = {}
+    # Of each range from the weakest adhesion on: states so far, by adhesion length and gap.
+    weaker = {k: [(0.0, contact.gap)] for k in range(ranges.size)}
+    for j, k in np.argwhere(solvable).tolist():
+        law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
+        if strong[j, k] and (j, k) in coarser:
+            start = contact.gap + half_space.interpolate(coarser[j, k], heights.shape)
+        else:
+            start = extrapolate(weaker[k], law.adhesion_length)
+        tolerance = min(max(tightest, SHARE * law.strength / flattening), loosest)
+        state = solve_at_gap(heights, length, law, contact, tolerance, start=np.maximum(start, 0.0))
+        for name in STATE:
+            values[name][j, k] = getattr(state, adhesion_sets.ATTRIBUTES.get(name, name))
+        weaker[k] = [weaker[k][-1], (law.adhesion_length, state.gap)]
+        closing[j, k] = state.gap - contact.gap
+    alone = {
+        "area_alone": contact.area_fraction,
+        "mean_gap": contact.mean_gap,
+        "edge_gap": subpixel.edge_gap(contact.gap),
+    }
+    values["attraction_dmt"] = attraction
+    dataset = xr.Dataset(
+        {name: (AXES[1:], value) for name, value in values.items()} | alone,
+        coords={axis.name: axis for axis in (lengths, ranges)},
     )
+    return dataset, closing
+
+
+def extrapolate(weaker, adhesion_length):
+    """Gap at an adhesion length, on the line through those of the last two that are weaker."""
+    if len(weaker) == 1:
+        return weaker[0][1]
+    (first_length, first_gap), (last_length, last_gap) = weaker
+    slope = (last_gap - first_gap) / (last_length - first_length)
+    return last_gap + slope * (adhesion_length - last_length)
 
 
 if __name__ == "__main__":

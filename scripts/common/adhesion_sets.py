@@ -26,7 +26,8 @@ SOLVER = 2e-6
 BRANCH = 0.03  # relative error where the branch is uncertain
 BRANCHING = 1.5  # attraction over the load from which it is
 STRONGEST = 8.0  # attraction over repulsion, by the DMT sum, that is still looked at
-# Attraction over repulsion, by the DMT sum, up to which the answer is nearly linear in it.
+# Attraction over repulsion, by the DMT sum, up to which the answer is nearly linear in it: weaker
+# states on the same grid are then a better start than the state on a grid half as fine.
 NEARLY_LINEAR = 0.1
 LEAST = 20  # states of a loop at least, loading or unloading
 # Tolerances of states: tighter than without adhesion, and the tighter the weaker the attraction is:
@@ -91,18 +92,12 @@ def scaled_law(adhesion, kind, adhesion_length_over_range, range_over_h_rms):
     return LAWS[kind](adhesion_length=strength * range_over_h_rms, range=range_over_h_rms)
 
 
-def solve_at_gap(heights, length, law, contact, tolerance, weaker=None):
+def solve_at_gap(heights, length, law, contact, tolerance, start=None):
     """Solve the adhesive state at the mean gap of a contact without adhesion.
 
-    `weaker` is None, or the adhesion length and gap of a state at the same range whose attraction
-    is below `NEARLY_LINEAR`. The change of the gap is then nearly in proportion to the adhesion
-    length, which gives a start close to the solution.
+    The descent begins at the gap `start`, or, if that is None, at the gap without adhesion.
     """
-    start = contact.gap
-    if weaker is not None:
-        weaker_length, weaker_gap = weaker
-        change = (weaker_gap - contact.gap) * (law.adhesion_length / weaker_length)
-        start = np.maximum(contact.gap + change, 0)
+    start = contact.gap if start is None else start
     state = adhesive.solve(
         heights, length, law, mean_gap=contact.mean_gap, start=start, tol=tolerance
     )

@@ -31,7 +31,7 @@ def solved(heights, curve=None, **changes):
     asked = ASKED | changes
     full = np.ones([len(asked[name]) for name in AXES], bool)
     chosen = solve_adhesive.combinations(asked, LENGTH / len(heights), full)
-    states = solve_adhesive.states(heights, LENGTH, asked, chosen, 1e-9)
+    states = solve_adhesive.states([heights], LENGTH, asked, chosen, 1e-9)[0]
     states = states.assign(rms_slope=2.0).expand_dims(seed=[3], resolution=[8.0])
     linear = states.area_alone.squeeze() < 1
     curve = load_curve(heights) if curve is None else curve
@@ -113,7 +113,7 @@ def test_grids_of_seeds_and_ranges(tmp_path):
     for seed, fineness, of_range, step in [(1, 8, 0, 1), (1, 8, 1, 2), (1, 4, 1, 4), (2, 4, 0, 2)]:
         one = asked | {"range_over_h_rms": asked["range_over_h_rms"][of_range : of_range + 1]}
         grid = np.ascontiguousarray(heights[seed - 1][::step, ::step])
-        direct = solve_adhesive.states(grid, LENGTH, one, np.ones((1, 1, 1), bool))
+        direct = solve_adhesive.states([grid], LENGTH, one, np.ones((1, 1, 1), bool))[0]
         at = found.external_pressure.sel(seed=seed, resolution=fineness)[of_range]
         assert float(at) == pytest.approx(float(direct.external_pressure.squeeze()), rel=1e-5)
 

@@ -145,7 +145,8 @@ def test_a_fresh_measurement_agrees_with_the_committed_table(committed, pressure
     ratios = []
     for seed in range(501, 507):
         heights = surface.synthesise(model_spectrum(SURFACE), 128, length, seed)
-        states = solve_adhesive.states(heights, length, asked, chosen, 1e-6).squeeze()
+        (states,) = solve_adhesive.states([heights], length, asked, chosen, 1e-6)
+        states = states.squeeze()
         held = states.external_pressure / states.repulsive_area
         full = (1 - held / (states.pressure / states.area_alone)) / 2
         ratios.append([float(full), float(states.attraction_dmt / states.pressure / 2)])
