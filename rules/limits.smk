@@ -10,184 +10,36 @@ SIMULATED_SETS = {
 
 wildcard_constraints:
     limits_kind=choices(SIMULATED_SETS),
-    solid_set=choices(SIMULATED_SETS["solids"]),
-    patch_set=choices(SIMULATED_SETS["patches"]),
-    range_set=choices(SIMULATED_SETS["ranges"]),
-    pull_off_set=choices(SIMULATED_SETS["pull_offs"]),
-    unresolved_set=choices(SIMULATED_SETS["unresolved"]),
-    larger_set=choices(SIMULATED_SETS["larger"]),
-    ball_set=choices(SIMULATED_SETS["balls"]),
+    limits_set=choices(name for sets in SIMULATED_SETS.values() for name in sets),
 
 
-def solid_of(wildcards):
-    """Solid and surface of a set."""
-    return SIMULATED_SETS["solids"][wildcards.solid_set]
+def campaign_of(wildcards):
+    """What is common to all sets of one kind."""
+    campaign = LIMIT_CAMPAIGN[wildcards.limits_kind]
+    common = {key: value for key, value in campaign.items() if key != "sets"}
+    return {"law": LIMIT_CAMPAIGN["law"], **common}
 
 
-rule measure_solids:
+rule measure_limits:
     output:
-        f"{LIMITS}/solids/{{solid_set}}/seed{{seed}}.nc",
+        f"{LIMITS}/{{limits_kind}}/{{limits_set}}/seed{{seed}}.nc",
     log:
-        f"{LIMITS}/logs/measure_solids/{{solid_set}}/seed{{seed}}.log",
+        f"{LIMITS}/logs/measure_limits/{{limits_kind}}/{{limits_set}}/seed{{seed}}.log",
     benchmark:
-        f"{LIMITS}/benchmarks/measure_solids/{{solid_set}}/seed{{seed}}.tsv"
+        f"{LIMITS}/benchmarks/measure_limits/{{limits_kind}}/{{limits_set}}/seed{{seed}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
         mem_mb=2000,
         runtime=30,
     params:
-        surface=solid_of,
-        law=LIMIT_CAMPAIGN["law"],
-        pixels_in_zone=lambda wildcards: LIMIT_CAMPAIGN["solids"]["pixels_in_zone"][
-            solid_of(wildcards)["kind"]
-        ],
-        energies=LIMIT_CAMPAIGN["solids"]["energies"],
-        code=source_hash("limits/measure_solids.py"),
+        setting=lambda wildcards: SIMULATED_SETS[wildcards.limits_kind][wildcards.limits_set],
+        campaign=campaign_of,
+        code=lambda wildcards: source_hash(f"limits/measure_{wildcards.limits_kind}.py"),
     message:
-        "Simulate adhesion on layers and skins: {wildcards.solid_set}, seed {wildcards.seed}"
+        "Simulate {wildcards.limits_kind} for limits: {wildcards.limits_set}, seed {wildcards.seed}"
     script:
-        "../scripts/limits/measure_solids.py"
-
-
-rule measure_patches:
-    output:
-        f"{LIMITS}/patches/{{patch_set}}/seed{{seed}}.nc",
-    log:
-        f"{LIMITS}/logs/measure_patches/{{patch_set}}/seed{{seed}}.log",
-    benchmark:
-        f"{LIMITS}/benchmarks/measure_patches/{{patch_set}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
-        runtime=30,
-    params:
-        surface=lambda wildcards: SIMULATED_SETS["patches"][wildcards.patch_set],
-        patches=LIMIT_CAMPAIGN["patches"]["patches"],
-        range=LIMIT_CAMPAIGN["patches"]["range"],
-        code=source_hash("limits/measure_patches.py"),
-    message:
-        "Simulate adhesion on patches of a surface: {wildcards.patch_set}, seed {wildcards.seed}"
-    script:
-        "../scripts/limits/measure_patches.py"
-
-
-rule measure_ranges:
-    output:
-        f"{LIMITS}/ranges/{{range_set}}/seed{{seed}}.nc",
-    log:
-        f"{LIMITS}/logs/measure_ranges/{{range_set}}/seed{{seed}}.log",
-    benchmark:
-        f"{LIMITS}/benchmarks/measure_ranges/{{range_set}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
-        runtime=30,
-    params:
-        surface=lambda wildcards: SIMULATED_SETS["ranges"][wildcards.range_set],
-        law=LIMIT_CAMPAIGN["law"],
-        works=LIMIT_CAMPAIGN["ranges"]["works"],
-        shares=LIMIT_CAMPAIGN["ranges"]["shares"],
-        code=source_hash("limits/measure_ranges.py"),
-    message:
-        "Simulate ranges that a grid does not resolve: {wildcards.range_set}, seed {wildcards.seed}"
-    script:
-        "../scripts/limits/measure_ranges.py"
-
-
-rule measure_pull_offs:
-    output:
-        f"{LIMITS}/pull_offs/{{pull_off_set}}/seed{{seed}}.nc",
-    log:
-        f"{LIMITS}/logs/measure_pull_offs/{{pull_off_set}}/seed{{seed}}.log",
-    benchmark:
-        f"{LIMITS}/benchmarks/measure_pull_offs/{{pull_off_set}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
-        runtime=30,
-    params:
-        surface=lambda wildcards: SIMULATED_SETS["pull_offs"][wildcards.pull_off_set],
-        law=LIMIT_CAMPAIGN["law"],
-        works=LIMIT_CAMPAIGN["pull_offs"]["works"],
-        shares=LIMIT_CAMPAIGN["pull_offs"]["shares"],
-        squeeze=LIMIT_CAMPAIGN["pull_offs"]["squeeze"],
-        steps=LIMIT_CAMPAIGN["pull_offs"]["steps"],
-        code=source_hash("limits/measure_pull_offs.py"),
-    message:
-        "Simulate pull-off at short ranges: {wildcards.pull_off_set}, seed {wildcards.seed}"
-    script:
-        "../scripts/limits/measure_pull_offs.py"
-
-
-rule measure_unresolved:
-    output:
-        f"{LIMITS}/unresolved/{{unresolved_set}}/seed{{seed}}.nc",
-    log:
-        f"{LIMITS}/logs/measure_unresolved/{{unresolved_set}}/seed{{seed}}.log",
-    benchmark:
-        f"{LIMITS}/benchmarks/measure_unresolved/{{unresolved_set}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
-        runtime=30,
-    params:
-        surface=lambda wildcards: SIMULATED_SETS["unresolved"][wildcards.unresolved_set],
-        ranges=LIMIT_CAMPAIGN["unresolved"]["ranges"],
-        strides=LIMIT_CAMPAIGN["unresolved"]["strides"],
-        code=source_hash("limits/measure_unresolved.py"),
-    message:
-        "Simulate waves that a grid lacks: {wildcards.unresolved_set}, seed {wildcards.seed}"
-    script:
-        "../scripts/limits/measure_unresolved.py"
-
-
-rule measure_larger:
-    output:
-        f"{LIMITS}/larger/{{larger_set}}/seed{{seed}}.nc",
-    log:
-        f"{LIMITS}/logs/measure_larger/{{larger_set}}/seed{{seed}}.log",
-    benchmark:
-        f"{LIMITS}/benchmarks/measure_larger/{{larger_set}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
-        runtime=30,
-    params:
-        surface=lambda wildcards: SIMULATED_SETS["larger"][wildcards.larger_set],
-        range=LIMIT_CAMPAIGN["larger"]["range"],
-        patches=LIMIT_CAMPAIGN["larger"]["count"],
-        code=source_hash("limits/measure_larger.py"),
-    message:
-        "Simulate surfaces larger than a scan: {wildcards.larger_set}, seed {wildcards.seed}"
-    script:
-        "../scripts/limits/measure_larger.py"
-
-
-rule measure_balls:
-    output:
-        f"{LIMITS}/balls/{{ball_set}}/seed{{seed}}.nc",
-    log:
-        f"{LIMITS}/logs/measure_balls/{{ball_set}}/seed{{seed}}.log",
-    benchmark:
-        f"{LIMITS}/benchmarks/measure_balls/{{ball_set}}/seed{{seed}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=2000,
-        runtime=30,
-    params:
-        surface=lambda wildcards: SIMULATED_SETS["balls"][wildcards.ball_set],
-        code=source_hash("limits/measure_balls.py"),
-    message:
-        "Simulate the pull-off of balls: {wildcards.ball_set}, seed {wildcards.seed}"
-    script:
-        "../scripts/limits/measure_balls.py"
+        "../scripts/limits/measure_{wildcards.limits_kind}.py"
 
 
 def simulated_files(wildcards):

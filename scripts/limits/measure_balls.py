@@ -4,7 +4,6 @@ Lengths are over the radius of the zone of a smooth ball at pull-off: JKR's cont
 larger, Derjaguin's zone. Paraboloids stand for balls.
 """
 
-import logging
 import warnings
 from itertools import product
 from typing import NamedTuple
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from common.job import start
-from limits.measuring import write_table
+from limits.measuring import write_rows
 from stickiness import adhesive, surface
 from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS, TractionLaw, find_strength
@@ -26,13 +25,6 @@ STEP = 0.08  # of the mean gap, over the square of the contact radius over that 
 MOST_STEPS = 400
 GONE = 0.02  # force over JKR's below which a ball without contact has pulled off
 TOLERANCE = 1e-4
-BALL_VARIABLES = {
-    "row": "place, roughness and number of waves",
-    "waves": "longest waves across the zone of a smooth ball",
-    "height": "rms height over the distance of the attraction of smooth solids, w over strength",
-    "place": "number of the place that the ball touches",
-    "simulated": ("1", "pull-off force over that of a smooth ball", "does not pull off"),
-}
 
 
 class Ball(NamedTuple):
@@ -67,11 +59,10 @@ def make_ball(law: str, tabor: float, zone: float = 1.0) -> Ball:
 
 
 def main(job):
-    rows = measure(job.params.surface, int(job.wildcards.seed))
-    write_table(job, rows, BALL_VARIABLES, title="pull-off of balls from rough heights")
+    write_rows(job, measure)
 
 
-def measure(setting, seed):
+def measure(setting, seed, _):
     """Rows of all numbers of waves, rms heights and places."""
     points = setting["points"]
     side = setting["side"]
@@ -91,9 +82,7 @@ def measure(setting, seed):
         for height, (place, centre) in product(setting["heights"], enumerate(places)):
             shape = cut(height * heights, centre, points, pixel)
             simulated = pull(shape, side, ball.law) / smooth
-            row = {"waves": waves, "height": height, "place": place, "simulated": simulated}
-            logging.info("%s", row)
-            yield row
+            yield {"waves": waves, "height": height, "place": place, "simulated": simulated}
 
 
 def curve(heights: NDArray, pixel: float, radius: float = RADIUS) -> NDArray:

@@ -1,6 +1,5 @@
 """What patches of a surface tell of it: works of adhesion at which shares remain, by simulation."""
 
-import logging
 from itertools import product
 
 import numpy as np
@@ -8,63 +7,44 @@ from scipy import fft, stats
 
 from common.conventions import Q0
 from common.job import start
-from limits.measuring import NEVER, THRESHOLDS, write_rows
-from limits.trial_thresholds import SHARES, find_log_thresholds, share_on
+from common.limits_table import OF_QUARTERS
+from common.topographies import make_set
+from limits.measuring import write_rows
+from limits.trial_thresholds import find_log_thresholds, name_columns, share_on
 from stickiness.measured.levelling import detrend
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.remaining.standard_heights import standardise
 
-OF_QUARTERS = ("10", "30")  # thresholds that are kept of the quarters
-PATCH_VARIABLES = {
-    "row": "patch",
-    "patch_waves": "longest waves along a side of the patch",
-    "patch": "number of the patch among those of its size",
-    "h_rms": "rms height of the levelled patch over that of the surface",
-    "skewness": "of the levelled patch",
-    "kurtosis": "of the levelled patch",
-    "independent_areas": "1 over the mean of the squared autocorrelation of the patch",
-    "mean_cube": "mean of the cubed autocorrelation of the patch",
-    "full_contact_energy": "elastic energy of full contact of the patch over E* q0 h_rms^2",
-    "range": "range over h_rms of the surface",
-    **{f"threshold_{name}": texts for name, texts in THRESHOLDS.items()},
-    **{
-        f"share_{name}": ("1", f"share on the patch where {share:g} remains on the surface", NEVER)
-        for name, share in SHARES.items()
-    },
-    **{
-        f"q{number}_{name}": ("1", f"threshold_{name} of quarter {number}", NEVER)
-        for number, name in product(range(1, 5), OF_QUARTERS)
-    },
-    "whole_skewness": "of the surface",
-    "whole_kurtosis": "of the surface",
-    "whole_full_contact_energy": "that of the surface",
-    **{f"whole_threshold_{name}": texts for name, texts in THRESHOLDS.items()},
-}
-
 
 def main(job):
-    write_rows(job, measure, PATCH_VARIABLES, title="what patches of a surface tell of it")
+    write_rows(job, measure)
 
 
-def measure(heights, setting, params):
+def measure(setting, seed, campaign):
     """Rows of all patches, beside what remains on the whole surface."""
+    heights = make_set(setting, seed)
     waves = setting["waves"]
     wavelength = 2 * np.pi / Q0
-    whole = find_trial_states(heights, waves * wavelength, pull=False)
-    whole_thresholds = find_log_thresholds(whole, params.range)
-    of_whole = {
-        "range": params.range,
-        "whole_skewness": stats.skew(heights, axis=None),
-        "whole_kurtosis": stats.kurtosis(heights, axis=None, fisher=False),
-        "whole_full_contact_energy": whole.full_contact_energy,
-        **{f"whole_threshold_{name}": value for name, value in whole_thresholds.items()},
-    }
-    for size in params.patches:
+    thresholds, of_whole = measure_whole(heights, waves * wavelength, campaign["range"])
+    for size in campaign["patches"]:
         patches = cut(heights, waves, size["waves"], size["count"])
         for number, patch in enumerate(patches):
-            row = measure_patch(patch, size["waves"] * wavelength, whole_thresholds, params.range)
-            logging.info("%d waves, patch %d: %s", size["waves"], number, row)
+            side = size["waves"] * wavelength
+            row = measure_patch(patch, side, thresholds, campaign["range"])
             yield {"patch_waves": size["waves"], "patch": number, **row, **of_whole}
+
+
+def measure_whole(heights, side, range_):
+    """Thresholds on a whole surface, and what the rows of its patches tell of it."""
+    states = find_trial_states(heights, side, pull=False)
+    thresholds = find_log_thresholds(states, range_)
+    return thresholds, {
+        "range": range_,
+        "whole_skewness": stats.skew(heights, axis=None),
+        "whole_kurtosis": stats.kurtosis(heights, axis=None, fisher=False),
+        "whole_full_contact_energy": states.full_contact_energy,
+        **name_columns("whole_threshold", thresholds),
+    }
 
 
 def cut(heights, waves, patch_waves, count):
@@ -90,6 +70,10 @@ def measure_patch(patch, side, whole_thresholds, range_):
     ]
     autocorrelation = find_autocorrelation(standard.whole.heights)
     thresholds = [find_log_thresholds(part, range_) for part in states]
+    shares = {
+        ending: share_on(states[0], log_length, range_)
+        for ending, log_length in whole_thresholds.items()
+    }
     return {
         "h_rms": patch.std(),
         "skewness": stats.skew(patch, axis=None),
@@ -97,14 +81,11 @@ def measure_patch(patch, side, whole_thresholds, range_):
         "independent_areas": 1 / np.mean(autocorrelation**2),
         "mean_cube": np.mean(autocorrelation**3),
         "full_contact_energy": states[0].full_contact_energy,
-        **{f"threshold_{name}": thresholds[0][name] for name in SHARES},
+        **name_columns("threshold", thresholds[0]),
+        **name_columns("share", shares),
         **{
-            f"share_{name}": share_on(states[0], log_length, range_)
-            for name, log_length in whole_thresholds.items()
-        },
-        **{
-            f"q{number}_{name}": thresholds[number][name]
-            for number, name in product(range(1, 5), OF_QUARTERS)
+            f"q{number}_{ending}": thresholds[number][ending]
+            for number, ending in product(range(1, 5), OF_QUARTERS)
         },
     }
 

@@ -1,70 +1,64 @@
 """What remains at ranges shorter than those of simulated states, simulated on finer grids."""
 
-import logging
-
 import numpy as np
 
 from common.conventions import Q0
 from common.job import start
+from common.topographies import make_set
 from limits.measuring import write_rows
 from stickiness import surface
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
 
-RANGE_VARIABLES = {
-    "row": "work of adhesion and range",
-    "adhesion_length": "adhesion length over q0 h_rms^2",
-    "energy_ratio": "work of adhesion over elastic energy of full contact",
-    "is_between": "1 for a work between those simulated, 0 at one of them",
-    "range_ratio": "range over that of the states at this work",
-    "range": "range over h_rms",
-    "finer": "points along a side over those of the states",
-    "bound": "share in the deepest of the states, at this range",
-    "chord": "chord between the shares of the states, at their ranges",
-    "simulated": ("1", "share at zero load on the finer grid", "not converged"),
-    "full_contact_energy": "elastic energy of full contact over E* q0 h_rms^2",
-}
-
 
 def main(job):
-    write_rows(
-        job,
-        measure,
-        RANGE_VARIABLES,
-        title="what remains at ranges shorter than those of simulated states",
-    )
+    write_rows(job, measure)
 
 
-def measure(heights, setting, params):
+def measure(setting, seed, campaign):
     """Rows of all works of adhesion and ranges, by states on a grid and by finer ones."""
+    heights = make_set(setting, seed)
     length = setting["waves"] * 2 * np.pi / Q0
     states = find_trial_states(heights, length, pull=False)
-    nodes = states.simulated_length
+    lengths = [0, *states.simulated_length]
+    gains = [0, *states.simulated_length * states.simulated_share]
+    for law, fine, row in refine(heights, states, setting, campaign):
+        work = law.adhesion_length
+        yield {
+            **row,
+            "bound": states.share(np.array([work]), np.array([law.range]), campaign["law"])[0],
+            "chord": np.interp(work, lengths, gains) / work,
+            "simulated": share_at_zero_load(fine, length, law, tol=ADHESION_TOLERANCE),
+        }
+
+
+def refine(heights, states, setting, campaign):
+    """Laws at the ranges of states and at shorter ones, finer grids, and what rows tell of both."""
     grids = {
         finer: surface.resample(heights, finer * heights.shape[0])
         for finer in {refinement["finer"] for refinement in setting["refinements"]}
     }
-    for work, is_between in choose_works(states, params.shares, params.works):
-        log_range = np.interp(np.log(work), np.log(nodes), np.log(states.simulated_range))
+    for work, is_between in choose_works(states, campaign["shares"], campaign["works"]):
+        own_range = at_work(states, states.simulated_range, work)
         for refinement in setting["refinements"]:
-            range_ = refinement["ratio"] * np.exp(log_range)
-            law = LAWS[params.law](work, range_)
-            fine = grids[refinement["finer"]]
+            law = LAWS[campaign["law"]](work, refinement["ratio"] * own_range)
             row = {
+                "full_contact_energy": states.full_contact_energy,
                 "adhesion_length": work,
                 "energy_ratio": work / states.full_contact_energy,
                 "is_between": is_between,
+                "range": law.range,
                 "range_ratio": refinement["ratio"],
-                "range": range_,
                 "finer": refinement["finer"],
-                "bound": states.share(np.array([work]), np.array([range_]), params.law)[0],
-                "chord": np.interp(work, [0, *nodes], [0, *nodes * states.simulated_share]) / work,
-                "simulated": share_at_zero_load(fine, length, law, tol=ADHESION_TOLERANCE),
-                "full_contact_energy": states.full_contact_energy,
             }
-            logging.info("%s", row)
-            yield row
+            yield law, grids[refinement["finer"]], row
+
+
+def at_work(states, simulated, work):
+    """What was simulated of states, at a work of adhesion between theirs."""
+    log_lengths = np.log(states.simulated_length)
+    return np.exp(np.interp(np.log(work), log_lengths, np.log(simulated)))
 
 
 def choose_works(states, shares, most):

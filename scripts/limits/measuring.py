@@ -1,29 +1,28 @@
-"""What measurements on synthetic topographies share: their file, and variables of thresholds."""
+"""What all campaigns share: one seed of a set is measured, and its rows are written."""
+
+import logging
 
 import pandas as pd
 
+from common import limits_table
 from common.conventions import annotate
-from common.topographies import make_set
-from limits.trial_thresholds import SHARES
 from stickiness import datasets
 
-NEVER = "the share remains at any adhesion length"
-#: Unit, description and what NaN means of thresholds, by the ends of their names.
-THRESHOLDS = {
-    name: ("1", f"ln of the adhesion length at which {share:g} of w remains", NEVER)
-    for name, share in SHARES.items()
-}
 
+def write_rows(job, measure):
+    """Write the rows that `measure` finds on one seed of a set, as far as their table holds them.
 
-def write_rows(job, measure, variables, title):
-    """Make the heights of a set, and write the rows that `measure` finds on them."""
-    setting = job.params.surface
-    heights = make_set(setting, int(job.wildcards.seed))
-    write_table(job, measure(heights, setting, job.params), variables, title)
-
-
-def write_table(job, rows, variables, title):
-    """Write rows of one seed of a set."""
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **variables)
-    parameters = {**job.params.surface, "seed": int(job.wildcards.seed)}
-    datasets.write(dataset, job.output[0], title=title, parameters=parameters)
+    `measure` takes the setting of the set, the seed, and what is common to all sets of a campaign.
+    """
+    setting = job.params.setting
+    seed = int(job.wildcards.seed)
+    table = limits_table.TABLES[job.wildcards.limits_kind]
+    rows = []
+    for row in measure(setting, seed, job.params.campaign):
+        logging.info("%s", row)
+        rows.append(row)
+    # What a row does not tell is NaN.
+    frame = pd.DataFrame(rows).reindex(columns=list(table.measured)).rename_axis("row")
+    dataset = annotate(frame.to_xarray(), row="place in the table", **table.measured)
+    parameters = {**setting, "seed": seed}
+    datasets.write(dataset, job.output[0], title=table.title, parameters=parameters)

@@ -3,7 +3,8 @@
 import numpy as np
 from scipy import optimize
 
-SHARES = {"3": 0.03, "10": 0.1, "30": 0.3, "60": 0.6}  # by the ends of the names of columns
+from common.limits_table import SHARES
+
 LOWEST = 1e-9  # adhesion lengths over the energy of full contact
 HIGHEST = 1e3
 
@@ -25,4 +26,9 @@ def find_log_threshold(states, share, range_):
 
 def find_log_thresholds(states, range_):
     """Thresholds of all shares, by the ends of their columns."""
-    return {name: find_log_threshold(states, share, range_) for name, share in SHARES.items()}
+    return {ending: find_log_threshold(states, share, range_) for ending, share in SHARES.items()}
+
+
+def name_columns(name, found):
+    """What was found at all shares, by columns whose names begin alike."""
+    return {f"{name}_{ending}": number for ending, number in found.items()}

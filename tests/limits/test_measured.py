@@ -60,13 +60,14 @@ BALL |= {"shortest": 0.5, "side": 6.0, "points": 64, "places": 2, "seeds": [5]}
 STIFFNESSES = (0.0, 0.05, 2.0)
 
 
-def tabulate(folder, kind, script, settings, **params):
+def tabulate(folder, kind, script, settings, **campaign):
     """Table of one file for each setting."""
     paths = []
     for number, setting in enumerate(settings):
         seed = str(setting["seeds"][0])
         paths.append(folder / kind / f"set_{number}" / f"seed{seed}.nc")
-        script.main(make_job(paths[-1], {"surface": setting, **params}, {"seed": seed}))
+        params = {"setting": setting, "campaign": campaign}
+        script.main(make_job(paths[-1], params, {"limits_kind": kind, "seed": seed}))
     output = folder / f"{kind}.csv"
     wildcards = SimpleNamespace(limits_kind=kind)
     tabulate_limits.main(SimpleNamespace(input=paths, output=[output], wildcards=wildcards))
@@ -80,27 +81,31 @@ def folder(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def solids(folder):
-    params = {"law": "exponential", "energies": [0.3, 1.3], "pixels_in_zone": [8]}
-    return tabulate(folder, "solids", measure_solids, [LAYER, SKIN], **params)
+    campaign = {
+        "law": "exponential",
+        "energies": [0.3, 1.3],
+        "pixels_in_zone": {"layer": [8], "skin": [8]},
+    }
+    return tabulate(folder, "solids", measure_solids, [LAYER, SKIN], **campaign)
 
 
 @pytest.fixture(scope="module")
 def patches(folder):
     sizes = [{"waves": 4, "count": 1}, {"waves": 2, "count": 2}]
-    params = {"range": 0.15, "patches": sizes}
-    return tabulate(folder, "patches", measure_patches, [ROUGH], **params)
+    campaign = {"range": 0.15, "patches": sizes}
+    return tabulate(folder, "patches", measure_patches, [ROUGH], **campaign)
 
 
 @pytest.fixture(scope="module")
 def ranges(folder):
-    params = {"law": "exponential", "works": 3, "shares": [0.03, 0.8]}
-    return tabulate(folder, "ranges", measure_ranges, [COARSE], **params)
+    campaign = {"law": "exponential", "works": 3, "shares": [0.03, 0.8]}
+    return tabulate(folder, "ranges", measure_ranges, [COARSE], **campaign)
 
 
 @pytest.fixture(scope="module")
 def pull_offs(folder):
     refinements = [{"ratio": 1.0, "finer": 2}, {"ratio": 0.5, "finer": 4}]
-    params = {
+    campaign = {
         "law": "exponential",
         "works": 2,
         "shares": [0.1, 0.4],
@@ -108,18 +113,18 @@ def pull_offs(folder):
         "steps": 20,
     }
     settings = [COARSE | {"refinements": refinements}]
-    return tabulate(folder, "pull_offs", measure_pull_offs, settings, **params)
+    return tabulate(folder, "pull_offs", measure_pull_offs, settings, **campaign)
 
 
 @pytest.fixture(scope="module")
 def larger(folder):
-    return tabulate(folder, "larger", measure_larger, [SCANNED], range=0.15, patches=1)
+    return tabulate(folder, "larger", measure_larger, [SCANNED], range=0.15, count=1)
 
 
 @pytest.fixture(scope="module")
 def unresolved(folder):
-    params = {"ranges": [0.3], "strides": [2]}
-    return tabulate(folder, "unresolved", measure_unresolved, [ROUGH, FINE], **params)
+    campaign = {"ranges": [0.3], "strides": [2]}
+    return tabulate(folder, "unresolved", measure_unresolved, [ROUGH, FINE], **campaign)
 
 
 @pytest.fixture(scope="module")

@@ -69,5 +69,5 @@ def test_rules_say_what_they_make_with_environment_log_and_hash_of_their_script(
             assert (ROOT / environment).is_file()
             assert re.search(r"log:\s+f\"\{\w+\}/logs/", rule)
             assert re.search(r"benchmark:\s+f\"\{\w+\}/benchmarks/", rule)
-            hashed = re.search(r'code=source_hash\(f?"(.*)"\)', rule)[1]
+            hashed = re.search(r'code=(?:lambda wildcards: )?source_hash\(f?"(.*)"\)', rule)[1]
             assert f"scripts/{hashed}" == script[1].replace("{params.figure}", "{figure}")
