@@ -157,9 +157,11 @@ class Observation:
             return None
         radius = self.inputs["radius"][:, None]
         given = (radius, pair.adhesion_length, pair.range)
-        zone = sphere.pull_off(sphere.narrow(pair.rough, 1.0), *given).zone_radius
-        rough = sphere.narrow(pair.rough, np.asarray(zone) * pair.q0 / np.pi)
-        return [sphere.pull_off(rough, *given, sign) for sign in SIGNS]
+        summits = find_spread("ball", "summits").value
+        error = find_spread("ball", "ln_force").high
+        zone = sphere.pull_off(sphere.narrow(pair.rough, 1.0, summits), *given).zone_radius
+        rough = sphere.narrow(pair.rough, np.asarray(zone) * pair.q0 / np.pi, summits)
+        return [sphere.pull_off(rough, *given, sign, error=error) for sign in SIGNS]
 
 
 @dataclass(frozen=True)

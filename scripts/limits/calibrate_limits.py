@@ -20,7 +20,8 @@ from stickiness.remaining.roughness import PULL_OFF_KNOWN, Roughness
 from stickiness.remaining.share import FIRST_TOUCH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.longer_waves import find_unlikeness, weigh_larger
-from stickiness.verdicts.rough_ball import press_ball
+from stickiness.verdicts.pair_roughness import combine_roughness
+from stickiness.verdicts.rough_ball import BallContact, find_contact
 from stickiness.verdicts.rough_surface import Surface
 
 COVERAGE = 0.9
@@ -501,15 +502,13 @@ def predict_ball(rows, summits):
         range=BALL_RANGE,
         law=row.law,
     )
-    found = press_ball(
-        Surface(rough.data.assign(shape=shape, shape_error=shape_error)),
-        material,
-        ball.radius,
-        error=0.0,
-        summits=summits,
+    surface = Surface(rough.data.assign(shape=shape, shape_error=shape_error))
+    whole = combine_roughness(material, surface)
+    contact = find_contact(
+        BallContact(whole, material, surface, ball.radius, summits=summits, error=0.0)
     )
-    low, high = np.divide(found.force_limits, found.smooth_force)
-    return rows.assign(force=found.force / found.smooth_force, low=low, high=high)
+    low, value, high = np.divide(contact.force, contact.smooth_force)
+    return rows.assign(force=value, low=low, high=high)
 
 
 def find_distance(rows):

@@ -46,7 +46,7 @@ def pull_off(
     range: ArrayLike,
     deviation: ArrayLike = 0,
     curvature: float = 0.0,
-    error: float | None = None,
+    error: float = 0.0,
 ) -> SpherePullOff:
     """Pull-off after a contact formed by load.
 
@@ -64,13 +64,12 @@ def pull_off(
         Error of the force in units of its limits, as of `Roughness.share`.
     curvature : float
         Rms mean curvature of the waves that are longer than the zone of contact [1/length].
-    error : float, optional
+    error : float
         Of ln of the force from place to place, over the root of ln of the factor that roughness
-        takes from it; by default the calibrated one.
+        takes from it: of real contacts `find_spread("ball", "ln_force")`.
     """
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
     deviation = np.asarray(deviation)
-    error = find_spread("ball", "ln_force").high if error is None else error
     reach = np.asarray(rough.distance(length, range))
     share = np.maximum(rough.share(length, range), LEAST_SHARE)
 
@@ -104,14 +103,13 @@ def pull_off(
     )
 
 
-def narrow(rough: Roughness, waves: ArrayLike, summits: float | None = None) -> Roughness:
+def narrow(rough: Roughness, waves: ArrayLike, summits: float) -> Roughness:
     """Roughness in a zone of contact that is a number of its longest waves wide.
 
     Few waves have few summits, so that hard solids touch at a lower one: the expected highest of n
     Gaussian heights is about sqrt(2 ln n) times h_rms. Contacts of many waves are as between flats.
-    `summits` are independent heights in a zone one wave wide; by default the calibrated number.
+    `summits` are independent heights in a zone one wave wide: `find_spread("ball", "summits")`.
     """
-    summits = find_spread("ball", "summits").value if summits is None else summits
     touch = np.sqrt(2 * np.log1p(summits * np.square(waves)))
     most = find_spread("spectrum", "first_touch").value
     return replace(

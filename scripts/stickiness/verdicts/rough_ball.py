@@ -19,6 +19,7 @@ from stickiness.criteria.pair import Pair
 from stickiness.entries.material import Material
 from stickiness.formatting import amount, in_unit, limited
 from stickiness.remaining import sphere
+from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.verdicts.limits import VALUE
@@ -107,25 +108,17 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
             "skin and dwell"
         )
 
-    return press_ball(surface, material, radius)
-
-
-def press_ball(
-    surface: Surface,
-    material: Material,
-    radius: float,
-    error: float | None = None,
-    summits: float | None = None,
-) -> BallPullOff:
-    """`pull_off_of_ball` with an `error` and a number of `summits` that are to be calibrated.
-
-    Those are as of `sphere.pull_off` and `sphere.narrow`; None stands for the calibrated ones.
-    """
-    whole = combine_roughness(material, surface)
-    pressed = _Contact(whole, material, surface, radius, error=error, summits=summits)
-    contact = _find_contact(pressed)
+    whole = BallContact(
+        rough=combine_roughness(material, surface),
+        material=material,
+        surface=surface,
+        radius=radius,
+        summits=find_spread("ball", "summits").value,
+        error=find_spread("ball", "ln_force").high,
+    )
+    contact = find_contact(whole)
     low, value, high = contact.force
-    doubt = whole.not_judged or contact.doubt
+    doubt = whole.rough.not_judged or contact.doubt
     if doubt:
         low = value = high = np.nan
     return BallPullOff(
@@ -133,24 +126,24 @@ def press_ball(
         force=value,
         force_limits=(low, high),
         smooth_force=contact.smooth_force,
-        waves=contact.zone * float(np.asarray(whole.scenarios.ends.q0)[ROUGH]) / (2 * np.pi),
+        waves=contact.zone * float(np.asarray(whole.rough.scenarios.ends.q0)[ROUGH]) / (2 * np.pi),
         not_judged=doubt,
     )
 
 
 @dataclass(frozen=True)
-class _Contact:
+class BallContact:
     """Contact of a ball that meets some of the waves."""
 
     rough: PairRoughness  #: with these waves
     material: Material
     surface: Surface
     radius: float  #: of the ball [m]
+    summits: float  #: as of `sphere.narrow`
+    error: float  #: as of `sphere.pull_off`
     curvature: float = 0.0  #: rms mean curvature of the longer waves [1/m]
-    error: float | None = None  #: as of `sphere.pull_off`
-    summits: float | None = None  #: as of `sphere.narrow`
 
-    def shorter(self, q: float) -> _Contact:
+    def shorter(self, q: float) -> BallContact:
         """The same where the ball meets the waves from a wave number on [1/m]."""
         material = self.material
         surface = self.surface.shorter(q)
@@ -165,7 +158,7 @@ class _Contact:
             curvature=float(np.hypot.reduce(curvatures)),
         ).without_states()
 
-    def without_states(self) -> _Contact:
+    def without_states(self) -> BallContact:
         """The same by the theory of heights, without states simulated on a map."""
         scenarios = self.rough.scenarios.with_roughness(simulated=None, lacking=0.0)
         return replace(self, rough=replace(self.rough, scenarios=scenarios))
@@ -229,7 +222,7 @@ class _Contact:
         )
 
 
-def _find_contact(whole: _Contact) -> _Contact:
+def find_contact(whole: BallContact) -> BallContact:
     """Contact that meets the waves no longer than its zone is wide.
 
     The wider the zone, the more waves it holds, which leave less of the attraction.
