@@ -1,7 +1,8 @@
 """The committed table of the adhesion that remains at zero load on heights of many shapes."""
 
 import numpy as np
-import pandas as pd
+
+from common import committed
 
 #: Columns that predict the share that remains; each but the bound has `_low` and `_high` beside it.
 PREDICTED = ("theory", "shaped", "states")
@@ -16,15 +17,9 @@ GAUSSIAN = "Gaussian"
 
 
 def read(path):
-    """Read the table with kinds of rows; ValueError naming the file and what it lacks."""
-    try:
-        table = pd.read_csv(path, comment="#", keep_default_na=False, na_values=[""])
-    except FileNotFoundError:
-        raise ValueError(f"{path}: no such file; the target heights_measured makes it") from None
-    missing = [name for name in COLUMNS if name not in table]
-    if missing:
-        raise ValueError(f"{path}: lacks the columns {', '.join(missing)}")
-    return add_kind(table)
+    """Read the table with kinds of rows; errors as of `committed.read`."""
+    words = {"keep_default_na": False, "na_values": [""]}  # only an empty cell is none
+    return add_kind(committed.read(path, COLUMNS, "heights_measured", **words))
 
 
 def add_kind(table):

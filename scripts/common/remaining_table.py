@@ -1,6 +1,6 @@
 """The committed table of the adhesion that remains: simulated values with predictions beside."""
 
-import pandas as pd
+from common import committed
 
 COLUMNS = (
     *("set", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
@@ -12,14 +12,8 @@ COLUMNS = (
 
 
 def read(path):
-    """Read the table with kinds of rows; ValueError naming the file and what it lacks."""
-    try:
-        table = pd.read_csv(path, comment="#")
-    except FileNotFoundError:
-        raise ValueError(f"{path}: no such file; the target remaining_measured makes it") from None
-    missing = [name for name in COLUMNS if name not in table]
-    if missing:
-        raise ValueError(f"{path}: lacks the columns {', '.join(missing)}")
+    """Read the table with kinds of rows; errors as of `committed.read`."""
+    table = committed.read(path, COLUMNS, "remaining_measured")
     return table.assign(
         wide=table.window > 1,  # cells of two by two of the longest waves or more
         weak=table["set"].str.contains("weak"),  # from weak to tough adhesion

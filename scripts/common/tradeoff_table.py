@@ -4,7 +4,8 @@ It also holds what verdicts cost and leave open, by what they rest on.
 """
 
 import numpy as np
-import pandas as pd
+
+from common import committed
 
 KEYS = ["problem", "quantity", "setting", "value"]
 COMMENT = """\
@@ -27,15 +28,8 @@ def write(path, medians):
 
 
 def read(path):
-    """Read the table of medians; ValueError if it is not there or lacks a column."""
-    try:
-        medians = pd.read_csv(path, comment="#", dtype={"value": str})
-    except FileNotFoundError:
-        raise ValueError(f"{path}: no such file; the target tradeoff makes it") from None
-    missing = [name for name in (*KEYS, "error", "cost") if name not in medians]
-    if missing:
-        raise ValueError(f"{path}: lacks the column {missing[0]!r}; the target tradeoff makes it")
-    return medians
+    """Read the table of medians; errors as of `committed.read`."""
+    return committed.read(path, (*KEYS, "error", "cost"), "tradeoff", dtype={"value": str})
 
 
 def tables(medians):
