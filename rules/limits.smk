@@ -22,7 +22,7 @@ def campaign_of(wildcards):
 
 rule measure_limits:
     output:
-        f"{LIMITS}/{{limits_kind}}/{{limits_set}}/seed{{seed}}.nc",
+        f"{LIMITS}/{{limits_kind}}/{{limits_set}}/seed{{seed}}.csv",
     log:
         f"{LIMITS}/logs/measure_limits/{{limits_kind}}/{{limits_set}}/seed{{seed}}.log",
     benchmark:
@@ -46,7 +46,7 @@ def simulated_files(wildcards):
     """Files of all sets of one kind."""
     kind = wildcards.limits_kind
     return [
-        f"{LIMITS}/{kind}/{name}/seed{seed}.nc"
+        f"{LIMITS}/{kind}/{name}/seed{seed}.csv"
         for name, simulated in SIMULATED_SETS[kind].items()
         for seed in simulated["seeds"]
     ]

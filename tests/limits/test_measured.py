@@ -65,9 +65,10 @@ def tabulate(folder, kind, script, settings, **campaign):
     paths = []
     for number, setting in enumerate(settings):
         seed = str(setting["seeds"][0])
-        paths.append(folder / kind / f"set_{number}" / f"seed{seed}.nc")
+        wildcards = {"limits_kind": kind, "limits_set": f"set_{number}", "seed": seed}
+        paths.append(folder / kind / f"set_{number}" / f"seed{seed}.csv")
         params = {"setting": setting, "campaign": campaign}
-        script.main(make_job(paths[-1], params, {"limits_kind": kind, "seed": seed}))
+        script.main(make_job(paths[-1], params, wildcards))
     output = folder / f"{kind}.csv"
     wildcards = SimpleNamespace(limits_kind=kind)
     tabulate_limits.main(SimpleNamespace(input=paths, output=[output], wildcards=wildcards))
