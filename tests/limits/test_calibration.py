@@ -11,7 +11,7 @@ from helpers.entries import complete
 from common import heights_table, limits_table
 from common.config import load
 from common.config.campaigns import LimitCampaign
-from limits import calibrate_limits
+from limits import calibrate_limits, comparisons
 from stickiness import datasets
 from stickiness.remaining import calibration
 
@@ -102,7 +102,7 @@ def test_limits_of_balls_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrat
 
 
 def test_states_tell_shares_within_their_limits_however_little_remains():
-    heights = calibrate_limits.add_roles(heights_table.read(ROOT / "config/heights.csv"))
+    heights = comparisons.add_roles(heights_table.read(ROOT / "config/heights.csv"))
     rows = heights[(heights.window == 4) & (heights.role == "unseen")]
     error = calibration.find_spread("states", "share").high
     is_inside = calibrate_limits.find_share_error(rows) <= error
@@ -113,8 +113,8 @@ def test_states_tell_shares_within_their_limits_however_little_remains():
 
 def test_limits_of_pull_offs_hold_nine_in_ten_of_what_nothing_was_fitted_to():
     table = limits_table.read(ROOT / "config/pull_offs.csv", "pull_offs")
-    _, rows = calibrate_limits.fit_pull_offs(table)
-    unseen = rows[rows.role == "unseen"]
+    _, fitted = calibrate_limits.fit_pull_offs(table)
+    unseen = fitted.rows.assign(error=fitted.error).query("role == 'unseen'")
     spread = calibration.find_spread("states", "ln_tension")
     is_inside = unseen.error.between(spread.low, spread.high)
     # Limits are those of shorter ranges than the states have.

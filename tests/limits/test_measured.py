@@ -14,6 +14,7 @@ from common.model_surfaces import cell_size, make_heights
 from common.topographies import make_set
 from limits import (
     calibrate_limits,
+    comparisons,
     measure_balls,
     measure_larger,
     measure_patches,
@@ -245,10 +246,9 @@ def test_what_is_calibrated_is_what_a_verdict_says(pull_offs):
     rough = measure_pull_offs.judge_states(states, pixel=np.pi / 8)
     spread = find_spread("states", "ln_tension")
     shortening = find_spread("states", "shortening")
-    error = calibrate_limits.find_tension_error(pull_offs, shortening.value)
-    lengths = pull_offs.adhesion_length.values
-    said = rough.tension(lengths, pull_offs.range.values)
-    expected = pull_offs.pull_off.values * np.exp(spread.value - error.values)
+    calibrated = comparisons.of_pull_offs(pull_offs, shortening.value)
+    said = rough.tension(*calibrated.rows[["adhesion_length", "range"]].values.T)
+    expected = np.exp(calibrated.simulated + spread.value - calibrated.error)
     # At a work that was simulated, rounding decides which of two ranges bounds the share.
     np.testing.assert_allclose(said, expected, rtol=0.02)
 
@@ -262,10 +262,10 @@ def test_exponents_and_errors_of_pull_offs_are_found():
     rows["pull_off"] = 0.1 * 0.2 / (2.0 * np.sqrt(rows.range_ratio)) * factor
     shortening, fitted = calibrate_limits.fit_pull_offs(rows)
     assert shortening[0] == pytest.approx(0.5, abs=0.01)
-    assert fitted.error.abs().values == pytest.approx(np.log(1.1), abs=0.02)
+    assert abs(fitted.error) == pytest.approx(np.log(1.1), abs=0.02)
     full = rows.assign(energy_ratio=2.0)
     _, fitted = calibrate_limits.fit_pull_offs(pd.concat([rows, full]))
-    assert len(fitted) == len(rows)  # full contact is left out
+    assert len(fitted.rows) == len(rows)  # full contact is left out
 
 
 def test_works_are_those_of_the_states_and_between():

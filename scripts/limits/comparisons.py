@@ -1,0 +1,366 @@
+"""What is predicted beside what was simulated, row by row of the committed tables.
+
+Limits are calibrated on these comparisons, and the page of validation says how well they hold.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Self
+
+import numpy as np
+import pandas as pd
+from numpy.typing import ArrayLike, NDArray
+
+from common import heights_table, limits_table, remaining_table
+from common.conventions import Q0
+from limits.measure_balls import make_ball
+from stickiness.entries.material import Material
+from stickiness.limited import Limited
+from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.height_shape import find_height_shape
+from stickiness.remaining.roughness import CELLS, PULL_OFF_KNOWN, Roughness
+from stickiness.remaining.trial_states import DEFAULT_SHARE
+from stickiness.verdicts.longer_waves import find_unlikeness, weigh_larger
+from stickiness.verdicts.pair_roughness import combine_roughness
+from stickiness.verdicts.rough_ball import BallContact, find_contact
+from stickiness.verdicts.rough_surface import Surface
+
+#: Fields of `Roughness` of which rows may tell, but for the elastic energy.
+MODELLED = (
+    *("q1", "rms_slope", "waves", "shape", "shape_error"),
+    *("relative_compliance", "flow", "half_space_energy", "is_skin"),
+)
+#: Half-widths of limits that are tried, in ln w.
+HALF_WIDTHS = np.linspace(0.0, 3.0, 601)
+NEXT_TO_NOTHING = 0.01  # share, below which an error is absolute
+LEAST_SHARE = 0.02  # of which ratios of pull-offs and works are taken
+LEAST_LACKING = 0.02  # energy, over that of the others
+LEAST_LOST = 1e-3  # ln of what roughness takes from the force, of weights
+BALL_RANGE = 3e-10  # m
+BALL_WORK = 0.05  # J/m^2
+ROUNDING = 1e-4  # of shares: tolerance of simulations, rounding of tables
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Predictions of one kind beside simulations.
+
+    The rows have their `role`, what was `simulated`, and the `value` predicted, with its limits
+    `low` and `high` if it has some without the error that is calibrated. That one is in a `unit`.
+    """
+
+    source: str  # committed table
+    kind: str  # of prediction, as of `find_spread`
+    quantity: str  # whose error is calibrated, as of `find_spread`
+    rows: pd.DataFrame
+
+    def where(self, chosen) -> Self:
+        """The same in some rows."""
+        return replace(self, rows=self.rows[chosen])
+
+    def column(self, name: str, otherwise: ArrayLike) -> NDArray:
+        """A column of the rows, or what stands for it where there is none."""
+        return np.broadcast_to(self.rows.get(name, otherwise), len(self.rows))
+
+    @property
+    def simulated(self) -> NDArray:
+        """What was simulated."""
+        return self.rows.simulated.to_numpy()
+
+    @property
+    def unit(self) -> NDArray:
+        """What the error goes with."""
+        return self.column("unit", otherwise=1.0)
+
+    @property
+    def predicted(self) -> Limited[NDArray]:
+        """Value and limits without the error that is calibrated."""
+        value = self.rows.value.to_numpy()
+        return Limited(value, self.column("low", value), self.column("high", value))
+
+    @property
+    def error(self) -> NDArray:
+        """What simulations exceed predictions by, in the unit of the error."""
+        return (self.simulated - self.predicted.value) / self.unit + 0.0  # 0 rather than -0
+
+    @property
+    def needed(self) -> NDArray:
+        """Half-width with which limits hold what was simulated."""
+        return np.abs(self.simulated - self.predicted.value)
+
+    @property
+    def half_width(self) -> NDArray:
+        """Half-width of the limits without the error, on the side of what was simulated."""
+        value, low, high = self.predicted
+        return np.where(self.simulated > value, high - value, value - low)
+
+    def limit(self, spread: Limited[float]) -> Limited[NDArray]:
+        """Value and limits with an error, which adds in quadrature."""
+        value, low, high = self.predicted
+        below, above = np.sort([spread.low * self.unit, spread.high * self.unit], axis=0)
+        return Limited(
+            value=value + spread.value * self.unit,
+            low=value - np.hypot(value - low, below),
+            high=value + np.hypot(high - value, above),
+        )
+
+    @property
+    def limits(self) -> Limited[NDArray]:
+        """Value and limits with the error as it is calibrated."""
+        return self.limit(find_spread(self.kind, self.quantity))
+
+
+@dataclass(frozen=True)
+class ShareByTheory(Comparison):
+    """Shares by the spectrum of which the rows tell; their error is one of ln w."""
+
+    @cached_property
+    def needed(self) -> NDArray:
+        """Least half-width in ln w, up to the largest tried, with which limits hold the share."""
+        share = model(self.rows).share
+        low, high = (predict(share, self.rows, sign, error=HALF_WIDTHS) for sign in (-1, 1))
+        simulated = self.simulated[:, None]
+        holds = (low - ROUNDING <= simulated) & (simulated <= high + ROUNDING)
+        return np.where(holds.any(axis=1), HALF_WIDTHS[holds.argmax(axis=1)], HALF_WIDTHS[-1])
+
+    @property
+    def limits(self) -> Limited[NDArray]:
+        """Value and limits as the library gives them, with all errors."""
+        return find_limits(model(self.rows).share, self.rows)
+
+
+def read_tables(paths) -> dict[str, pd.DataFrame]:
+    """Read committed tables, by their names, with the role of every row."""
+    tables = {Path(path).stem: path for path in paths}
+    remaining = remaining_table.read(tables["remaining"])
+    role = np.where(remaining.held, "unseen", "fitted")
+    return {
+        "heights": add_roles(heights_table.read(tables["heights"])),
+        "remaining": remaining.assign(role=role, simulated=remaining.bound),
+        **{kind: limits_table.read(tables[kind], kind) for kind in limits_table.COLUMNS},
+    }
+
+
+def add_roles(heights):
+    """Add which sets are fitted: every second pair, since cells of two sizes alternate."""
+    order = {name: place for place, name in enumerate(heights["set"].unique())}
+    is_fitted = heights["set"].map(order) // 2 % 2 == 0
+    return heights.assign(role=np.where(is_fitted, "fitted", "unseen")).dropna(subset="simulated")
+
+
+def predict(quantity, rows, *deviation, **given):
+    """Predict a number of every row, in a column, by a method of `Roughness`."""
+    lengths = rows.adhesion_length.to_numpy()[:, None]
+    return quantity(lengths, rows.range.to_numpy()[:, None], *deviation, **given)
+
+
+def find_limits(quantity, rows):
+    """Value and limits of rows by a method of `Roughness`."""
+    return Limited(*(predict(quantity, rows, deviation)[:, 0] for deviation in (0, -1, 1)))
+
+
+def model(rows):
+    """`Roughness` of which rows tell, in columns."""
+    known = {name: rows[name].to_numpy()[:, None] for name in MODELLED if name in rows}
+    energy = rows.full_contact_energy.to_numpy()[:, None]
+    return Roughness(h_rms=1.0, q0=Q0, elastic_energy=energy, **known)
+
+
+def add_waves(rows):
+    """Add the finest waves, and how many of the longest a cell has: few are one realisation."""
+    return rows.assign(q1=Q0 * rows.magnification, waves=rows.window.astype(float))
+
+
+def find_gaussian(heights, window):
+    """Rows on Gaussian heights in cells of so many of the longest waves along a side."""
+    return heights[(heights.kind == heights_table.GAUSSIAN) & (heights.window == window)]
+
+
+def of_heights(rows, source="heights.csv"):
+    """Shares by the spectrum alone, on heights in cells of one size."""
+    (window,) = rows.window.unique()
+    return ShareByTheory(source, CELLS[window], "ln_work", add_waves(rows))
+
+
+def of_weak(heights):
+    """Shares by the spectrum where next to nothing remains; the error fades with the adhesion."""
+    rows = find_gaussian(heights, window=4)
+    rows = rows[rows.theory < NEXT_TO_NOTHING]
+    onset = predict(model(add_waves(rows)).onset, rows)[:, 0]
+    fading = np.minimum(rows.energy_ratio / onset, 1.0) ** 2
+    rows = rows.assign(value=rows.theory, unit=fading)
+    return Comparison("heights.csv", "spectrum", "share", rows)
+
+
+def of_skewed(heights):
+    """Shares by the spectrum and the skewness, whose error goes with the ln of its factor."""
+    rows = heights[(heights.kind != heights_table.GAUSSIAN) & (heights.window == 4)]
+    shape, error = np.transpose([find_height_shape(skewness) for skewness in rows.skewness])
+    rows = add_waves(rows).assign(shape=shape, shape_error=error, unit=np.abs(shape))
+    return ShareByTheory("heights.csv", "skewness", "ln_work", rows)
+
+
+def of_solids(solids):
+    """Shares by the spectrum on every kind of solids.
+
+    The error goes with the distance from a half-space, as `Roughness` takes it.
+    """
+    for kind, rows in solids.dropna(subset="simulated").groupby("kind"):
+        compliance_lost = np.maximum(1 - rows.relative_compliance, 0.0)
+        weights = {
+            "film": np.ones(len(rows)),
+            "layer": compliance_lost * (1 - rows.flow),
+            "thin": rows.flow,
+            "skin": compliance_lost,
+        }
+        rows = rows.assign(
+            half_space_energy=rows.half_space_energy.where(rows.kind != "film"),
+            is_skin=rows.kind == "skin",
+            unit=weights[kind],
+        )
+        yield ShareByTheory("solids.csv", kind, "ln_work", rows)
+
+
+def of_paths(remaining):
+    """Pull-off, and works of making and breaking contact, by the energy gained; logarithms."""
+    rows = remaining[(remaining.window >= 2) & (remaining.bound > LEAST_SHARE)]
+    rows = rows.dropna(subset=["approach", "separation", "pull_off"])
+    # The theory's distance over which the work acts, beside the simulated one.
+    distance = predict(model(add_waves(rows)).distance, rows)[:, 0]
+    quantities = {
+        "ln_tension": (rows.pull_off, rows.adhesion_length * rows.bound / distance),
+        "ln_approach": (rows.approach, rows.bound),
+        "ln_separation": (rows.separation, rows.bound),
+    }
+    for quantity, (simulated, predicted) in quantities.items():
+        rows = rows.assign(simulated=np.log(simulated), value=np.log(predicted))
+        yield Comparison("remaining.csv", "spectrum", quantity, rows)
+
+
+def of_states(heights):
+    """Shares by states simulated on the same heights, with limits of another place."""
+    rows = heights.assign(value=heights.states, low=heights.states_low, high=heights.states_high)
+    return Comparison("heights.csv", "states", "share", rows)
+
+
+def of_ranges(ranges):
+    """Shares at short ranges, above the bound by the states; up to the chord there is room."""
+    rows = ranges.dropna(subset="simulated")
+    room = np.maximum(rows.chord - rows.bound, 0.0)
+    rise = rows.energy_ratio * np.maximum(1 - rows.range_ratio, 0.0) ** 2
+    rows = rows.assign(value=rows.bound, unit=room * rise)
+    return Comparison("ranges.csv", "states", "place", rows)
+
+
+def of_unresolved(unresolved, shares):
+    """Thresholds of shares on thinned grids for the full ones, in ln w beyond what lacks.
+
+    The error goes with the root of the logarithm of the energy and the cube of what is lost.
+    """
+    parts = []
+    for ending, share in shares.items():
+        part = unresolved.dropna(subset=[f"thinned_{ending}", f"full_{ending}"])
+        part = part[part.lacking > LEAST_LACKING]
+        unit = -np.sqrt(np.log1p(part.lacking)) * (1 - share) ** 3
+        thresholds = {"value": part[f"thinned_{ending}"], "simulated": part[f"full_{ending}"]}
+        parts.append(part.assign(unit=unit, **thresholds))
+    return Comparison("unresolved.csv", "states", "unresolved", pd.concat(parts))
+
+
+def of_pull_offs(pull_offs, exponent):
+    """Logarithms of pull-offs by states whose distance shortens by an exponent.
+
+    Rows are left out where next to nothing remains, and where contact is full: there the strength
+    of the law bounds the pull-off.
+    """
+    rows = pull_offs.dropna(subset="pull_off")
+    rows = rows[(rows.path_share > LEAST_SHARE) & (rows.energy_ratio < PULL_OFF_KNOWN)]
+    distance = rows.distance * rows.range_ratio**exponent
+    predicted = np.log(rows.adhesion_length * rows.share / distance)
+    rows = rows.assign(simulated=np.log(rows.pull_off), value=predicted)
+    return Comparison("pull_offs.csv", "states", "ln_tension", rows)
+
+
+def of_patches(patches, least):
+    """Thresholds of maps for the surface that they were cut from.
+
+    The error is a least one, in quadrature with one that goes with the rms distance of the
+    thresholds of the quarters from that of the patch.
+    """
+    rows = patches.dropna(subset=["threshold_10", "whole_threshold_10"])
+    value = rows.threshold_10
+    quarters = rows[[f"q{number}_10" for number in (1, 2, 3, 4)]]
+    distance = np.sqrt((quarters.sub(value, axis=0) ** 2).mean(axis=1))
+    limited = {"value": value, "low": value - least, "high": value + least}
+    rows = rows.assign(simulated=rows.whole_threshold_10, unit=distance, **limited)
+    return Comparison("patches.csv", "patch", "ln_work", rows)
+
+
+def of_larger(larger):
+    """Thresholds of scans for larger contacts; the error goes with the root of the doublings."""
+    rows = larger.dropna(subset=["value_10", "whole_threshold_10"])
+    rows = rows.assign(
+        simulated=rows.whole_threshold_10,
+        value=rows.value_10,
+        low=rows.low_10,
+        high=rows.high_10,
+        unit=weigh_larger(rows.parts),
+        unlike=find_unlikeness(rows.unevenness, rows["shape"]),
+    )
+    return Comparison("larger.csv", "larger", "ln_work", rows)
+
+
+def of_unlike(scans, of_gaussian):
+    """The same with the error of Gaussian heights, and what others add as they are unlike these."""
+    limited = scans.limit(of_gaussian)._asdict()
+    rows = scans.rows.assign(**limited, unit=scans.rows.unit * scans.rows.unlike)
+    return replace(scans, kind="larger non-Gaussian", rows=rows)
+
+
+def of_balls(balls, summits):
+    """Logarithms of forces of balls, with so many independent heights in a zone one wave wide.
+
+    Their error goes with the root of ln of the factor that roughness takes from the force.
+    """
+    groups = balls.groupby(["set", "waves", "height"])
+    rows = pd.concat([rows.assign(**predict_force(rows.iloc[0], summits)) for _, rows in groups])
+    logarithms = np.log(rows[["simulated", *Limited._fields]])
+    lost = np.maximum(-logarithms.value, LEAST_LOST)
+    return Comparison(
+        "balls.csv", "ball", "ln_force", rows.assign(**logarithms, unit=np.sqrt(lost))
+    )
+
+
+def predict_force(row, summits):
+    """Value and limits of the force of a ball over that of a smooth one, without the place's error.
+
+    The surface is a user's who knows its spectrum, and the skewness of its heights.
+    """
+    zone = BALL_RANGE / make_ball(row.law, row.tabor).law.range
+    ball = make_ball(row.law, row.tabor, zone)
+    rough = Surface.from_spectrum(ball.rough(row.waves, row.height, row.shortest, row.hurst))
+    shape, shape_error = find_height_shape(row.skewness)
+    surface = Surface(rough.data.assign(shape=shape, shape_error=shape_error))
+    material = Material(
+        youngs_modulus=BALL_WORK / ball.law.adhesion_length,
+        poisson_ratio=0.0,
+        work_of_adhesion=BALL_WORK,
+        range=BALL_RANGE,
+        law=row.law,
+    )
+    whole = combine_roughness(material, surface)
+    contact = find_contact(
+        BallContact(whole, material, surface, ball.radius, summits=summits, error=0.0)
+    )
+    low, value, high = np.divide(contact.force, contact.smooth_force)
+    return {"value": value, "low": low, "high": high}
+
+
+def judge_shares(limits, simulated):
+    """Mean width of limits of shares, share of decided pairs, and number of false decisions."""
+    low_sticks = limits.low >= DEFAULT_SHARE
+    high_fails = limits.high < DEFAULT_SHARE
+    sticks = simulated >= DEFAULT_SHARE
+    is_false = (low_sticks & ~sticks) | (high_fails & sticks)
+    return np.mean(limits.high - limits.low), np.mean(low_sticks | high_fails), is_false.sum()
