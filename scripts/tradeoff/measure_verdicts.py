@@ -10,23 +10,16 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
-from scipy.special import erfinv
 
 import stickiness
 from common.conventions import annotate
 from common.job import start
 from common.topographies import make_set
-from stickiness import datasets, repulsive, surface
+from stickiness import datasets, surface
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.remaining.height_simulation import (
-    ADHESION_TOLERANCE,
-    CONTACT_AREAS,
-    CONTACT_TOLERANCE,
-    simulate_standard,
-)
+from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, press, simulate_standard
 from stickiness.remaining.standard_heights import standardise
 from stickiness.remaining.zero_load import share_at_zero_load
-from stickiness.repulsive.half_space import measure_slope
 from stickiness.traction_laws import LAWS
 from stickiness.verdicts.simulated_surface import tabulate_simulated
 from tradeoff.measuring import time_task
@@ -140,10 +133,7 @@ def judge_pairs(wall, pairs, of_pairs, way, points, seconds):
 def press_parts(standard):
     """Press the map and its quarters without adhesion, as their states do."""
     for part in (standard.whole, *standard.quarters):
-        heights = part.mirrored
-        slope = measure_slope(heights, part.mirrored_sides)
-        loads = slope * erfinv(CONTACT_AREAS) / np.sqrt(2)
-        for _ in repulsive.load_path(heights, part.mirrored_sides, loads, tol=CONTACT_TOLERANCE):
+        for _ in press(part.mirrored, part.mirrored_sides):
             pass
 
 

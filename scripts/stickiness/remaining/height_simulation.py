@@ -137,7 +137,7 @@ def find_trial_states(
     h_rms = float(np.std(heights))
     # Surfaces that touch at the summit, and contact without adhesion up to full contact.
     counted = [_count_gaps(0.0, heights.max() - heights, h_rms)]
-    counted += _press(heights, sides, solid, h_rms)
+    counted += [_count_contact(each, heights, h_rms) for each in press(heights, sides, solid)]
     energy = full_contact_energy(heights, 1.0, sides, solid, edges="given")
     counted.append(_count_gaps(energy, np.zeros(heights.shape), h_rms))
     without_adhesion = len(counted)
@@ -265,10 +265,10 @@ def _count_gaps(elastic_energy: float, gap: NDArray, h_rms: float) -> _CountedSt
     return _CountedState(elastic_energy, counts / gap.size, sums / np.maximum(counts, 1))
 
 
-def _press(
-    heights: NDArray, sides: tuple[float, float], solid: Solid, h_rms: float
-) -> Iterator[_CountedState]:
-    """States of contact without adhesion."""
+def press(
+    heights: NDArray, sides: tuple[float, float], solid: Solid = HALF_SPACE
+) -> Iterator[repulsive.Contact]:
+    """Contacts without adhesion at loads where, by theory, `CONTACT_AREAS` touch."""
     slope = measure_slope(heights, sides)
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches a half-space. Pressures on
     # another solid rise as those of full contact.
@@ -277,11 +277,14 @@ def _press(
         for each in (solid, HALF_SPACE)
     )
     loads = rms_pressure / on_half_space * slope * erfinv(CONTACT_AREAS) / np.sqrt(2)
-    contacts = repulsive.load_path(heights, sides, loads, tol=CONTACT_TOLERANCE, solid=solid)
-    for contact in contacts:
-        displacement = contact.gap + heights - contact.shift
-        elastic_energy = float(np.mean(contact.pressure * displacement)) / 2
-        yield _count_gaps(elastic_energy, contact.gap, h_rms)
+    return repulsive.load_path(heights, sides, loads, tol=CONTACT_TOLERANCE, solid=solid)
+
+
+def _count_contact(contact: repulsive.Contact, heights: NDArray, h_rms: float) -> _CountedState:
+    """Count the gaps of a contact without adhesion."""
+    displacement = contact.gap + heights - contact.shift
+    elastic_energy = float(np.mean(contact.pressure * displacement)) / 2
+    return _count_gaps(elastic_energy, contact.gap, h_rms)
 
 
 def _adhere(
