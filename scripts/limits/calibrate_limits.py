@@ -219,7 +219,7 @@ def find_resolved(balls):
 
 
 def calibrate_weak(heights):
-    """Theory of the spectrum where next to nothing remains, by fitted and unseen rows."""
+    """Theory of the spectrum where next to nothing remains, of few rows, fitted and unseen."""
     weak = comparisons.of_weak(heights)
     return describe(weak, symmetric(float(np.quantile(abs(weak.error), COVERAGE))))
 
@@ -274,6 +274,7 @@ def fit_pull_offs(pull_offs):
     """Spread of the exponent with which distances shorten, and pull-offs by its middle."""
     unshortened = comparisons.of_pull_offs(pull_offs, exponent=0.0)
     shorter = unshortened.where(unshortened.rows.range_ratio < 1)
+    # In the unit of -ln of the ratio of ranges, errors are exponents.
     exponents = shorter.rows.assign(unit=-np.log(shorter.rows.range_ratio))
     shortening = find_middle(replace(shorter, rows=exponents))
     return shortening, comparisons.of_pull_offs(pull_offs, shortening.value)
