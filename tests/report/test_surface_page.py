@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 import xarray as xr
-from bokeh.models import Div
+from bokeh.models import DataRange1d, Div
 from helpers.pages import Page, make_job
 
 from criteria import judge_surface
@@ -17,7 +17,7 @@ from stickiness.criteria.pair import NOT_JUDGED, STICKY, TOUCHES
 from stickiness.entries import check_material, check_surface, without_texts
 from stickiness.formatting import amount, in_unit, limited, number, with_error
 from stickiness.measured import topography
-from stickiness.pages import contact_figure, interactive, surface_figures
+from stickiness.pages import contact_figure, interactive, plotting, surface_figures
 from stickiness.pages.rows import describe_pair
 from stickiness.pages.surface_page import list_loads
 from stickiness.remaining.trial_states import DEFAULT_SHARE
@@ -444,6 +444,18 @@ def test_pressures_are_given_for_deep_and_smooth_solids(single, picture):
     assert all("±" in row[name] for row in rows for name in ("area", "gap"))
 
 
+def test_the_first_row_of_a_map_is_on_top():
+    heights = xr.DataArray(np.zeros((8, 4)), {"x": np.arange(8.0), "y": np.arange(4.0)})
+    heights[:, 0] = 1.0
+    with plotting.open_figure([], "A", 2) as panels:
+        surface_figures.draw_heights(panels["A"], heights)
+        bottom, top = panels["A"].get_ylim()
+        picture = panels["A"].images[0]
+    assert (bottom, top) == (3.0, 0.0)
+    assert picture.origin == "upper"
+    assert np.all(picture.get_array()[0] == 1.0)
+
+
 @pytest.mark.slow
 def test_both_figures_show_the_contact_and_the_curve(picture, tmp_path):
     contact, pull_off = picture
@@ -460,6 +472,7 @@ def test_both_figures_show_the_contact_and_the_curve(picture, tmp_path):
     np.testing.assert_allclose(shown, gaps, atol=0.002 * widest)
     drawn = interactive.draw_contact(contact, pull_off, list("abcdefgh"))
     assert drawn.select_one({"type": Div}).render_as_text  # "gel <soft>" is a label, not a tag
+    assert drawn.select_one({"type": DataRange1d, "flipped": True})  # the first row is on top
     slider = drawn.select_one({"name": "load"})
     assert (slider.start, slider.end) == (0, 7)
     curves, _, _, (lowest, highest) = contact_figure.follow_tension(pull_off)

@@ -32,7 +32,7 @@ def draw_still(contact, pull_off, output):
         maps = [panels[letter] for letter in "ABCD"]
         loads = np.linspace(1, len(codes) - 1, len(maps)).round().astype(int)
         look = {"cmap": ListedColormap([*GAPS, RED]), "vmin": 0, "vmax": CONTACT}
-        look |= {"extent": [0, width, 0, height], "origin": "lower", "interpolation": "nearest"}
+        look |= {"extent": [0, width, height, 0], "interpolation": "nearest"}
         for ax, index in zip(maps, loads, strict=True):
             ax.imshow(codes[index], **look)
             ax.set_title(f"{percent(contact.area_fraction[index])} contact", loc="right")

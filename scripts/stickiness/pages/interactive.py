@@ -185,7 +185,7 @@ def draw_map(contact, source, widest):
     plot = make_plot(
         # Of fixed ranges a narrow window changes the shape.
         x_range=models.DataRange1d(range_padding=0),
-        y_range=models.DataRange1d(range_padding=0),
+        y_range=models.DataRange1d(range_padding=0, flipped=True),
         match_aspect=True,
         sizing_mode="scale_width",
         aspect_ratio=max(width / height, 0.3) * 0.86,

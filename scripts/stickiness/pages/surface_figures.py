@@ -60,12 +60,11 @@ def draw_as_read(ax: Axes, surface: xr.Dataset) -> None:
     """Draw a map as it was read, with what is not used."""
     before = surface.heights_as_read.values
     per_h, unit = unit_for(np.nanmax(np.abs(before)), "m")
-    look: dict[str, Any] = {"origin": "lower", "interpolation": "nearest"}
     ax.set_facecolor(GREY)  # seen where points are missing
-    image = ax.imshow(before.T * per_h, cmap="cividis", **look)
+    image = ax.imshow(before.T * per_h, cmap="cividis", interpolation="nearest")
     ax.figure.colorbar(image, ax=ax, label=f"height [{unit}]", shrink=0.8)
     unused = np.ma.masked_equal(surface.unused.values.T, 0)
-    ax.imshow(unused, cmap=ListedColormap([COLOURS[1]]), **look)
+    ax.imshow(unused, cmap=ListedColormap([COLOURS[1]]), interpolation="nearest")
     ax.set(xticks=[], yticks=[], title="as read")
 
 
@@ -77,7 +76,10 @@ def draw_as_used(ax: Axes, surface: xr.Dataset) -> None:
 
 
 def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
-    """Levelled heights, as colours or as a profile, in units that suit them."""
+    """Levelled heights, as colours or as a profile, in units that suit them.
+
+    The first row of a map is on top, as programs of instruments show it.
+    """
     per_x, unit_x = unit_for(max(float(heights[axis][-1]) for axis in heights.dims), "m")
     low, high = np.percentile(heights, [0.2, 99.8])  # a few outliers must not take all the colours
     per_h, unit_h = unit_for(max(abs(low), abs(high)), "m")
@@ -91,8 +93,7 @@ def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
         cmap="cividis",
         vmin=low * per_h,
         vmax=high * per_h,
-        origin="lower",
-        extent=(0, float(heights.x[-1]) * per_x, 0, float(heights.y[-1]) * per_x),
+        extent=(0, float(heights.x[-1]) * per_x, float(heights.y[-1]) * per_x, 0),
         interpolation="nearest",
     )
     ax.figure.colorbar(image, ax=ax, label=f"height [{unit_h}]", shrink=0.8)
