@@ -19,10 +19,12 @@ LABELS = {
     "patch": "map",
     "larger": "larger contact",
     "larger non-Gaussian": "not Gaussian",
-    "ball": "ball",
+    "ball": r"ball: $\sqrt{\ln(F_0/F)}$",
 }
 LEAST = 0.01  # error of ln w that is shown, of those that are smaller
+HIGHEST = 8  # above all errors
 SPREAD = 0.28  # half the width of a column of points
+MOST = 200  # points of a kind that are drawn, chosen at random; numbers are those of all
 ERROR = r"error of $\ln w$"
 
 
@@ -39,15 +41,17 @@ def draw_kinds(ax, unseen):
     rng = np.random.default_rng(1)
     for place, kind in enumerate(LABELS):
         rows = unseen[unseen.kind == kind]
-        x = place + rng.uniform(-SPREAD, SPREAD, len(rows))
         is_inside = rows.needed <= rows.limit
-        draw_errors(ax, x, rows.needed, is_inside)
+        drawn = rows.sample(min(MOST, len(rows)), random_state=1)
+        x = place + rng.uniform(-SPREAD, SPREAD, len(drawn))
+        draw_errors(ax, x, drawn.needed, drawn.needed <= drawn.limit)
         low, middle, high = np.quantile(rows.limit, (0.25, 0.5, 0.75))
         ax.bar(place, high - low, 0.8, bottom=low, color=GREY, alpha=0.35, linewidth=0)
         ax.plot([place - 0.4, place + 0.4], [middle, middle], color="black")
-        ax.text(place, 5, f"{100 * is_inside.mean():.0f}", ha="center", va="top", fontsize=7)
-    ax.text(len(LABELS) - 0.4, 5, " % inside", ha="left", va="top", fontsize=7)
-    ax.set(yscale="log", ylim=(LEAST / 1.3, 6), xlim=(-0.7, len(LABELS) + 1.7), ylabel=ERROR)
+        ax.text(place, HIGHEST, f"{100 * is_inside.mean():.0f}", ha="center", fontsize=7)
+    ax.text(len(LABELS) - 0.4, HIGHEST, " % inside", ha="left", fontsize=7)
+    limits = {"ylim": (LEAST / 1.3, 2 * HIGHEST), "xlim": (-0.7, len(LABELS) + 2.1)}
+    ax.set(yscale="log", ylabel=ERROR, **limits)
     look = {"fontsize": 7, "rotation": 40, "ha": "right", "rotation_mode": "anchor"}
     ax.set_xticks(range(len(LABELS)), LABELS.values(), **look)
 
@@ -57,7 +61,7 @@ def draw_patches(ax, rows):
     draw_errors(ax, rows.weight, rows.needed, rows.needed <= rows.limit)
     order = np.argsort(rows.weight)
     ax.plot(rows.weight.iloc[order], rows.limit.iloc[order], color="black", label="limit of 90 %")
-    ax.set(xscale="log", yscale="log", ylim=(LEAST / 1.3, 6), ylabel=ERROR)
+    ax.set(xscale="log", yscale="log", ylim=(LEAST / 1.3, 2 * HIGHEST), ylabel=ERROR)
     ax.set_xlabel(r"rms distance of the quarters in $\ln w$")
     ax.legend(loc="upper left")
 
