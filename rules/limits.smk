@@ -13,6 +13,12 @@ wildcard_constraints:
     limits_set=choices(name for sets in SIMULATED_SETS.values() for name in sets),
 
 
+def setting_of(wildcards):
+    """What one set is: what a further seed leaves as it is."""
+    simulated = SIMULATED_SETS[wildcards.limits_kind][wildcards.limits_set]
+    return {key: value for key, value in simulated.items() if key != "seeds"}
+
+
 def campaign_of(wildcards):
     """What is common to all sets of one kind."""
     campaign = LIMIT_CAMPAIGN[wildcards.limits_kind]
@@ -22,7 +28,7 @@ def campaign_of(wildcards):
 
 rule measure_limits:
     output:
-        f"{LIMITS}/{{limits_kind}}/{{limits_set}}/seed{{seed}}.csv",
+        f"{LIMITS}/{{limits_kind}}/{{limits_set}}/seed{{seed}}.nc",
     log:
         f"{LIMITS}/logs/measure_limits/{{limits_kind}}/{{limits_set}}/seed{{seed}}.log",
     benchmark:
@@ -33,7 +39,7 @@ rule measure_limits:
         mem_mb=2000,
         runtime=30,
     params:
-        setting=lambda wildcards: SIMULATED_SETS[wildcards.limits_kind][wildcards.limits_set],
+        setting=setting_of,
         campaign=campaign_of,
         code=lambda wildcards: source_hash(f"limits/measure_{wildcards.limits_kind}.py"),
     message:
@@ -46,7 +52,7 @@ def simulated_files(wildcards):
     """Files of all sets of one kind."""
     kind = wildcards.limits_kind
     return [
-        f"{LIMITS}/{kind}/{name}/seed{seed}.csv"
+        f"{LIMITS}/{kind}/{name}/seed{seed}.nc"
         for name, simulated in SIMULATED_SETS[kind].items()
         for seed in simulated["seeds"]
     ]

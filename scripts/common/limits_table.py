@@ -110,6 +110,20 @@ Shares are over the work of adhesion, lengths over h_rms, wave numbers over q0, 
 1/q0, energies and adhesion lengths over q0 h_rms^2."""
 
 
+def make_dataset(rows, kind):
+    """Rows of one kind as a dataset; what they do not tell of is empty, or not a number."""
+    rows = rows.reindex(columns=COLUMNS[kind])
+    texts = rows.select_dtypes(exclude="number").columns
+    dataset = rows.fillna(dict.fromkeys(texts, "")).rename_axis("row").to_xarray()
+    for name in dataset.variables:
+        dataset[name].attrs = {
+            "long_name": f"{name}, as the head of config/{kind}.csv explains it",
+            "units": "1",
+            "nan_means": "not known, or none",
+        }
+    return dataset
+
+
 def describe(kind, version):
     """Comment at the head of a table."""
     origin = (

@@ -1,6 +1,6 @@
 """Table of what the simulations of one kind found, a row each, behind the limits of verdicts."""
 
-from pathlib import Path
+import pandas as pd
 
 from common import limits_table
 from common.job import start
@@ -8,12 +8,13 @@ from stickiness import __version__, datasets
 
 
 def main(job):
-    parts = [Path(path).read_text(encoding="utf-8").partition("\n") for path in job.input]
-    head = limits_table.describe(job.wildcards.limits_kind, __version__)
-    names, newline, _ = parts[0]
+    kind = job.wildcards.limits_kind
+    columns = list(limits_table.COLUMNS[kind])
+    frame = pd.concat([datasets.read(path, columns).to_dataframe() for path in job.input])
+    head = limits_table.describe(kind, __version__)
+    table = frame.to_csv(columns=columns, index=False, float_format="%.6g", lineterminator="\n")
     with datasets.whole_file(job.output[0]) as path:
-        rows = "".join(rows for _, _, rows in parts)
-        path.write_text(f"{head}{names}{newline}{rows}", encoding="utf-8")
+        path.write_text(head + table, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -67,7 +67,7 @@ def tabulate(folder, kind, script, settings, **campaign):
     for number, setting in enumerate(settings):
         seed = str(setting["seeds"][0])
         wildcards = {"limits_kind": kind, "limits_set": f"set_{number}", "seed": seed}
-        paths.append(folder / kind / f"set_{number}" / f"seed{seed}.csv")
+        paths.append(folder / kind / f"set_{number}" / f"seed{seed}.nc")
         params = {"setting": setting, "campaign": campaign}
         script.main(make_job(paths[-1], params, wildcards))
     output = folder / f"{kind}.csv"
