@@ -73,8 +73,8 @@ def answer() -> None:
             fail(f"{path}: {kind}; give a file" if path.exists() else f"{path}: no such file")
     if not options.no_page:
         check_output(options.output)
-    radius = None if options.radius is None else read_radius(options.radius)
     materials = read_materials(options)
+    radius = None if options.radius is None else read_radius(options.radius, materials)
     surface, entry = analyse(options)
     verdicts = judge(materials, surface, with_page=not options.no_page)
     balls = find_balls(surface, materials, radius)
@@ -193,9 +193,10 @@ def describe_version() -> str:
     return f"stickiness {__version__} (Python {platform.python_version()}, {codes}; {system})"
 
 
-def read_radius(text: str) -> float:
-    """Return the radius of `--radius` in m."""
+def read_radius(text: str, materials: dict[str, Any]) -> float:
+    """Return the radius of `--radius` in m, of a ball on these materials."""
     from stickiness.units import Quantity
+    from stickiness.verdicts.rough_ball import check_ball
 
     try:
         radius = float(Quantity.read(text, "m"))
@@ -203,6 +204,11 @@ def read_radius(text: str) -> float:
         fail(f"--radius {error}")
     if not radius > 0:
         fail(f"--radius {text!r}: must be positive")
+    try:
+        for material in materials.values():
+            check_ball(material, radius)
+    except ValueError as error:
+        fail(f"--{error}")
     return radius
 
 
@@ -313,10 +319,7 @@ def find_balls(surface: Any, materials: dict[str, Any], radius: float | None) ->
 
     if radius is None:
         return [None] * len(materials)
-    try:
-        return [pull_off_of_ball(surface, material, radius) for material in materials.values()]
-    except ValueError as error:
-        fail(f"--{error}")
+    return [pull_off_of_ball(surface, material, radius) for material in materials.values()]
 
 
 def print_verdicts(verdicts: Any, balls: list, as_json: bool) -> None:

@@ -264,6 +264,11 @@ def test_another_tape_replaces_the_page(folder, first):
             "--length '1,500 um': holds a comma, where",
         ),
         (["wall#1.npy", *TAPE, "--radius", "2,5 mm"], "--radius '2,5 mm' holds a comma, where"),
+        # Known before the heights are read, whose size is unknown.
+        (
+            ["wall#1.npy", *TAPE, "--thickness", "50 um", "--radius", "1 mm"],
+            "--radius: the force of a ball needs an infinitely deep material",
+        ),
         (["wall#1.npy", *TAPE, "--max-missing", "-.2"], "--max-missing -0.2: "),
         (
             ["wall#1.npy", *TAPE, "--max-missing", "10 %"],

@@ -101,13 +101,7 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
     ValueError
         If the radius is not positive, or the material is a layer or has a skin or a dwell.
     """
-    number("radius", radius)
-    if material.solid != HALF_SPACE or material.dwell is not None:
-        raise ValueError(
-            "radius: the force of a ball needs an infinitely deep material: leave out thickness, "
-            "skin and dwell"
-        )
-
+    check_ball(material, radius)
     whole = BallContact(
         rough=combine_roughness(material, surface),
         material=material,
@@ -129,6 +123,16 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
         waves=contact.zone * float(np.asarray(whole.rough.scenarios.ends.q0)[ROUGH]) / (2 * np.pi),
         not_judged=doubt,
     )
+
+
+def check_ball(material: Material, radius: float) -> None:
+    """Raise ValueError unless the force of a ball on this material can be predicted."""
+    number("radius", radius)
+    if material.solid != HALF_SPACE or material.dwell is not None:
+        raise ValueError(
+            "radius: the force of a ball needs an infinitely deep material: leave out thickness, "
+            "skin and dwell"
+        )
 
 
 @dataclass(frozen=True)
