@@ -35,6 +35,7 @@ SERIES = {"equilibrium": "10 kPa", "terms": [["100 GPa", "1 ms"]]}
 GEL = {"label": "gel <soft>", "youngs_modulus_prony": SERIES, "poisson_ratio": 0.5}
 GEL |= {"work_of_adhesion": "50 mJ/m^2", "range": "0.3 nm"}
 MATERIALS = {"gel": check_material(GEL), "steel": check_material(STEEL)}
+STEEL_ALONE = {"steel": MATERIALS["steel"]}
 TAPE = check_material(STEEL | {"label": "soft tape", "plane_strain_modulus": "1 MPa"})
 WALL = {"kind": "self_affine", "hurst": 0.8, "shortest_wavelength": "1 um"}
 
@@ -68,11 +69,11 @@ def judge_data(data, materials=MATERIALS):
     """Verdicts of all materials on one surface, of which some materials are, too."""
     plate = {"plate": Surface(data)}
     solids = {name: Material.from_entry(entry, plate) for name, entry in materials.items()}
-    return judge(solids, plate).sel(surface="plate")
+    return judge(solids, plate, curves=False, thresholds=False).sel(surface="plate")
 
 
-def write_page(analysed, folder, materials=MATERIALS, **pictures):
-    """The page of an analysed surface, by the rules that judge it and write it."""
+def judge_by_rule(analysed, folder, materials):
+    """Files of an analysed surface and of its verdicts, by their names as inputs of rules."""
     surface_file = str(folder / "plate.nc")
     datasets.write(analysed.data, surface_file, title="a", parameters={"surface": "plate"})
     verdicts = str(folder / "verdicts.nc")
@@ -86,7 +87,12 @@ def write_page(analysed, folder, materials=MATERIALS, **pictures):
             label=analysed.entry["label"],
         )
     )
-    inputs = {"surface": surface_file, "verdicts": verdicts, **pictures}
+    return {"surface": surface_file, "verdicts": verdicts}
+
+
+def write_page(analysed, folder, materials=MATERIALS, judged=None, **pictures):
+    """The page of an analysed surface, by the rules that judge it, unless it is, and write it."""
+    inputs = (judged or judge_by_rule(analysed, folder, materials)) | pictures
     page = folder / "report/surfaces/plate.html"
     write_surface.main(make_job(inputs, {"page": str(page)}, surface=analysed.entry))
     return Page(page.read_text(encoding="utf-8"))
@@ -103,14 +109,26 @@ def single(folder):
 
 
 @pytest.fixture(scope="module")
-def page(single, folder):
-    return write_page(single, folder)
+def judged(single, folder):
+    """Files of the surface of a single scan and of its verdicts."""
+    return judge_by_rule(single, folder / "page", MATERIALS)
 
 
 @pytest.fixture(scope="module")
-def pairs(single):
+def page(single, folder, judged):
+    return write_page(single, folder / "page", judged=judged)
+
+
+@pytest.fixture(scope="module")
+def pairs(judged):
     """Verdicts on the surface of a single scan."""
-    return judge_data(single.data)
+    return datasets.read(judged["verdicts"]).sel(surface="plate")
+
+
+@pytest.fixture(scope="module")
+def taped(single, folder):
+    """The same files with the verdict of soft tape."""
+    return judge_by_rule(single, folder / "taped", {"tape": TAPE})
 
 
 @pytest.mark.slow
@@ -124,7 +142,7 @@ def test_stitched_surface_keeps_its_measurements_and_names_every_file(folder):
     # 15 um instead of 40 um with the same heights are another, steeper surface: C is lower by
     # (15/40)^4 at wave numbers higher by 40/15, which is not on the same line.
     assert 0.3 < float(stitched.data.scatter) < np.inf
-    page = write_page(stitched, folder)
+    page = write_page(stitched, folder, STEEL_ALONE)
     page.check()
     assert "b.txt" in page.html
     assert "c.txt" in page.html
@@ -141,7 +159,7 @@ def test_law_carried_on_reaches_its_end_and_opens_up(folder):
     np.testing.assert_allclose(rough[~beyond], smooth[~beyond])
     ratio = rough[beyond] / smooth[beyond]
     assert np.all(np.diff(ratio) > 0)
-    write_page(on, folder).check("10 nm")
+    write_page(on, folder, STEEL_ALONE).check("10 nm")
 
 
 @pytest.mark.slow
@@ -171,6 +189,7 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
     assert pairs.verdict.sel(material="steel") < TOUCHES
     assert page.html.count("Bokeh.logger.set_level") == 1
+    assert 'id="reading"' not in page.html  # the map is used as it was read
 
 
 def tell(pair, quantity, unit):
@@ -178,13 +197,12 @@ def tell(pair, quantity, unit):
 
 
 @pytest.mark.slow
-def test_the_page_tells_what_would_make_pairs_stick(page, folder):
+def test_the_page_tells_what_would_make_pairs_stick(page, pairs, folder):
     """As the files say it, which hold no NaN."""
-    stored = datasets.read(folder / "verdicts.nc").sel(surface="plate")
-    laws = json.loads((folder / "laws.json").read_text(), parse_constant=pytest.fail)
+    laws = json.loads((folder / "page/laws.json").read_text(), parse_constant=pytest.fail)
     assert laws["surface"] == "plate & co"
     for (name, entry), law in zip(MATERIALS.items(), laws["pairs"], strict=True):
-        pair = stored.sel(material=name)
+        pair = pairs.sel(material=name)
         for quantity, unit in (("rms_height_threshold", "m"), ("contact_pressure", "Pa")):
             page.check(tell(pair, quantity, unit))
         if name == "gel":
@@ -208,9 +226,10 @@ def test_page_of_a_material_with_a_dwell_has_its_ratio_and_thresholds(folder):
     materials = {"tape": check_material(tape), "rested": check_material(rested)}
     wall = WALL | {"longest_wavelength": "10 mm", "h_rms": "45 um"}
     analysed = analyse(folder / "wall.nc", **wall)
-    codes = judge_data(analysed.data, materials).verdict
+    judged = judge_by_rule(analysed, folder / "rested", materials)
+    codes = datasets.read(judged["verdicts"]).verdict.squeeze("surface")
     assert codes.values.tolist() == [TOUCHES, STICKY]
-    write_page(analysed, folder / "rested", materials).check(
+    write_page(analysed, folder / "rested", judged=judged).check(
         "Rested tape sticks after 1 h of dwell",
         "high limits for up to 3.3 times the work and stress",
         "It sticks below E = 82.4 kPa (69.6 to 97.7 kPa); it is 180 kPa.",
@@ -226,9 +245,12 @@ def test_profiles_and_parametric_surfaces_have_pages(folder):
     units = {"height_unit": "nm", "position_unit": "um"}
     line = analyse(folder / "line.nc", file=str(folder / "line.txt"), **units)
     assert "anisotropy" not in line.data
-    write_page(line, folder).check()
+    page = write_page(line, folder, STEEL_ALONE)
+    page.check()
+    assert 'id="reading"' not in page.html
     sand = WALL | {"longest_wavelength": "1 mm", "h_rms": ["1 um", "3 um"]}
-    write_page(analyse(folder / "sand.nc", **sand), folder).check("rms height 1 … 3 µm")
+    page = write_page(analyse(folder / "sand.nc", **sand), folder, STEEL_ALONE)
+    page.check("rms height 1 … 3 µm")
 
 
 @pytest.mark.slow
@@ -239,7 +261,7 @@ def test_page_tells_of_steep_slopes_and_missing_points(single, folder):
         missing_fraction=single.data.missing_fraction.copy(data=0.29),
     )
     odd = odd.assign_attrs(remarks="h_rms is small; C falls as q^-5.3")
-    page = write_page(single._replace(data=odd), folder / "odd")
+    page = write_page(single._replace(data=odd), folder / "odd", STEEL_ALONE)
     page.check("2.00 ± 0.16", "29 %", "doubtful, for the rms slope is 2.1")
 
 
@@ -248,12 +270,13 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     zeros = {(i, j): 0 for i in range(0, 128, 5) for j in range(0, 128, 4)}
     file = scan(folder / "zeros.txt", spoiled=zeros)
     withheld = analyse(folder / "zeros.nc", file=file)
-    pairs = judge_data(withheld.data)
+    gel = {"gel": check_material(GEL | {"range": "0.3 um"})}
+    judged = judge_by_rule(withheld, folder, gel)
+    pairs = datasets.read(judged["verdicts"]).sel(surface="plate")
     assert (pairs.verdict == NOT_JUDGED).all()
     assert np.isnan(pairs.probability).all()
     assert not pairs.disagrees.any()
-    gel = {"gel": check_material(GEL | {"range": "0.3 um"})}
-    text = write_page(withheld, folder, gel).text
+    text = write_page(withheld, folder, judged=judged).text
     assert "range = 3e-07" in text
     assert "missing_value: 0" in text
     assert surface_figures.find_curves(pairs, ["gel"], ["gel"]) == {}
@@ -275,20 +298,10 @@ def test_a_pair_is_not_judged_if_the_surface_of_its_material_is_not(single):
 def test_page_has_all_rms_heights_and_the_spikes(single, folder):
     spiky = analyse(folder / "spike.nc", file=scan(folder / "spike.txt", spoiled={(70, 60): 1e6}))
     assert int(spiky.data.masked_spikes) == 1
-    write_page(spiky, folder).check("rms height with the points not used 7.8")
+    page = write_page(spiky, folder, STEEL_ALONE)
+    page.check("rms height with the points not used 7.8")
+    assert 'id="reading"' in page.html  # pictures of the map as read
     np.testing.assert_allclose(spiky.data.h_rms, single.data.h_rms, rtol=1e-3)
-
-
-@pytest.mark.slow
-def test_the_page_has_pictures_of_a_map_as_read_where_it_is_used_otherwise(page, folder):
-    assert 'id="reading"' not in page.html
-    spiky = analyse(folder / "spiky.nc", file=scan(folder / "spiky.txt", spoiled={(70, 60): 1e6}))
-    assert 'id="reading"' in write_page(spiky, folder).html
-    profile = folder / "profile.txt"
-    heights = surface.synthesise(SelfAffine(hurst=0.8, q0=1, q1=50, h_rms=9), 512, 6.3, seed=1)
-    np.savetxt(profile, heights[0])
-    line = analyse(folder / "line.nc", file=str(profile), length="40 um", height_unit="nm")
-    assert 'id="reading"' not in write_page(line, folder).html
 
 
 def test_a_tilt_is_no_other_picture():
@@ -385,7 +398,8 @@ def save_picture(folder, picture):
 @pytest.mark.slow
 def test_page_shows_contact_and_pull_off(single, folder, picture):
     place = folder / "pictured"
-    page = write_page(single, place, MATERIALS | {"tape": TAPE}, **save_picture(place, picture))
+    materials = {"gel": MATERIALS["gel"], "tape": TAPE}
+    page = write_page(single, place, materials, **save_picture(place, picture))
     contact, pull_off = picture
     page.check(
         f"{100 * float(contact.area_fraction[0]):.2g}",
@@ -399,22 +413,21 @@ def test_page_shows_contact_and_pull_off(single, folder, picture):
 
 @pytest.mark.slow
 def test_page_says_why_there_is_no_pull_off_and_nothing_where_there_is_no_map(
-    single, folder, picture
+    single, folder, taped, picture
 ):
-    materials = MATERIALS | {"tape": TAPE}
     attrs = {"left_out": "nothing remains", "material": "soft tape", "moment": ""}
     empty = xr.Dataset(attrs=attrs)
     place = folder / "left_out"
     pictures = save_picture(place, picture._replace(pull_off=empty))
-    page = write_page(single, place, materials, **pictures)
+    page = write_page(single, place, judged=taped, **pictures)
     page.check("The pull-off of soft tape is not simulated: nothing remains.")
-    page = write_page(single, place, materials, **save_picture(place, Picture(empty, empty)))
+    page = write_page(single, place, judged=taped, **save_picture(place, Picture(empty, empty)))
     page.check()
     assert "not simulated" not in page.text
 
 
 @pytest.mark.slow
-def test_the_rule_names_the_material_that_is_pulled_off(single, folder, monkeypatch):
+def test_the_rule_names_the_material_that_is_pulled_off(single, folder, taped, monkeypatch):
     monkeypatch.setattr(pressed_heights, "CONTACT_POINTS", 64)
     monkeypatch.setattr(pressed_heights, "PULL_OFF_POINTS", 32)
     inputs = {"surface": str(folder / "single.nc")}
@@ -427,7 +440,7 @@ def test_the_rule_names_the_material_that_is_pulled_off(single, folder, monkeypa
         entry = without_texts(TAPE | changes) | {"label": TAPE["label"]}
         job = make_job(inputs, outputs, {"real_surface": "plate"}, **made, entry=entry)
         picture_contact.main(job)
-        page = write_page(single, folder / "ruled", {"tape": TAPE}, **outputs)
+        page = write_page(single, folder / "ruled", judged=taped, **outputs)
         page.check(f"The pull-off of soft tape is not simulated: {reason}")
 
 
