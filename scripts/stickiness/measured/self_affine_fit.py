@@ -184,18 +184,19 @@ def fit_power_law(x: NDArray, rings: RadialPSD) -> PowerLaw:
     """Maximise the likelihood of a law without a corner. The likelihood has one maximum."""
     weight = rings.dof / rings.dof.sum()
     centre = float(weight @ x)
+    from_centre = x - centre
     log_psd = np.log(rings.psd)
 
     def flatten(exponent: float) -> tuple[NDArray, float]:
         """C without the power law, over its largest value, and the logarithm of that value."""
-        log_flat = log_psd + exponent * (x - centre)
+        log_flat = log_psd + exponent * from_centre
         highest = log_flat.max()
         return weight * np.exp(log_flat - highest), highest
 
     def tilt(exponent: float) -> float:
         """Centre of the flattened C, which the best exponent leaves where it is."""
         flat, _ = flatten(exponent)
-        return float(flat @ (x - centre) / flat.sum())
+        return float(flat @ from_centre / flat.sum())
 
     # The bracket is wide, because plateaus are tried anywhere.
     exponent = scipy.optimize.brentq(tilt, -1e3, 1e3, xtol=1e-12)
