@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from stickiness.remaining import height_simulation
+from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.verdicts import simulated_surface
 
 # The same examples every time and few of them: a test that fails now and then helps nobody.
@@ -78,13 +80,25 @@ def pytest_make_collect_report():
     return report
 
 
+_FOUND = {}  # states of contact
+
+
+def _find_once(heights, length, **options):
+    """`find_trial_states`, once on the same heights for all tests of a process."""
+    key = (heights.tobytes(), heights.shape, length, *options.values())
+    if key not in _FOUND:
+        _FOUND[key] = find_trial_states(heights, length, **options)
+    return _FOUND[key]
+
+
 @pytest.fixture(scope="module")
 def coarse_simulation():
-    """Contact on measured heights is simulated on a coarse grid, a tenth of the work.
+    """Contact on measured heights is simulated on a coarse grid, a tenth of the work, and once.
 
     For tests of what is done with the simulated states, rather than of their numbers.
     """
     with pytest.MonkeyPatch.context() as patch:
         coarse = partial(simulated_surface.standardise, most_points=32)
         patch.setattr(simulated_surface, "standardise", coarse)
+        patch.setattr(height_simulation, "find_trial_states", _find_once)
         yield
