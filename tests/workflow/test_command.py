@@ -63,11 +63,15 @@ def run_alone(folder, *arguments, scripts=ROOT / "scripts", timeout=None, **envi
 
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
-    """A folder whose name has a blank, with a wall and a soft tape of an improbable range."""
+    """A folder whose name has a blank, with a wall and a soft tape of an improbable range.
+
+    Of the wall, a map of fewer points is as well, for commands in processes of their own.
+    """
     folder = tmp_path_factory.mktemp("any folder")
     rough = SelfAffine(hurst=0.8, q0=2 * np.pi / 1e-3, q1=2 * np.pi / 64e-6, h_rms=20e-6)
     heights = stickiness.surface.synthesise(rough, 128, 2e-3, seed=3)
     np.save(folder / "wall#1.npy", 1e6 * heights)
+    np.save(folder / "wall#2.npy", 1e6 * heights[::2, ::2])
     tape = 'label: soft tape, youngs_modulus: "1 kPa", poisson_ratio: 0.5, '
     tape += 'work_of_adhesion: "60 mJ/m^2", range: "0.3 um", source: own'
     (folder / "tape.yaml").write_text(f"materials:\n  tape: {{{tape}}}\n", encoding="utf-8")
@@ -327,11 +331,12 @@ def test_other_files_in_the_folder_of_a_page_are_left_alone(folder, tmp_path):
 
 def test_the_library_alone_makes_a_page(folder, first, tmp_path):
     """Without the workflow, and where Snakemake cannot be imported."""
-    (tmp_path / "site").mkdir()
-    (tmp_path / "site/stickiness").symlink_to(ROOT / "scripts/stickiness")
-    (tmp_path / "site/snakemake.py").write_text("raise ImportError('not installed')")
+    scripts = ROOT / "scripts"
+    parts = {path.stem for path in scripts.iterdir()} - {"stickiness"}
+    for name in ("snakemake", *parts):
+        (tmp_path / f"{name}.py").write_text("raise ImportError('not installed')")
     arguments = ["wall#1.npy", *TAPE, *SIZE, "--output", tmp_path / "out"]
-    answer = run_alone(folder, *arguments, scripts=tmp_path / "site")
+    answer = run_alone(folder, *arguments, scripts=f"{tmp_path}{os.pathsep}{scripts}")
     assert (answer.status, answer.errors) == (0, [])
     assert len(answer.lines) == len(first.lines)
     assert (tmp_path / "out/wall#1.html").exists()
@@ -358,7 +363,7 @@ def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
 def test_a_page_waits_for_another_in_the_folder_and_needs_no_cache(folder, tmp_path):
     output = tmp_path / "page"
     output.mkdir()
-    arguments = ["wall#1.npy", "--tape", "tape.yaml", *SIZE, "--output", output]
+    arguments = ["wall#2.npy", "--tape", "tape.yaml", *SIZE, "--output", output]
     other = os.open(output, os.O_RDONLY)
     fcntl.flock(other, fcntl.LOCK_EX)
     with pytest.raises(subprocess.TimeoutExpired):
@@ -371,7 +376,7 @@ def test_a_page_waits_for_another_in_the_folder_and_needs_no_cache(folder, tmp_p
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a file that is always full")
 def test_a_full_disk_is_one_line(folder):
-    arguments = ["wall#1.npy", "--tape", "tape.yaml", *SIZE, "--no-page"]
+    arguments = ["wall#2.npy", "--tape", "tape.yaml", *SIZE, "--no-page"]
     command = [sys.executable, "-m", "stickiness", *arguments]
     environment = os.environ | {"PYTHONPATH": str(ROOT / "scripts")}
     with open("/dev/full", "w") as full:
