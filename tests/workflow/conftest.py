@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from helpers import served
 from helpers.copy_workflow import ROOT, copy_code, copy_workflow
 from helpers.dry_runs import dry_run, jobs, outputs
 
@@ -39,9 +40,7 @@ class Workflow:
 
     def snakemake(self, *arguments):
         """Run to the end."""
-        run = self.start(*arguments)
-        output, _ = run.communicate()
-        return subprocess.CompletedProcess(run.args, run.returncode, output)
+        return served.run("snakemake", self.folder, "-j2", *arguments, *TINY, together=True)
 
     def python(self, *words):
         """Run Python with the modules of this project."""
