@@ -10,8 +10,11 @@ from pathlib import Path
 import yaml
 
 ROOT = Path(__file__).parents[2]
-# Real surfaces that claims need, one by its spectrum and one by its heights.
-SURFACES = ("asphalt", "polished_steel", "uncd_diamond")
+# What claims need: real surfaces, one by its spectrum and one by its heights, and an experiment.
+FEW = {
+    "surfaces": ("asphalt", "polished_steel", "uncd_diamond"),
+    "experiments": ("dahlquist", "fuller_tabor"),
+}
 PARTS = ("Snakefile", "rules", "config", "envs", "profiles", "report")
 
 
@@ -24,9 +27,10 @@ def copy_workflow(folder):
         if entry.is_dir() and not hidden:
             (folder / entry.name).symlink_to(entry)
     shutil.copy2(ROOT / "tests/workflow/tiny.yaml", folder / "config/tiny.yaml")
-    surfaces = yaml.safe_load((ROOT / "config/surfaces.yaml").read_text(encoding="utf-8"))
-    few = {"surfaces": {name: surfaces["surfaces"][name] for name in SURFACES}}
-    (folder / "config/tiny_surfaces.yaml").write_text(yaml.safe_dump(few), encoding="utf-8")
+    for kind, names in FEW.items():
+        entries = yaml.safe_load((ROOT / f"config/{kind}.yaml").read_text(encoding="utf-8"))[kind]
+        few = yaml.safe_dump({kind: {name: entries[name] for name in names}})
+        (folder / f"config/tiny_{kind}.yaml").write_text(few, encoding="utf-8")
 
 
 def copy_code(folder):

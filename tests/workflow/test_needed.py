@@ -1,7 +1,7 @@
 """A case runs what its quantities need and nothing else."""
 
 import pytest
-from helpers.copy_workflow import SURFACES
+from helpers.copy_workflow import FEW
 
 from stickiness import datasets
 
@@ -20,7 +20,7 @@ def plan_cases(workflow, **cases):
 
 
 def test_a_verdict_needs_no_simulation_and_a_page_no_other_surface(fresh):
-    count = len(SURFACES)
+    count = len(FEW["surfaces"])
     planned = fresh.planned("verdicts")
     assert planned == {"analyse_surface": count, "judge_surface": count, "judge": 1}
     assert fresh.planned("results/tiny/report/surfaces/asphalt.html") == PAGE
