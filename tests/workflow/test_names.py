@@ -14,8 +14,9 @@ from stickiness import datasets
 pytestmark = pytest.mark.workflow
 
 FIGURES = ("fig3", "fig4", "fig5", "fig8", "fig10")
-# Folders of results in which files, or folders, have the name of a case.
-OF_CASES = ("cases", "contact", "contact/ensembles", "persson/lattice")
+# Folders of results in which files, or folders, have the name of a case or of a surface.
+OF_SURFACES = ("surfaces", "contact")
+OF_CASES = ("cases", "contact/ensembles", "persson/lattice")
 OF_CASES += ("fits/kappa", "fits/theory", "fits/a_v/ensembles", "fits/a_v/lattice")
 
 
@@ -69,10 +70,11 @@ def test_figures_and_claims_of_renamed_results_are_the_same(copy_of_finished):
     drawn = {name: matplotlib.image.imread(path) for name, path in pictures.items()}
     claims = datasets.read(results / "claims/claims.nc")
     cases, surfaces = rename(copy_of_finished)
-    for folder, names in [*((folder, cases) for folder in OF_CASES), ("surfaces", surfaces)]:
+    renamed = dict.fromkeys(OF_CASES, cases) | dict.fromkeys(OF_SURFACES, surfaces)
+    for folder, names in renamed.items():
         for old, new in names.items():
             for path in (results / folder).glob(f"{old}*"):
-                if path.name in (old, f"{old}.nc"):
+                if path.name.removesuffix(".nc").partition("@")[0] == old:
                     move(path, old, new)
     shutil.rmtree(results / "figures")
     made = [f"results/tiny/figures/{name}.png" for name in FIGURES]
