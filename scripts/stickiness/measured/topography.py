@@ -6,10 +6,10 @@ run along y; such a matrix is transposed on reading.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from pathlib import Path
-from typing import Self
+from typing import Self, get_args
 
 import numpy as np
 import xarray as xr
@@ -19,10 +19,11 @@ from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers, scanning
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
-from stickiness.measured.readers import Length, Raw, fold, metres, metres_per, sides
+from stickiness.measured.readers.raw import Length, Raw, fold, metres, metres_per, sides
 from stickiness.measured.scanning import Scan
 
 Size = Length | Sequence[Length] | None
+_CHOICES = {"missing": Missing, "spikes": Spikes, "scan": Scan}
 _MARK = 1.70141e38  # as Surfer and others mark missing points, or more
 _UNITS_OF_LENGTH = ("m", "cm", "mm", "um", "nm", "angstrom", "pm", "inch", "mil")
 
@@ -93,12 +94,11 @@ class _Heights:
         periodic heights it subtracts the mean alone, for less a plane they are periodic no more.
         """
         remarks = self.remarks
-        if kind == "detect" and self.periodic:
-            kind = "mean"
-        elif kind == "detect":
-            share = levelling.find_form(self.heights)
-            kind = "plane" if share is None else "quadratic"
+        if kind == "detect":
+            share = None if self.periodic else levelling.find_form(self.heights)
+            kind = "mean" if self.periodic else "plane"
             if share is not None:
+                kind = "quadratic"
                 curvature = max(map(abs, levelling.find_curvatures(self.heights, self.steps)))
                 source = self.source  # type: ignore[attr-defined]  # comes after dy in Topography
                 remarks += (
@@ -128,8 +128,7 @@ class Topography(_Heights):
     @property
     def size(self) -> tuple[float, float]:
         """Sides along x and y [m]."""
-        nx, ny = self.heights.shape
-        return nx * self.dx, ny * self.dy
+        return self.heights.shape[0] * self.dx, self.heights.shape[1] * self.dy
 
 
 @dataclass(frozen=True)
@@ -247,26 +246,21 @@ def read(
         raise FileNotFoundError(f"no topography file {str(path)!r}")
     if length is not None and pixel_size is not None:
         raise ValueError("give length or pixel_size, not both")
-    _check_options(missing, max_missing, missing_rim, spikes, scan)
+    _check_options(max_missing, missing_rim, missing=missing, spikes=spikes, scan=scan)
 
+    # What the file holds; the caller must say what it leaves open.
     raw = readers.read(path, format, variable, channel)
     size = length or pixel_size
     _ask_for_units(raw, size, height_unit, position_unit)
     raw = _fold(raw, length)
-    heights, notices = _find_marks(raw, missing_value)
-    places = _places(raw, length, pixel_size, position_unit)
 
-    # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
-    in_metres = raw.unit == "m" and readers.format_of(path, format) == readers.INSTRUMENT
-    contradictions = (
-        *notices,
-        *_contradict_unit(raw, height_unit, in_metres),
-        *_contradict_size(raw, size, places, position_unit),
-    )
-    if size is not None and heights.ndim == 2:
-        told = None if raw.places is None else raw.places[0] / raw.places[1]
-        contradictions += tuple(doubt_pixels(raw.source, heights.shape, places, told))
-    scale = _scale(raw.source, "height_unit", None if in_metres else height_unit, raw.unit)
+    # The numbers without marks of missing points, their places and their unit.
+    heights, mark_notices = _find_marks(raw, missing_value)
+    places = _find_places(raw, length, pixel_size, position_unit)
+    is_native = readers.format_of(path, format) == readers.INSTRUMENT
+    scale, unit_notices = _find_scale(raw, height_unit, is_native)
+    size_notices = [] if size is None else _contradict_size(raw, places, position_unit)
+
     measurement = from_array(
         heights,
         places,
@@ -278,12 +272,13 @@ def read(
         source=raw.source,
         scale=scale,
     )
+    remarks = tuple(f"{raw.source}: {remark}" for remark in raw.remarks)
     is_whole = measurement.heights.shape == heights.shape
     return replace(
         measurement,
         others=raw.others,
-        contradictions=contradictions,
-        remarks=raw.remarks + measurement.remarks,
+        contradictions=(*mark_notices, *unit_notices, *size_notices),
+        remarks=remarks + measurement.remarks,
         periodic=raw.periodic and is_whole,
     )
 
@@ -335,122 +330,108 @@ def from_array(
     >>> wall.missing, wall.heights.shape
     (1, (32, 32))
     """
-    _check_options(missing, max_missing, missing_rim, spikes, scan)
+    _check_options(max_missing, missing_rim, missing=missing, spikes=spikes, scan=scan)
     heights = with_gaps("heights", heights)
     if heights.ndim not in (1, 2) or heights.size == 0:
         raise ValueError(
             f"{source}: heights must be a map (nx, ny) or a profile (n,), got shape {heights.shape}"
         )
     positions = None
+    remarks: list[str] = []
     if heights.ndim == 1:
         heights, positions = _sort_profile(heights, steps, source)
-        spacing = np.diff(positions)
     else:
-        spacing = np.broadcast_to(positive(steps=steps)[0], 2)
-
-    remarks: tuple[str, ...] = ()
-    if heights.ndim == 2 and np.isfinite(heights).any():
-        heights, spacing, remarks = _keep_one_copy(heights, spacing, source)
+        heights, spacing, remarks = _keep_one_copy(heights, positive(steps=steps)[0])
 
     # Spikes, scars and points beside missing ones are taken for missing.
-    usable, dropped = levelling.without_rims(heights, missing_rim)
-    unmended = usable
-    mended = scanning.mend(usable, scan, scale)
-    usable = mended.heights
-    remarks += tuple(f"{source}: {remark}" for remark in mended.remarks)
-    scars = int(np.count_nonzero(np.isnan(usable) & ~np.isnan(unmended)))
-    masked = 0
+    as_measured, dropped = levelling.without_rims(heights, missing_rim)
+    mended = scanning.mend(as_measured, scan, scale)
+    is_scar = np.isnan(mended.heights) & ~np.isnan(as_measured)
+    is_spike = np.zeros(heights.shape, dtype=bool)
     if spikes == "mask":
-        is_spike = levelling.find_spikes(usable)
-        masked = int(np.count_nonzero(is_spike))
-        usable = np.where(is_spike, np.nan, usable)
+        is_spike = levelling.find_spikes(mended.heights)
+    usable = np.where(is_spike, np.nan, mended.heights)
     unused = np.isnan(usable)
-    # Doubts about values are about those in the file.
-    values = np.where(unused, np.nan, unmended)
-    doubts = [*mended.doubts, *doubt_values(values)]
 
     # Missing points are cut off or filled.
-    if missing == "crop":
-        kept = levelling.complete_rectangle(np.isfinite(usable), source)
-        usable = usable[kept]
-        is_cut_off = np.ones(heights.shape, dtype=bool)
-        is_cut_off[kept] = False
-        unused |= is_cut_off
-        positions = None if positions is None else positions[kept]
-    losses = f", {dropped} points beside missing ones dropped" if dropped else ""
-    losses += f", {masked} spikes masked" if masked else ""
-    losses += f", {scars} points of scars masked" if scars else ""
+    kept = levelling.complete_rectangle(~unused, source) if missing == "crop" else ...
+    losses = {
+        "points beside missing ones dropped": dropped,
+        "spikes masked": np.count_nonzero(is_spike),
+        "points of scars masked": np.count_nonzero(is_scar),
+    }
+    told = "".join(f", {count} {loss}" for loss, count in losses.items() if count)
     limit = 0.0 if missing == "refuse" else max_missing
-    filled, filled_count = levelling.fill_missing(usable, limit, source + losses, positions)
+    positions = None if positions is None else positions[kept]
+    filled, missing_count = levelling.fill_missing(usable[kept], limit, source + told, positions)
 
+    # Heights of a profile are interpolated to even positions, and all are converted to metres.
     largest_gap = 0.0
     if positions is not None:
-        if len(positions) < 2:
-            raise ValueError(f"{source}: a line profile needs two points at least")
-        largest_gap = float(np.diff(positions).max())
-        filled, step = _resample(filled, positions)
-        spacing = np.array([step])
+        filled, spacing, largest_gap = _resample(filled, positions, source)
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
-    known = values[np.isfinite(values)]
-    doubts += doubt_sizes(filled, spacing, are_whole=bool(np.all(known == np.rint(known))))
+
+    # Doubts about values are about those in the file.
+    known = as_measured[~unused]
+    are_whole = bool(np.all(known == np.rint(known)))
+    doubts = [*mended.doubts, *doubt_values(known), *doubt_sizes(filled, spacing, are_whole)]
+    is_cut_off = np.ones(heights.shape, dtype=bool)
+    is_cut_off[kept] = False
     record = {
-        "missing": filled_count,
-        "cropped": 1 - usable.size / heights.size,
+        "missing": missing_count,
+        "cropped": 1 - filled.size / heights.size,
         "dropped": dropped,
-        "spikes": masked,
+        "spikes": int(np.count_nonzero(is_spike)),
         "as_read": heights * scale,
-        "unused": unused & np.isfinite(heights),
+        "unused": (unused | is_cut_off) & np.isfinite(heights),
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
-        "remarks": remarks,
+        "remarks": tuple(f"{source}: {remark}" for remark in (*remarks, *mended.remarks)),
     }
     if positions is not None:
         return Profile(filled, float(spacing[0]), source, largest_gap, **record)
     return Topography(filled, float(spacing[0]), float(spacing[1]), source, **record)
 
 
-def _keep_one_copy(
-    heights: NDArray, steps: NDArray, source: str
-) -> tuple[NDArray, NDArray, tuple[str, ...]]:
-    """Heights and steps of one tile, each point once, and a remark on what was left out.
+def _keep_one_copy(heights: NDArray, steps: NDArray) -> tuple[NDArray, NDArray, list[str]]:
+    """Heights and steps of one tile, each point once, and remarks on what was left out.
 
     Copies tell nothing more of the surface.
     """
-    remarks = []
+    steps = np.broadcast_to(steps, 2)
+    remarks: list[str] = []
+    if not np.isfinite(heights).any():
+        return heights, steps, remarks
     tile = levelling.find_tile(heights)
     if tile != heights.shape:
         copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
         points = " x ".join(map(str, tile))
         remarks.append(
-            f"{source}: the map is {copies} copies or mirror images of one tile of {points} "
-            "points; one is used"
+            f"the map is {copies} copies or mirror images of one tile of {points} points; one is "
+            "used"
         )
         heights = heights[: tile[0], : tile[1]]
     repeats = levelling.find_repeats(heights)
     if max(repeats) > 1:
         remarks.append(
-            f"{source}: every point is repeated {repeats[0]} x {repeats[1]} times; it is used once"
+            f"every point is repeated {repeats[0]} x {repeats[1]} times; it is used once"
         )
         heights = heights[:: repeats[0], :: repeats[1]]
         steps = np.multiply(steps, repeats)
-    return heights, steps, tuple(remarks)
+    return heights, steps, remarks
 
 
-def _check_options(
-    missing: str, max_missing: float, missing_rim: object, spikes: str, scan: str
-) -> None:
+def _check_options(max_missing: float, missing_rim: object, **choices: str) -> None:
     """Check how missing points, spikes and faults of the scan are to be treated."""
     if not 0 <= max_missing < 1:
         raise ValueError(f"max_missing must be in 0 <= f < 1, got {max_missing!r}")
-    if missing not in ("fill", "crop", "refuse"):
-        raise ValueError(f"missing must be 'fill', 'crop' or 'refuse', got {missing!r}")
     if missing_rim != "detect" and not (isinstance(missing_rim, int) and missing_rim >= 0):
         raise ValueError(f"missing_rim must be a number of points or 'detect', got {missing_rim!r}")
-    if spikes not in ("mask", "keep"):
-        raise ValueError(f"spikes must be 'mask' or 'keep', got {spikes!r}")
-    if scan not in ("detect", "align", "keep"):
-        raise ValueError(f"scan must be 'detect', 'align' or 'keep', got {scan!r}")
+    for name, choice in choices.items():
+        *others, last = map(repr, get_args(_CHOICES[name]))
+        if repr(choice) not in (*others, last):
+            raise ValueError(f"{name} must be {', '.join(others)} or {last}, got {choice!r}")
 
 
 def _sort_profile(heights: NDArray, steps: ArrayLike, source: str) -> tuple[NDArray, NDArray]:
@@ -477,30 +458,30 @@ def _sort_profile(heights: NDArray, steps: ArrayLike, source: str) -> tuple[NDAr
     return heights[order], positions
 
 
-def _resample(heights: NDArray, positions: NDArray) -> tuple[NDArray, float]:
-    """Heights of a profile at even positions, and their step."""
+def _resample(heights: NDArray, positions: NDArray, source: str) -> tuple[NDArray, NDArray, float]:
+    """Heights of a profile at even positions, their step, and the largest gap there was."""
+    if len(positions) < 2:
+        raise ValueError(f"{source}: a line profile needs two points at least")
     even = np.linspace(positions[0], positions[-1], len(positions))
     step = float(even[1] - even[0])
-    if np.ptp(np.diff(positions)) > 1e-3 * step:
+    gaps = np.diff(positions)
+    if np.ptp(gaps) > 1e-3 * step:
         heights = np.interp(even, positions, heights)
-    return heights, step
+    return heights, np.array([step]), float(gaps.max())
 
 
-def _places(raw: Raw, length, pixel_size, position_unit) -> NDArray:
+def _find_places(raw: Raw, length: Size, pixel_size: Size, position_unit: str | None) -> NDArray:
     """Grid steps of a map, or positions of a profile's points [m], from the caller or the file."""
     shape = raw.heights.shape
     if raw.places is not None and not np.all(np.isfinite(raw.places)):
         raise ValueError(f"{raw.source}: a position of the profile is missing")
-    if length is None and pixel_size is None:
-        assert raw.places is not None  # `_ask_for_units` has seen to it
-        return raw.places * _scale(raw.source, "position_unit", position_unit, raw.place_unit)
-    if length is None:
-        counts = (1,) * len(shape)
-        size = sides(pixel_size, counts, f"{raw.source}: pixel_size")
+    if length is not None:
+        steps = np.divide(sides(length, shape, f"{raw.source}: length"), shape)
+    elif pixel_size is not None:
+        steps = np.array(sides(pixel_size, (1,) * len(shape), f"{raw.source}: pixel_size"))
     else:
-        counts = shape
-        size = sides(length, counts, f"{raw.source}: length")
-    steps = np.divide(size, counts)
+        assert raw.places is not None  # `_ask_for_units` has seen to it
+        return raw.places * _convert(raw.source, "position_unit", position_unit, raw.place_unit)
     if len(shape) == 2:
         return steps
     if raw.places is None or not np.ptp(raw.places) > 0:
@@ -521,7 +502,7 @@ def _fold(raw: Raw, length: Size) -> Raw:
     if folded is None:
         return raw
     points = " x ".join(map(str, folded.shape))
-    remark = f"{raw.source}: one column of heights, taken for a map of {points} points row by row"
+    remark = f"one column of heights, taken for a map of {points} points row by row"
     return replace(raw, heights=folded, remarks=(*raw.remarks, remark))
 
 
@@ -556,37 +537,44 @@ def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
         raise UntoldError(raw.source, unknown)
 
 
-def _contradict_unit(raw: Raw, height_unit, in_metres: bool) -> Iterator[str]:
-    """Say if the file tells another unit of heights than the caller."""
-    if in_metres and height_unit is not None and metres_per(height_unit, "height_unit") != 1:
-        yield f"{raw.source}: the heights are in m; height_unit = {height_unit!r} is not used"
+def _find_scale(raw: Raw, height_unit: str | None, is_native: bool) -> tuple[float, list[str]]:
+    """Metres per unit of the heights, and a notice of a unit given that is not used."""
+    # Readers of instruments' formats without a choice of the unit give metres, as nobody says them.
+    if not (is_native and raw.unit == "m" and height_unit is not None):
+        return _convert(raw.source, "height_unit", height_unit, raw.unit), []
+    if metres_per(height_unit, "height_unit") == 1:
+        return 1.0, []
+    return 1.0, [f"{raw.source}: the heights are in m; height_unit = {height_unit!r} is not used"]
 
 
-def _contradict_size(raw: Raw, size, places: NDArray, position_unit) -> Iterator[str]:
+def _contradict_size(raw: Raw, places: NDArray, position_unit: str | None) -> list[str]:
     """Say if the size given is not that in the file; without a unit, not that in any unit."""
-    if size is None or raw.places is None:
-        return
+    notices = []
+    told = None if raw.places is None else _steps(raw.places, raw)
     unit = raw.place_unit or position_unit
-    told = _steps(raw.places, raw)
-    if not np.all(told > 0) or (unit is None and np.all(told == 1)):  # numbers of pixels
-        return
-    factors = [metres_per(each, "position_unit") for each in ([unit] if unit else _UNITS_OF_LENGTH)]
-    ratios = _steps(places, raw) / told
-    # Sides may count from the first to the last point.
-    tolerance = max(0.01, 1.1 / min(raw.heights.shape))
-    is_told = np.isclose(ratios[:, None], factors, rtol=tolerance, atol=0).any(axis=1)
-    if is_told.all():
-        return
-    ratio = ratios[np.argmin(is_told)]
-    how = (
-        f", {ratio / factors[0]:.3g} times the size in the file"
-        if unit
-        else f"; with it, a unit of position in the file would be {ratio:.3g} m, which none is"
-    )
-    yield f"{raw.source}: the size given is used{how}"
+    are_pixels = told is not None and unit is None and np.all(told == 1)
+    if told is not None and np.all(told > 0) and not are_pixels:
+        units = [unit] if unit else _UNITS_OF_LENGTH
+        factors = [metres_per(each, "position_unit") for each in units]
+        ratios = _steps(places, raw) / told
+        # Sides may count from the first to the last point.
+        tolerance = max(0.01, 1.1 / min(raw.heights.shape))
+        is_told = np.isclose(ratios[:, None], factors, rtol=tolerance, atol=0).any(axis=1)
+        ratio = ratios[np.argmin(is_told)]
+        how = (
+            f", {ratio / factors[0]:.3g} times the size in the file"
+            if unit
+            else f"; with it, a unit of position in the file would be {ratio:.3g} m, which none is"
+        )
+        if not is_told.all():
+            notices.append(f"{raw.source}: the size given is used{how}")
+    if raw.heights.ndim == 2:
+        ratio_told = None if told is None else told[0] / told[1]
+        notices += doubt_pixels(raw.source, raw.heights.shape, places, ratio_told)
+    return notices
 
 
-def _scale(source: str, key: str, from_caller: str | None, in_file: str | None) -> float:
+def _convert(source: str, key: str, from_caller: str | None, in_file: str | None) -> float:
     """Metres per unit, from the caller or the file, which must agree."""
     units = [unit for unit in (from_caller, in_file) if unit is not None]
     scales = [metres_per(unit, f"{source}: {key}") for unit in units]

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from stickiness.measured.readers.instruments import (
     HEIGHTS,
-    NO_HEIGHTS,
+    may_name_heights,
     open_reader,
     read_channel,
 )
@@ -28,22 +28,65 @@ from stickiness.measured.readers.raw import (
     find_step,
     is_length,
     metres_per,
+    read_head,
 )
 
 _POSITION = re.compile(r"(?:^|.*[/_])([xy])[-_]?([xy]|s|v|i|grid|mesh|data|pos\w*|coord\w*|axis)?$")
 # A number beside a matrix: the size of its pixels, along one axis or both.
 _STEP = re.compile(r"(?:^|.*[/_])(?:d_?(?=[xy])|(?:pixel_?size|step|spacing)_?(?=[xy]?$))([xy]?)$")
-_UNITS = ("units", "unit")  # attributes
-_MATLAB = b"MATLAB"
+_NUMBERS = "biuf"  # kinds of real numbers
 
 
 def read_netcdf(path: Path, variable: str | None) -> Raw:
     """Read a variable of a NetCDF file."""
+    dataset = _open_netcdf(path)
+    for each in dataset.variables.values():
+        check_count(each.shape)
+    if variable in (None, "heights") and _is_of_contact_engineering(dataset):
+        return replace(read_channel(path, open_reader(path, "nc")), source=f"{path}: heights")
+    name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
+    heights = dataset[name].astype(float)
+
+    # The last axis is x, unless names of dimensions say otherwise.
+    if heights.ndim == 2:
+        first, second = (str(dimension).lower() for dimension in heights.dims)
+        first_is_x = first in ("x", "lon", "longitude", "easting")
+        second_is_y = second in ("y", "lat", "latitude", "northing")
+        if not (first_is_x or second_is_y):
+            heights = heights.transpose()
+
+    # Positions along a line, or steps of a map, if all coordinates have units.
+    places = None
+    place_unit = None
+    coordinates = [dataset[dimension] for dimension in heights.dims]
+    units = [_find_unit(each.attrs) for each in coordinates]
+    if heights.ndim == 1 and units[0] is not None:
+        places = coordinates[0].values.astype(float)
+        place_unit = units[0]
+    elif heights.ndim == 2 and all(unit is not None and is_length(unit) for unit in units):
+        # Not degrees or pixels, for which the caller must say the size.
+        steps = [
+            find_step(each.values, str(each.name)) * metres_per(str(unit), str(each.name))
+            for each, unit in zip(coordinates, units, strict=True)
+        ]
+        places = np.array(steps)
+        place_unit = "m"
+    return Raw(
+        heights=np.array(heights.values),
+        source=f"{path}: {name}",
+        unit=_find_unit(heights.attrs),
+        others=others,
+        places=places,
+        place_unit=place_unit,
+    )
+
+
+def _open_netcdf(path: Path):
+    """Data set of a NetCDF file without axes of one, in memory if it has room there."""
     import xarray as xr  # only this format needs it
 
-    with path.open("rb") as file:
-        # Where the end of a file of NetCDF 3 is missing, the other library reads zeros.
-        engine = "scipy" if file.read(4) in (b"CDF\1", b"CDF\2") else "netcdf4"
+    # Where the end of a file of NetCDF 3 is missing, the other library reads zeros.
+    engine = "scipy" if read_head(path, 4) in (b"CDF\1", b"CDF\2") else "netcdf4"
     try:
         with xr.open_dataset(path, engine=engine) as dataset:
             if all(each.size <= MOST_POINTS for each in dataset.variables.values()):
@@ -54,42 +97,7 @@ def read_netcdf(path: Path, variable: str | None) -> Raw:
         raise ValueError(
             "not a readable NetCDF file: it is of another kind, incomplete or damaged"
         ) from error
-    for each in dataset.variables.values():
-        check_count(each.shape)
-    if variable in (None, "heights") and _is_of_contact_engineering(dataset):
-        return replace(read_channel(path, open_reader(path, "nc")), source=f"{path}: heights")
-    name, others = _choose(dataset.variables, dataset.data_vars, variable, "variable")
-    heights = dataset[name].astype(float)
-    if heights.ndim == 2:
-        first, second = (str(dim).lower() for dim in heights.dims)
-        first_is_x = first in ("x", "lon", "longitude", "easting")
-        second_is_y = second in ("y", "lat", "latitude", "northing")
-        if not (first_is_x or second_is_y):
-            heights = heights.transpose()
-    places = None
-    place_unit = None
-    coordinates = [dataset[dim] for dim in heights.dims]
-    units = [unit for each in coordinates if (unit := _find_unit(each.attrs)) is not None]
-    if len(units) == len(coordinates):
-        if heights.ndim == 1:
-            places = coordinates[0].values.astype(float)
-            place_unit = units[0]
-        elif all(map(is_length, units)):  # not degrees or pixels: the caller must say
-            places = np.array(
-                [
-                    find_step(each.values, str(each.name)) * metres_per(unit, str(each.name))
-                    for each, unit in zip(coordinates, units, strict=True)
-                ]
-            )
-            place_unit = "m"
-    return Raw(
-        heights=np.array(heights.values),
-        source=f"{path}: {name}",
-        unit=_find_unit(heights.attrs),
-        others=others,
-        places=places,
-        place_unit=place_unit,
-    )
+    return dataset
 
 
 def _is_of_contact_engineering(dataset) -> bool:
@@ -101,10 +109,10 @@ def _is_of_contact_engineering(dataset) -> bool:
 
 
 def _find_unit(attributes: Mapping) -> str | None:
-    values = [attributes[name] for name in _UNITS if name in attributes]
-    if not values:
+    unit = attributes.get("units", attributes.get("unit"))
+    if unit is None:
         return None
-    return values[0].decode() if isinstance(values[0], bytes) else str(values[0])
+    return unit.decode() if isinstance(unit, bytes) else str(unit)
 
 
 def _choose(
@@ -120,9 +128,7 @@ def _choose(
         shapes = {name: " x ".join(map(str, arrays[name].shape)) for name in candidates}
         contents = ", ".join(f"{name!r} of {shape} points" for name, shape in shapes.items())
         raise ValueError(f"no map or profile, but {contents or 'nothing'}; save one map")
-    usable = [
-        name for name in usable if not NO_HEIGHTS.search(name) or HEIGHTS.search(name)
-    ] or usable
+    usable = [name for name in usable if may_name_heights(name)] or usable
     eligible = [name for name in usable if arrays[name].ndim == 2] or usable
     named = [name for name in eligible if HEIGHTS.search(name) or name.lower() in ("z", "zz")]
     if len(named) == 1:
@@ -132,8 +138,7 @@ def _choose(
             f"needs one two-dimensional {what}, or one profile, found {sorted(eligible)}; choose "
             f"one by {'channel' if what == 'channel' else 'variable'}"
         )
-    chosen = eligible[0]
-    return chosen, tuple(name for name in usable if name != chosen)
+    return eligible[0], tuple(name for name in usable if name != eligible[0])
 
 
 def read_numpy(path: Path, variable: str | None) -> Raw:
@@ -147,26 +152,25 @@ def read_numpy(path: Path, variable: str | None) -> Raw:
         if "mmap length" in str(error):
             reason = "it is shorter than its header says: copy it again"
         raise ValueError(f"not a readable numpy file ({reason})") from error
-    if isinstance(loaded, np.ndarray):
-        check_count(loaded.shape)
-        if loaded.dtype.names:
-            arrays = {name: loaded[name] for name in loaded.dtype.names}
-            if not {"x", "y", "z"} <= {name.lower() for name in arrays} and len(arrays) > 1:
-                raise ValueError(
-                    f"a structured array with the fields {', '.join(arrays)}: save that of the "
-                    "heights as a plain array, or call them x, y and z"
-                )
-            return read_arrays(arrays, str(path))
-        heights = _squeeze(loaded)
-        if heights.ndim not in (1, 2):
+    if not isinstance(loaded, np.ndarray):
+        with loaded:
+            return _read_arrays(dict(loaded), str(path), variable)
+    check_count(loaded.shape)
+    if loaded.dtype.names:
+        fields = {name: loaded[name] for name in loaded.dtype.names}
+        if not {"x", "y", "z"} <= {name.lower() for name in fields} and len(fields) > 1:
             raise ValueError(
-                f"needs a two-dimensional array or a profile, got shape {loaded.shape}; save one "
-                "map of them"
+                f"a structured array with the fields {', '.join(fields)}: save that of the "
+                "heights as a plain array, or call them x, y and z"
             )
-        return _read_alone(Raw(_as_real(heights, "the array").T, str(path)))
-    with loaded:
-        arrays = dict(loaded)
-    return read_arrays(arrays, str(path), variable, "key")
+        return _read_arrays(fields, str(path))
+    heights = _squeeze(loaded)
+    if heights.ndim not in (1, 2):
+        raise ValueError(
+            f"needs a two-dimensional array or a profile, got shape {loaded.shape}; save one "
+            "map of them"
+        )
+    return _read_alone(Raw(_as_real(heights, "the array").T, str(path)))
 
 
 def _squeeze(array: NDArray) -> NDArray:
@@ -177,12 +181,12 @@ def _squeeze(array: NDArray) -> NDArray:
 
 
 def _as_real(array: NDArray, name: str) -> NDArray:
-    if array.dtype.kind not in "biuf":
+    if array.dtype.kind not in _NUMBERS:
         raise ValueError(f"{name} holds no real numbers (it is of {array.dtype})")
     return np.array(array, dtype=float)
 
 
-def read_arrays(
+def _read_arrays(
     arrays: Mapping[str, NDArray],
     source: str,
     wanted: str | int | None = None,
@@ -191,18 +195,8 @@ def read_arrays(
 ) -> Raw:
     """Find the heights among named arrays, and the positions that belong to them.
 
-    Parameters
-    ----------
-    arrays : mapping of arrays
-        All arrays of a file by name; those that hold no numbers are left out.
-    source : str
-        The file, for messages.
-    wanted : str or int, optional
-        Array of the heights, by name or by its number among the maps.
-    what : str
-        What the format calls its arrays.
-    units : mapping of str, optional
-        Units by name of the array.
+    `wanted` is the name of their array or its number among the maps, `what` what the format calls
+    its arrays, and `units` has units by name.
     """
     units = units or {}
     arrays = {name: _squeeze(np.asarray(array)) for name, array in arrays.items()}
@@ -211,45 +205,59 @@ def read_arrays(
         if not 0 <= wanted < len(maps):
             raise ValueError(f"no {what} {wanted!r}; the file has {sorted(arrays)}")
         wanted = maps[wanted]
-    positions = _find_positions(arrays)
+
+    # The heights are one of the arrays that hold no positions.
+    names_of_positions = _find_positions(arrays)
     candidates = {
         name: array
         for name, array in arrays.items()
-        if array.dtype.kind in "biuf" and name not in positions.values() and array.size > 1
+        if array.dtype.kind in _NUMBERS
+        and name not in names_of_positions.values()
+        and array.size > 1
     }
     name, others = _choose(arrays, candidates, wanted, what)
     heights = _as_real(arrays[name], f"{what} {name!r}")
-    source = f"{source}: {name}"
-    unit = units.get(name)
-    x, y = (arrays[positions[axis]] if axis in positions else None for axis in "xy")
-    place_units = {units.get(positions[axis]) for axis in positions} - {None}
+    raw = Raw(heights, f"{source}: {name}", units.get(name), others)
+
+    # Positions belong to them if they have as many points; else numbers may tell their steps.
+    x, y = (arrays.get(names_of_positions.get(axis, "")) for axis in "xy")
+    place_units = {units.get(each) for each in names_of_positions.values()} - {None}
     place_unit = place_units.pop() if len(place_units) == 1 else None
-    if heights.ndim == 1:
-        same = [each for each in (x, y) if each is not None and each.shape == heights.shape]
-        if len(same) == 2:
-            points = np.stack([*same, heights]).astype(float)
-            grid = map_points(points)
-            remarks = tuple(f"{source}: {text}" for text in grid.remarks)
-            return Raw(grid.heights, source, unit, others, grid.places, place_unit, remarks=remarks)
-        if same:
-            return Raw(heights, source, unit, others, np.array(same[0], dtype=float), place_unit)
-        return _read_alone(Raw(heights, source, unit, others, *_find_steps(arrays, units)))
-    heights = heights if _first_is_x(heights.shape, x, y) else heights.T
-    line_x, line_y = _line(x, heights.shape[0]), _line(y, heights.shape[1])
+    placed = _place_line(raw, x, y) if heights.ndim == 1 else _place_map(raw, x, y)
+    if placed.places is not None:
+        return replace(placed, place_unit=place_unit)
+    steps, step_unit = _find_steps(arrays, units)
+    return _read_alone(replace(placed, places=steps, place_unit=step_unit))
+
+
+def _place_line(raw: Raw, x: NDArray | None, y: NDArray | None) -> Raw:
+    """Heights of points x y z on their grid, or a profile with positions, if these are its own."""
+    along = [each for each in (x, y) if each is not None and each.shape == raw.heights.shape]
+    if len(along) < 2:
+        return replace(raw, places=np.array(along[0], dtype=float)) if along else raw
+    grid = map_points(np.stack([*along, raw.heights]).astype(float))
+    return replace(raw, **grid._asdict())
+
+
+def _place_map(raw: Raw, x: NDArray | None, y: NDArray | None) -> Raw:
+    """Heights of a matrix along x and y, with the steps of positions, if these are its own."""
+    heights = raw.heights if _first_is_x(raw.heights.shape, x, y) else raw.heights.T
+    line_x = _line(x, heights.shape[0])
+    line_y = _line(y, heights.shape[1])
     if line_x is None or line_y is None:
-        return _read_alone(Raw(heights, source, unit, others, *_find_steps(arrays, units)))
+        return replace(raw, heights=heights)
     steps = np.array([find_step(line_x, "x"), find_step(line_y, "y")])
-    return Raw(heights, source, unit, others, steps, place_unit)
+    return replace(raw, heights=heights, places=steps)
 
 
 def _read_alone(raw: Raw) -> Raw:
     """Read an array without positions beside it, only steps: its columns are as those of a text."""
     table = read_columns(np.atleast_2d(raw.heights))
-    places = raw.places if table.places is None else table.places
-    if raw.places is not None and raw.heights.ndim == 1:
-        places = raw.places[0] * np.arange(len(raw.heights))
-    remarks = tuple(f"{raw.source}: {text}" for text in table.remarks)
-    return replace(raw, heights=table.heights, places=places, remarks=remarks)
+    if table.places is None and raw.places is not None:
+        is_line = raw.heights.ndim == 1
+        places = raw.places[0] * np.arange(len(raw.heights)) if is_line else raw.places
+        table = table._replace(places=places)
+    return replace(raw, **table._asdict())
 
 
 def _find_steps(
@@ -261,22 +269,25 @@ def _find_steps(
         for name, array in arrays.items()
         if array.size == 1 and array.dtype.kind in "iuf" and (match := _STEP.match(name.lower()))
     }
-    x = step_by_axis.get("x", step_by_axis.get(""))
-    y = step_by_axis.get("y", x)
-    if x is None or y is None or not (0 < x[0] < np.inf and 0 < y[0] < np.inf):
+    along_x = step_by_axis.get("x", step_by_axis.get(""))
+    along_y = step_by_axis.get("y", along_x)
+    if along_x is None or along_y is None:
         return None, None
-    return np.array([x[0], y[0]]), x[1] if x[1] == y[1] else None
+    (dx, unit), (dy, other_unit) = along_x, along_y
+    if not (0 < dx < np.inf and 0 < dy < np.inf):
+        return None, None
+    return np.array([dx, dy]), unit if unit == other_unit else None
 
 
 def _find_positions(arrays: Mapping[str, NDArray]) -> dict[str, str]:
     """Arrays of positions along x and y, by their names; maps only if they are none of heights."""
-    found: dict[str, str] = {}
+    name_by_axis: dict[str, str] = {}
     for name, array in arrays.items():
         match = _POSITION.match(name.lower())
         is_line = array.ndim == 1 and array.size > 1
-        if match and array.dtype.kind in "biuf" and (is_line or _is_mesh(array)):
-            found.setdefault(match[1], name)
-    return found
+        if match and array.dtype.kind in _NUMBERS and (is_line or _is_mesh(array)):
+            name_by_axis.setdefault(match[1], name)
+    return name_by_axis
 
 
 def _is_mesh(array: NDArray) -> bool:
@@ -289,7 +300,7 @@ def _is_mesh(array: NDArray) -> bool:
     )
 
 
-def _first_is_x(shape: tuple[int, int], x: NDArray | None, y: NDArray | None) -> bool:
+def _first_is_x(shape: tuple[int, ...], x: NDArray | None, y: NDArray | None) -> bool:
     """Whether positions say that the first axis of a matrix is x."""
     if x is not None and x.ndim == 2:
         return x[0, 0] != x[-1, 0]
@@ -309,12 +320,9 @@ def _line(positions: NDArray | None, points: int) -> NDArray | None:
 
 def read_matlab(path: Path, wanted: str | int | None) -> Raw:
     """Read a matrix of a MATLAB file."""
-    with path.open("rb") as file:
-        head = file.read(10)
-    if head == _MATLAB + b" 7.3":
+    if read_head(path, 10) == b"MATLAB 7.3":
         arrays, units = _load_hdf5(path)
-        # MATLAB stores columns first.
-        arrays = {name: array.T for name, array in arrays.items()}
+        arrays = {name: array.T for name, array in arrays.items()}  # stored columns first
     else:
         import scipy.io
 
@@ -322,12 +330,12 @@ def read_matlab(path: Path, wanted: str | int | None) -> Raw:
         arrays = {
             name: array
             for name, array in scipy.io.loadmat(path).items()
-            if isinstance(array, np.ndarray) and array.dtype.kind in "biuf"
+            if isinstance(array, np.ndarray) and array.dtype.kind in _NUMBERS
         }
     arrays = {name: array.ravel() if 1 in array.shape else array for name, array in arrays.items()}
     if not arrays:
         raise ValueError("the file holds no matrix of numbers; save one, e.g. save('map.mat', 'Z')")
-    return read_arrays(arrays, str(path), wanted, "channel", units)
+    return _read_arrays(arrays, str(path), wanted, "channel", units)
 
 
 def read_hdf5(path: Path, wanted: str | int | None) -> Raw:
@@ -335,7 +343,7 @@ def read_hdf5(path: Path, wanted: str | int | None) -> Raw:
     arrays, units = _load_hdf5(path)
     if not arrays:
         raise ValueError("the file holds no matrix of numbers; export one as text, .nc or .npy")
-    return read_arrays(arrays, str(path), wanted, "channel", units)
+    return _read_arrays(arrays, str(path), wanted, "channel", units)
 
 
 def _load_hdf5(path: Path) -> tuple[dict[str, NDArray], dict[str, str]]:
@@ -349,7 +357,7 @@ def _load_hdf5(path: Path) -> tuple[dict[str, NDArray], dict[str, str]]:
         is_text = node.attrs.get("MATLAB_class") == b"char"
         if not isinstance(node, h5py.Dataset) or is_text or name.startswith("#"):
             return
-        if node.dtype.kind in "biuf" and node.ndim <= 3 and node.size > 0:
+        if node.dtype.kind in _NUMBERS and node.ndim <= 3 and node.size > 0:
             arrays[name] = node[...]
             if (unit := _find_unit(node.attrs)) is not None:
                 units[name] = unit

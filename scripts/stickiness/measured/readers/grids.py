@@ -5,10 +5,12 @@ Gwyddion's files and simple field, TIFF, Surfer's grids, MetroPro's text.
 
 from __future__ import annotations
 
+import contextlib
 import re
 import struct
 import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,57 +20,51 @@ from numpy.typing import NDArray
 from stickiness.measured.readers.instruments import (
     EXPORT,
     HEIGHTS,
-    NO_HEIGHTS,
+    may_name_heights,
     open_reader,
     read_channel,
 )
-from stickiness.measured.readers.raw import Raw, is_length, metres
+from stickiness.measured.readers.raw import INCOMPLETE, Raw, is_length, metres
 
-_GSF = b"Gwyddion Simple Field 1."
-_TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
-_DSBB = b"DSBB"
+_ATOMS = {"b": "i1", "c": "i1", "i": "<i4", "q": "<i8", "d": "<f8"}  # kinds of numbers in .gwy
 _ZYGO_MISSING = 2147483640  # or more
 _ZYGO_STEPS = {0: 4096, 1: 32768, 2: 131072}  # of phase per wave, by "PhaseRes"
 
 
-def is_binary(head: bytes) -> bool:
-    """Whether a file begins as one that `find_reader` reads, though it may hold no zero byte."""
-    return head.startswith((_GSF, _DSBB, *_TIFF))
-
-
-def find_reader(path: Path) -> Callable[[Path], Raw] | None:
+def find_reader(head: bytes) -> Callable[[Path], Raw] | None:
     """Reader of a file by its first bytes, if one of this module's reads it."""
-    with path.open("rb") as file:
-        head = file.read(len(_GSF))
-    if head.startswith(_GSF):
-        return read_simple_field
-    if head.startswith(_DSBB):
-        return read_surfer_binary
-    return read_tiff if head.startswith(_TIFF) else None
+    readers = {
+        b"Gwyddion Simple Field 1.": read_simple_field,
+        b"DSBB": read_surfer_binary,
+        **dict.fromkeys((b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"), read_tiff),
+    }
+    return next((reader for start, reader in readers.items() if head.startswith(start)), None)
 
 
 def read_simple_field(path: Path) -> Raw:
     """Read Gwyddion's simple field (.gsf), after its public specification."""
-    raw = path.read_bytes()
-    end = raw.find(b"\0")
-    lines = raw[:end].decode("utf-8", errors="replace").splitlines()[1:]
-    fields = {
-        key.strip(): value.strip() for key, _, value in (line.partition("=") for line in lines)
-    }
+    content = path.read_bytes()
+    end = content.find(b"\0")
+    lines = content[:end].decode("utf-8", errors="replace").splitlines()[1:]
+    pairs = (line.partition("=") for line in lines)
+    fields = {key.strip(): told.strip() for key, _, told in pairs}
     try:
         counts = int(fields["XRes"]), int(fields["YRes"])
     except (KeyError, ValueError):
         raise ValueError("its header tells no XRes and YRes; export it again") from None
+    # Heights begin at the next multiple of four bytes.
     start = (end // 4 + 1) * 4
-    if end < 0 or len(raw) - start < 4 * counts[0] * counts[1]:
-        raise ValueError("the file is incomplete, its end is missing: copy it again")
-    heights = np.frombuffer(raw, "<f4", counts[0] * counts[1], start).reshape(counts[::-1])
+    if end < 0 or len(content) - start < 4 * counts[0] * counts[1]:
+        raise ValueError(INCOMPLETE)
+    heights = np.frombuffer(content, "<f4", counts[0] * counts[1], start).reshape(counts[::-1])
     size = [fields.get(name) for name in ("XReal", "YReal")]
-    places = None if None in size else np.array(size, dtype=float) / counts
-    unit = fields.get("XYUnits") or None
-    title = fields.get("Title", "field")
-    heights = heights.T.astype(float)
-    return Raw(heights, f"{path}: {title}", fields.get("ZUnits") or None, (), places, unit)
+    return Raw(
+        heights=heights.T.astype(float),
+        source=f"{path}: {fields.get('Title', 'field')}",
+        unit=fields.get("ZUnits") or None,
+        places=None if None in size else np.array(size, dtype=float) / counts,
+        place_unit=fields.get("XYUnits") or None,
+    )
 
 
 def read_gwyddion(path: Path, channel: str | int | None = None) -> Raw:
@@ -76,82 +72,99 @@ def read_gwyddion(path: Path, channel: str | int | None = None) -> Raw:
 
     SurfaceTopography takes A, which is ampere there, for ångström.
     """
-    raw = path.read_bytes()
-    content, _ = _read_object(raw, 4)
-    fields = [
-        (key, value)
-        for key, value in content.items()
-        if re.fullmatch(r"/\d+/data", key) and isinstance(value, dict) and "data" in value
-    ]
-    titles = [str(content.get(f"{key}/title") or key) for key, _ in fields]
-    units = [_unit(field.get("si_unit_z")) for _, field in fields]
-    titles = [
-        title if titles.count(title) == 1 else f"{title}#{titles[: i + 1].count(title)}"
-        for i, title in enumerate(titles)
-    ]
-    lengths = [i for i, unit in enumerate(units) if unit and is_length(unit)]
-    usable = lengths or [i for i, unit in enumerate(units) if not unit]
-    named = [i for i in usable if HEIGHTS.search(titles[i])]
-    chosen = [i for i in usable if i in named or not NO_HEIGHTS.search(titles[i])] or usable
-    chosen = chosen if lengths else named or chosen
-    if channel is not None:
-        chosen = [i for number, i in enumerate(usable) if channel in (number, titles[i])]
-    if not chosen or len(chosen) > 1 and not lengths:
-        told = ", ".join(f"{title!r} ({unit})" for title, unit in zip(titles, units, strict=True))
+    fields = _list_fields(_GwyddionBytes(path.read_bytes(), place=4).take_object())
+    units = {title: _find_unit(field, "si_unit_z") for title, field in fields.items()}
+    of_length = [title for title, unit in units.items() if unit and is_length(unit)]
+    usable = of_length or [title for title, unit in units.items() if not unit]
+    if channel is None:
+        chosen = [title for title in usable if may_name_heights(title)] or usable
+        if not of_length:
+            chosen = [title for title in usable if HEIGHTS.search(title)] or chosen
+    else:
+        chosen = [title for number, title in enumerate(usable) if channel in (number, title)]
+    if not chosen or (len(chosen) > 1 and not of_length):
+        told = ", ".join(f"{title!r} ({unit})" for title, unit in units.items()) or "none"
         asked = "" if channel is None else f" {channel!r}"
-        raise ValueError(f"no channel{asked} of heights: it has {told or 'none'}; {EXPORT}")
-    key, field = fields[chosen[0]]
+        raise ValueError(f"no channel{asked} of heights: it has {told}; {EXPORT}")
+
+    title = chosen[0]
+    field = fields[title]
     counts = int(field["xres"]), int(field["yres"])
     heights = np.array(field["data"]).reshape(counts[::-1]).T
-    if (mask := content.get(key.replace("/data", "/mask"))) is not None:
+    if (mask := field["mask"]) is not None:
         heights = np.where(np.reshape(mask["data"], counts[::-1]).T > 0.5, np.nan, heights)
-    places = np.abs([field["xreal"], field["yreal"]]) / counts
-    others = tuple(titles[i] for i in usable if channel is None and i != chosen[0])
-    unit = _unit(field.get("si_unit_xy"))
-    source = f"{path}: {titles[chosen[0]]}"
-    return Raw(heights, source, units[chosen[0]], others, places if places.all() else None, unit)
+    steps = np.abs([field["xreal"], field["yreal"]]) / counts
+    return Raw(
+        heights=heights,
+        source=f"{path}: {title}",
+        unit=units[title],
+        others=tuple(each for each in usable if channel is None and each != title),
+        places=steps if steps.all() else None,
+        place_unit=_find_unit(field, "si_unit_xy"),
+    )
 
 
-def _unit(unit: dict | None) -> str | None:
-    return (unit or {}).get("unitstr") or None
+def _list_fields(content: dict[str, Any]) -> dict[str, dict[str, Any]]:
+    """Data fields of a .gwy file by title, with their masks; those of one title are numbered."""
+    keys = [
+        key
+        for key, field in content.items()
+        if re.fullmatch(r"/\d+/data", key) and isinstance(field, dict) and "data" in field
+    ]
+    titles = [str(content.get(f"{key}/title") or key) for key in keys]
+    fields = {}
+    for number, (key, title) in enumerate(zip(keys, titles, strict=True), start=1):
+        name = title if titles.count(title) == 1 else f"{title}#{titles[:number].count(title)}"
+        fields[name] = content[key] | {"mask": content.get(key.replace("/data", "/mask"))}
+    return fields
 
 
-def _read_object(raw: bytes, start: int) -> tuple[dict[str, Any], int]:
-    """Components of an object at a place in a .gwy file, and the place behind it."""
-    start = raw.index(b"\0", start) + 1  # its name is not used
-    (size,) = struct.unpack_from("<I", raw, start)
-    start += 4
-    end = start + size
-    content = {}
-    while start < end:
-        stop = raw.index(b"\0", start)
-        name = raw[start:stop].decode("utf-8", errors="replace")
-        content[name], start = _read_value(raw, stop + 2, raw[stop + 1 : stop + 2].decode())
-    return content, end
+def _find_unit(field: dict[str, Any], name: str) -> str | None:
+    return (field.get(name) or {}).get("unitstr") or None
 
 
-def _read_value(raw: bytes, start: int, kind: str) -> tuple[Any, int]:
-    """A component of this kind: a letter for an atom, an object or a string, a capital for many."""
-    if kind.isupper():
-        (count,) = struct.unpack_from("<I", raw, start)
-        start += 4
-        if kind in "CIQD":
-            values = np.frombuffer(
-                raw, {"C": "i1", "I": "<i4", "Q": "<i8", "D": "<f8"}[kind], count, start
-            )
-            return values, start + values.nbytes
-        many = []
-        for _ in range(count):
-            value, start = _read_value(raw, start, kind.lower())
-            many.append(value)
-        return many, start
-    if kind == "o":
-        return _read_object(raw, start)
-    if kind == "s":
-        stop = raw.index(b"\0", start)
-        return raw[start:stop].decode("utf-8", errors="replace"), stop + 1
-    form = {"b": "<b", "c": "<b", "i": "<i", "q": "<q", "d": "<d"}[kind]
-    return struct.unpack_from(form, raw, start)[0], start + struct.calcsize(form)
+@dataclass
+class _GwyddionBytes:
+    """Content of a .gwy file, which is taken component by component."""
+
+    content: bytes
+    place: int  #: of the next byte
+
+    def take_text(self) -> str:
+        """Text up to the next zero."""
+        start = self.place
+        end = self.content.index(b"\0", start)
+        self.place = end + 1
+        return self.content[start:end].decode("utf-8", errors="replace")
+
+    def take_numbers(self, dtype: str, count: int = 1) -> NDArray:
+        """So many numbers of one type."""
+        numbers = np.frombuffer(self.content, dtype, count, self.place)
+        self.place += numbers.nbytes
+        return numbers
+
+    def take_object(self) -> dict[str, Any]:
+        """Components of an object by their names; its own name is not used."""
+        self.take_text()
+        size = self.take_numbers("<u4").item()
+        end = self.place + size
+        components = {}
+        while self.place < end:
+            name = self.take_text()
+            components[name] = self.take(kind=self.take_numbers("S1").item().decode())
+        self.place = end
+        return components
+
+    def take(self, kind: str) -> Any:
+        """A component: a number, an object or a text by its letter, many by the capital."""
+        if kind in _ATOMS:
+            return self.take_numbers(_ATOMS[kind]).item()
+        if kind in "os":
+            return self.take_object() if kind == "o" else self.take_text()
+        count = self.take_numbers("<u4").item()
+        if kind.lower() in _ATOMS:
+            return self.take_numbers(_ATOMS[kind.lower()], count)
+        return [self.take(kind.lower()) for _ in range(count)]
 
 
 def read_tiff(path: Path) -> Raw:
@@ -159,10 +172,8 @@ def read_tiff(path: Path) -> Raw:
 
     Whole numbers of 16 bits or more are counts, of which the caller gives the unit.
     """
-    try:
+    with contextlib.suppress(ValueError):  # of other programs
         return read_channel(path, open_reader(path))
-    except ValueError:  # of other programs
-        pass
     import tifffile  # SurfaceTopography needs it, too
     from PIL import Image  # so does matplotlib
 
@@ -185,38 +196,40 @@ def read_tiff(path: Path) -> Raw:
                 f"not a readable TIFF ({error}); save it uncompressed, in 32-bit floats, or "
                 f"{EXPORT}"
             ) from error
-    if pages > 1 or pixels.ndim > 2 and pixels.shape[-1] > 4:
+    if pages > 1 or (pixels.ndim > 2 and pixels.shape[-1] > 4):
         raise ValueError("the TIFF has several pages; save that of the heights alone")
     if pixels.ndim != 2 or pixels.dtype.itemsize < 2:
         raise ValueError(
             f"the TIFF holds colours or grey levels ({mode}), no heights: save it in 32-bit "
             f"floats, or {EXPORT}"
         )
-    places, unit = _find_resolution(tags)
-    return Raw(pixels.T.astype(float), str(path), None, (), places, unit)
+    steps, unit = _find_resolution(tags)
+    return Raw(pixels.T.astype(float), str(path), places=steps, place_unit=unit)
 
 
 def _find_resolution(tags: dict[int, Any]) -> tuple[NDArray | None, str | None]:
     """Size of a pixel as ImageJ writes it; others write dots per inch of a print."""
-    described = re.search(r"^unit=(.+)$", str(tags.get(270, "")), re.MULTILINE)
-    if not described or not str(tags[270]).startswith("ImageJ"):
+    description = str(tags.get(270, ""))
+    described = re.search(r"^unit=(.+)$", description, re.MULTILINE)
+    if not described or not description.startswith("ImageJ"):
         return None, None
     per_unit = [float(tags.get(tag, 0)) for tag in (282, 283)]
     unit = described[1].strip().replace("\\u00B5", "µ")
-    unit = {"micron": "um", "microns": "um", "inch": "inch"}.get(unit, unit)
     if not min(per_unit) > 0 or unit in ("pixel", "pixels"):
         return None, None
-    return 1 / np.array(per_unit), unit
+    return 1 / np.array(per_unit), {"micron": "um", "microns": "um"}.get(unit, unit)
 
 
 def read_surfer_binary(path: Path) -> Raw:
     """Read a grid of Surfer 6 (.grd, DSBB)."""
-    raw = path.read_bytes()
-    nx, ny, *ends = struct.unpack_from("<2h6d", raw, 4)
-    if len(raw) < 56 + 4 * nx * ny:
-        raise ValueError("the file is incomplete, its end is missing: copy it again")
-    values = np.frombuffer(raw, "<f4", nx * ny, 56)
-    return _of_surfer(path, values.astype(float), (nx, ny), ends)
+    content = path.read_bytes()
+    if len(content) < 56:
+        raise ValueError(INCOMPLETE)
+    nx, ny, *ends = struct.unpack_from("<2h6d", content, 4)
+    if len(content) < 56 + 4 * nx * ny:
+        raise ValueError(INCOMPLETE)
+    heights = np.frombuffer(content, "<f4", nx * ny, 56)
+    return _of_surfer(path, heights.astype(float), (nx, ny), ends)
 
 
 def read_surfer_text(path: Path, words: list[str]) -> Raw:
@@ -224,51 +237,54 @@ def read_surfer_text(path: Path, words: list[str]) -> Raw:
     try:
         nx, ny = map(int, words[1:3])
         ends = [float(word) for word in words[3:9]]
-        values = np.array([float(word) for word in words[9:]])
+        heights = np.array([float(word) for word in words[9:]])
     except ValueError as error:
         raise ValueError(f"the grid of Surfer cannot be read ({error})") from None
-    if len(values) != nx * ny:
+    if len(heights) != nx * ny:
         raise ValueError(
-            f"the grid of Surfer has {len(values)} heights, but its header says {nx} x {ny}; is "
+            f"the grid of Surfer has {len(heights)} heights, but its header says {nx} x {ny}; is "
             "the file complete?"
         )
-    return _of_surfer(path, values, (nx, ny), ends)
+    return _of_surfer(path, heights, (nx, ny), ends)
 
 
-def _of_surfer(path: Path, values: NDArray, counts: tuple[int, int], ends: list[float]) -> Raw:
-    heights = values.reshape(counts[::-1]).T
+def _of_surfer(path: Path, heights: NDArray, counts: tuple[int, int], ends: list[float]) -> Raw:
     # The sides go from the first to the last point.
-    places = np.array([ends[1] - ends[0], ends[3] - ends[2]]) / (np.array(counts) - 1)
-    return Raw(heights, str(path), None, (), places)
+    steps = np.array([ends[1] - ends[0], ends[3] - ends[2]]) / (np.array(counts) - 1)
+    return Raw(heights.reshape(counts[::-1]).T, str(path), places=steps)
 
 
 def read_zygo(path: Path, lines: list[str]) -> Raw:
     """Read the text of Zygo's MetroPro: points of phase, or its whole numbers (reference guide)."""
+    unit: str | None = "m"
     try:
-        blocks = [i for i, line in enumerate(lines) if line.strip() == "#"]
+        blocks = [number for number, line in enumerate(lines) if line.strip() == "#"]
         software = int(lines[1].split()[0])
         _, _, nx, ny = (int(word) for word in lines[3].split()[:4])
-        optics = [float(word) for word in lines[7].split()[:7]]
-        pixel = optics[6]
-        heights = np.full((ny, nx), np.nan)
+        scale, wavelength, _, obliquity, _, pixel = map(float, lines[7].split()[1:7])
         if "XYZ" in lines[0]:
-            rows = [line.split() for line in lines[blocks[0] + 1 :] if line.strip() != "#"]
-            points = np.array([row for row in rows if len(row) == 3 and row[2] != "No"], float)
-            column, row = (points[:, :2] - points[:, :2].min(axis=0)).astype(int).T
-            heights = np.full((max(ny, row.max() + 1), max(nx, column.max() + 1)), np.nan)
-            heights[row, column] = points[:, 2]
+            heights = _read_points_of_zygo(lines[blocks[0] + 1 :], (ny, nx))
             # Other software than MetroPro lets its user choose.
             unit = "um" if software == 1 else None
         else:
             words = " ".join(lines[blocks[-2] + 1 : blocks[-1]]).split()
             phase = np.array(words, dtype=float).reshape(ny, nx)
-            step = optics[1] * optics[2] * optics[4] / _ZYGO_STEPS[int(lines[10].split()[0])]
+            step = scale * wavelength * obliquity / _ZYGO_STEPS[int(lines[10].split()[0])]
             heights = np.where(phase >= _ZYGO_MISSING, np.nan, step * phase)
-            unit = "m"
     except (ValueError, IndexError, KeyError) as error:
         raise ValueError(
             f"the text of Zygo's software cannot be read ({error}); is it complete? Else save it "
             "as .dat, .datx or XYZ"
         ) from None
-    places = np.full(2, metres(pixel, "CameraRes")) if pixel > 0 else None
-    return Raw(heights.T, str(path), unit, (), places, "m")
+    steps = np.full(2, metres(pixel, "CameraRes")) if pixel > 0 else None
+    return Raw(heights.T, str(path), unit, places=steps, place_unit="m")
+
+
+def _read_points_of_zygo(lines: list[str], shape: tuple[int, int]) -> NDArray:
+    """Heights (rows, columns) in lines "column row height"; "No Data" stands for missing ones."""
+    words = [line.split() for line in lines if line.strip() != "#"]
+    points = np.array([row for row in words if len(row) == 3 and row[2] != "No"], float)
+    column, row = (points[:, :2] - points[:, :2].min(axis=0)).astype(int).T
+    heights = np.full(np.maximum(shape, [row.max() + 1, column.max() + 1]), np.nan)
+    heights[row, column] = points[:, 2]
+    return heights

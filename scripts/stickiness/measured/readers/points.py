@@ -45,22 +45,22 @@ def map_points(points: NDArray) -> Gridded:
         If the points are on no grid, leave most of one empty or have two heights at one place.
     """
     points = points[:, np.isfinite(points[:2]).all(axis=0)]
+    count = points.shape[1]
     i, dx, off_x = _index(points[0], "x")
     j, dy, off_y = _index(points[1], "y")
     heights = np.full((int(i.max()) + 1, int(j.max()) + 1), np.nan)
-    if points.shape[1] < (1 - _MOST_EMPTY) * heights.size:
+    if count < (1 - _MOST_EMPTY) * heights.size:
         raise ValueError(
             f"three columns, which as x y z leave most of a grid of {heights.shape[0]} x "
             f"{heights.shape[1]} points empty; {RESAMPLE}, or export a matrix"
         )
-    found, first, counts = np.unique(
-        i * heights.shape[1] + j, return_index=True, return_counts=True
-    )
-    if len(found) < points.shape[1]:
-        x, y = points[:2, first[np.argmax(counts > 1)]]
+    numbers = i * heights.shape[1] + j
+    places, first, repeats = np.unique(numbers, return_index=True, return_counts=True)
+    if len(places) < count:
+        x, y = points[:2, first[np.argmax(repeats > 1)]]
         raise ValueError(
-            f"as x y z it has {points.shape[1]} points at {len(found)} places, and several of them "
-            f"at x = {x:g}, y = {y:g}: export positions with more digits, or leave one point each"
+            f"as x y z it has {count} points at {len(places)} places, and several of them at "
+            f"x = {x:g}, y = {y:g}: export positions with more digits, or leave one point each"
         )
     heights[i, j] = points[2]
     off = max(off_x, off_y)
@@ -92,9 +92,8 @@ def _index(positions: NDArray, name: str) -> tuple[NDArray, float, float]:
 
 def _fit_grid(positions: NDArray, levels: NDArray, least: float) -> tuple[NDArray, float]:
     """Places of positions in steps of the grid whose lines are at least so far apart."""
-    lines = np.array(
-        [line.mean() for line in np.split(levels, np.flatnonzero(np.diff(levels) > least) + 1)]
-    )
+    groups = np.split(levels, np.flatnonzero(np.diff(levels) > least) + 1)
+    lines = np.array([group.mean() for group in groups])
     gaps = np.diff(lines)
     # Gaps of rounded positions differ: one step is the mean of the short ones, and then what
     # fits the whole side.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from stickiness.units import si, si_of_unit
 
 Length = str | float  # "10 um", or metres
+INCOMPLETE = "the file is incomplete, its end is missing: copy it again"
 MOST_POINTS = 2**27  #: of a map, 11585 x 11585; they take 1 GB, and their analysis ten times that
 
 
@@ -27,7 +29,13 @@ class Raw:
     place_unit: str | None = None
     periodic: bool = False  #: whether the file says that the heights go on periodically
     missing_value: float | None = None  #: number that marks missing points
-    remarks: tuple[str, ...] = ()  #: what was done to the content that nobody asked for
+    remarks: tuple[str, ...] = ()  #: what was done to the content unasked, without the source
+
+
+def read_head(path: str | Path, size: int) -> bytes:
+    """First bytes of a file, at most `size`."""
+    with Path(path).open("rb") as file:
+        return file.read(size)
 
 
 def metres(value: Length, name: str) -> float:
@@ -49,7 +57,7 @@ def sides(value: Length | Sequence[Length], shape: tuple[int, ...], name: str) -
     if len(value) != len(shape):
         many = "one length or two (x, y)" if len(shape) == 2 else "one length for a line profile"
         raise ValueError(f"{name} must be {many}, got {value!r}")
-    return tuple(metres(v, name) for v in value)
+    return tuple(metres(side, name) for side in value)
 
 
 def fold(column: NDArray, ratio: Sequence[float]) -> NDArray | None:

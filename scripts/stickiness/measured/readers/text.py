@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +24,10 @@ UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 MOST_COLUMNS = 12  #: of a table of points; more are a matrix
 MOST_MISSING = 2  #: different whole numbers that may stand for missing points in a column
 ROWS_PER_COLUMN = 32  #: of such a table, at least
+
+Rows = dict[int, str]  # by the number of their line
+Fields = dict[str, str]  # what a header tells, as Gwyddion names it, sizes and marks
+Units = tuple[str | None, ...]  # of columns, or one of heights
 
 # What a comma or a point may mean: groups of three digits, beside smaller numbers without any.
 _GROUPS = {mark: re.compile(rf"[-+]?[1-9]\d{{0,2}}(?:{re.escape(mark)}\d{{3}})+") for mark in ",."}
@@ -40,96 +44,64 @@ _SIGNS = str.maketrans("\u2212\u2013", "--")
 _APOSTROPHE = re.compile(r"(?<=\d)['\u2019](?=\d{3}(?!\d))")
 _FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d+(?![\d.]))")
 # How a row begins: with a number, or with missing points before one.
-_NUMERIC = re.compile(
-    r'"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:[-+]?(?:nan|inf)\b|[-+]?\.?\d)', re.IGNORECASE
-)
+_NUMERIC = re.compile(r'(?i)"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:[-+]?(?:nan|inf)\b|[-+]?\.?\d)')
 _MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
-_FIELD = re.compile(
-    r"^\W*(width|height|value unit|lateral unit|breite|höhe|werteinheit|laterale einheit)(?:s|en)?"
-    r"\s*[:=]\s*(.+?)\s*$",
-    re.I,
-)
-# What stands before another field in one line, or before a number of points.
-_NEXT_FIELD = re.compile(
-    r"[\s,;]+(?=(?:width|height|value units?|lateral units?|\d+\s*[x×]\s*\d+)\b)", re.IGNORECASE
-)
-_GERMAN = {  # fields as Gwyddion writes them in German
+
+_GERMAN = {  # fields of Gwyddion
     "breite": "width",
     "höhe": "height",
     "werteinheit": "value unit",
     "laterale einheit": "lateral unit",
 }
+_FIELDS = "|".join([*_GERMAN, *_GERMAN.values()])
+_FIELD = re.compile(rf"(?i)^\W*({_FIELDS})(?:s|en)?\s*[:=]\s*(.+?)\s*$")
+# What stands before another field in one line, or before a number of points.
+_NEXT_FIELD = re.compile(rf"(?i)[\s,;]+(?=(?:(?:{_FIELDS})(?:s|en)?|\d+\s*[x×]\s*\d+)\b)")
 # What SurfaceTopography takes from headers and this reader does not.
 _OF_INSTRUMENTS = re.compile(
-    r"pixel\s+size\s*=|height\s+conversion\s+factor|\b[xy]-length\b|\b[xyz]-unit\b|\bbit2nm\b"
+    r"(?i)pixel\s+size\s*=|height\s+conversion\s+factor|\b[xy]-length\b|\b[xyz]-unit\b|\bbit2nm\b"
     r"|wyko ascii|file format\s*=\s*ascii|^\W*unit (x|data)\s*=|^\W*scale [xy]\s*="
-    r"|^\s*x;y;valid|^\s*scan data\b|^\W*lateral um",
-    re.IGNORECASE | re.MULTILINE,
+    r"|^\s*x;y;valid|^\s*scan data\b|^\W*lateral um"
 )
-_FACTOR = re.compile(
-    r"factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b"
-    r"|^wavelength(\s+[\d.]+){3}$",  # heights in waves
-    re.I,
+_FACTOR = re.compile(  # the last one of heights in waves
+    r"(?i)factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b"
+    r"|^wavelength(\s+[\d.]+){3}$"
 )
 # Factors of pictures and axes, unless heights are named beside them.
 _OF_NO_HEIGHTS = re.compile(
-    r"^(?!.*(\bz\b|height|vertical|count|data)).*(zoom|colou?r|\bbar\b|\b[xy]\b)", re.IGNORECASE
+    r"(?i)^(?!.*(\bz\b|height|vertical|count|data)).*(zoom|colou?r|\bbar\b|\b[xy]\b)"
 )
 # A number of points: at the start of a line or after another number, without a unit.
-_COUNT = r"(?:^\W*|\d[\s,;]+)(?:{})\s*[:=,;]\s*(\d+)(?![\w./])|^\W*{}\s+(\d+)\s*$"
+_COUNT = r"(?i)(?:^\W*|\d[\s,;]+)(?:{})\s*[:=,;]\s*(\d+)(?![\w./])|^\W*{}\s+(\d+)\s*$"
 _COLUMNS = re.compile(
-    _COUNT.format(r"nx|columns|cols|x[-_ ]?pixels?|samps/line|horizont(?:al|\.)", "ncols"),
-    re.IGNORECASE,
+    _COUNT.format(r"nx|columns|cols|x[-_ ]?pixels?|samps/line|horizont(?:al|\.)", "ncols")
 )
 _ROWS = re.compile(
-    _COUNT.format(r"ny|rows|y[-_ ]?pixels?|number of lines|(?:vertical|vertik\.)", "nrows"),
-    re.IGNORECASE,
+    _COUNT.format(r"ny|rows|y[-_ ]?pixels?|number of lines|(?:vertical|vertik\.)", "nrows")
 )
 # Columns and rows as of a picture, in a line that may begin with them.
 _RESOLUTION = re.compile(
-    r"(?:^|[\s,;:=])(\d+)\s*[x×]\s*(\d+)\s*(?:pixels?|points?|px|pts)?\W*$", re.I
+    r"(?i)(?:^|[\s,;:=])(\d+)\s*[x×]\s*(\d+)\s*(?:pixels?|points?|px|pts)?\W*$"
 )
 # A number behind a key, without a unit: of the grids of geographic information systems.
-_CELL = re.compile(r"^\W*(cellsize|dx|dy|nodata_value)\s+([-+.\deE]+)\s*$", re.IGNORECASE)
-_KEYENCE = re.compile(r"^xy[ -](?:calibration|justierung)\W+([\d.]+)\W+(\w+)", re.IGNORECASE)
-_KEYENCE_UNIT = re.compile(r"^(?:unit|einheit)\s*[,;:\t]\s*(\S+)\s*$", re.IGNORECASE)
-_NANOSCOPE = re.compile(
-    r"^\W*scan size\s*[:=]\s*([\d.]+)(?:\s+([\d.]+))?\s*(\w+)\s*$", re.IGNORECASE
-)
-_ASPECT = re.compile(r"^\W*aspect ratio\s*[:=]\s*([\d.]+)\s*:\s*([\d.]+)", re.IGNORECASE)
-_NAME_AND_UNIT = re.compile(r"^(.*?)[\s_]*[\[(]\s*([^\])]+?)\s*[\])]$")
+_CELL = re.compile(r"(?i)^\W*(cellsize|dx|dy|nodata_value)\s+([-+.\deE]+)\s*$")
+_KEYENCE = re.compile(r"(?i)^xy[ -](?:calibration|justierung)\W+([\d.]+)\W+(\w+)")
+_KEYENCE_UNIT = re.compile(r"(?i)^(?:unit|einheit)\s*[,;:\t]\s*(\S+)\s*$")
+_NANOSCOPE = re.compile(r"(?i)^\W*scan size\s*[:=]\s*([\d.]+)(?:\s+([\d.]+))?\s*([\w~]+)\s*$")
+_ASPECT = re.compile(r"(?i)^\W*aspect ratio\s*[:=]\s*([\d.]+)\s*:\s*([\d.]+)")
+_NAME_AND_UNIT = re.compile(r"^(.*?)(?:[\s_]*[\[(]\s*([^\])]+?)\s*[\])])?$")
 _NAMED_UNIT = re.compile(
-    r"^\W*(?:heights?|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$",
-    re.IGNORECASE,
+    r"(?i)^\W*(?:heights?|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$"
 )
 # Columns of positions: those of a matrix follow each other along x.
 _AXES = {"x": "x", "y": "y", "column": "x", "col": "x", "row": "y"}
-_HEIGHT_NAME = re.compile(r"^(?:z|heights?|topo\w*|h)\b", re.IGNORECASE)
+_HEIGHT_NAME = re.compile(r"(?i)^(?:z|heights?|topo\w*|h)\b")
 
 
 def is_of_instrument(head: bytes) -> bool:
     """Whether SurfaceTopography reads the header of a text, and this module does not."""
-    header, _ = split_header(head)
-    return bool(_OF_INSTRUMENTS.search("\n".join(header)))
-
-
-@dataclass(frozen=True)
-class _Header:
-    """What the lines before the numbers tell."""
-
-    lines: list[str]
-    fields: dict[str, str]  #: as Gwyddion names them
-    cells: dict[str, float]  #: of geographic information systems
-    names: tuple[str, ...] = ()  #: of columns
-    units: tuple[str | None, ...] = ()  #: of columns, or of the heights of a matrix
-
-    def count(self) -> list[int]:
-        """Counts of columns and rows that lines tell, the first of each."""
-        patterns = (_COLUMNS, _ROWS, _RESOLUTION)
-        told = [next(filter(None, map(each.search, self.lines)), None) for each in patterns]
-        if told[2] and not (told[0] and told[1]):
-            return [int(told[2][1]), int(told[2][2])]
-        return [int(match[1] or match[2]) for match in told[:2] if match]
+    header_lines, _ = _split_lines(_decode(head[: len(head) // 2 * 2]).splitlines())
+    return any(map(_OF_INSTRUMENTS.search, header_lines))
 
 
 def read_text(path: Path) -> Raw:
@@ -138,76 +110,64 @@ def read_text(path: Path) -> Raw:
     first = lines[0].strip() if lines else ""
     if first == "DSAA":
         return grids.read_surfer_text(path, " ".join(lines).split())
-    if re.match(r"zygo (xyz|ascii) data file", first, re.IGNORECASE):
+    if re.match(r"(?i)zygo (xyz|ascii) data file", first):
         return grids.read_zygo(path, lines)
-    header_lines, rows = _split_lines(lines)
+
+    # The table of numbers, and what the lines before it tell.
+    header, rows = _split_lines(lines)
     if not rows:
         raise ValueError(
             "no line of numbers found; expected a matrix of heights, a profile or points x y z in "
             f"text; {EXPORT}, or give format: instrument if it is an instrument's file"
         )
-    for line in header_lines:
-        if _OF_INSTRUMENTS.search(line):
-            raise ValueError(
-                f"its header says {line!r}, which the text reader does not take; give format: "
-                "instrument"
-            )
-    rows, counted = _drop_count(rows)
-    is_german = any(field[1].lower() in _GERMAN for field in _find_fields(header_lines))
-    matrix = _read_rows(rows, has_decimal_commas=is_german)
-    header = _read_header(header_lines, matrix.shape[1])
-    _refuse_factors(header)
-    _refuse_blocks(rows, matrix.shape[1])
-    matrix, header, remarks = _order_columns(matrix, header)
-    return _make_raw(path, matrix.T, header, counted, remarks)
-
-
-def _make_raw(
-    path: Path, heights: NDArray, header: _Header, counted: list[int], remarks: tuple[str, ...]
-) -> Raw:
-    """Heights of a table (columns, rows) with its size and units."""
-    columns, count = heights.shape
-    unit = header.fields.get("value unit") or (header.units[-1] if header.units else None)
-    place_unit = header.fields.get("lateral unit") or _unit_of_positions(header)
-    folded = _fold(heights, header) if columns == 1 else None
-    if columns > 3 and count > 3:
-        _refuse_positions(heights)
-    read = read_columns(heights) if folded is None else Gridded(folded, None)
-    heights, places = read.heights, read.places
-    remarks += read.remarks
-    # Columns and rows that the header may mean: of a map, of the table, or points of a profile.
-    shapes = [heights.shape, (columns, count)]
-    if heights.ndim == 1:
-        shapes = [(columns, count), (count, 1)]
-    if places is None and heights.ndim == 2:
-        places, place_unit = _find_steps(header, heights.shape)
-    _check_counts(header.lines, shapes)
-    points = int(np.prod(heights.shape))
-    if counted and counted not in ([points], [count], [*heights.shape], [*heights.shape[::-1]]):
+    for line in filter(_OF_INSTRUMENTS.search, header):
         raise ValueError(
-            f"its first line counts {' x '.join(map(str, counted))} points, but {points} follow: "
-            "is the file complete?"
+            f"its header says {line!r}, which the text reader does not take; give format: "
+            "instrument"
         )
-    remarks = tuple(f"{path}: {remark}" for remark in remarks)
-    mark = header.cells.get("nodata_value", -9999 if "cellsize" in header.cells else None)
-    return Raw(heights, str(path), unit, (), places, place_unit, False, mark, remarks)
+    rows, counted = _drop_count(rows)
+    fields, is_german = _read_fields(header)
+    table = _read_rows(rows, has_decimal_commas=is_german)
+    names, units = _read_names(header, table.shape[1])
+    _refuse_factors(header, has_units=any(units))
+    _refuse_blocks(rows, table.shape[1])
+    table, units, remarks = _order_columns(table, names, units)
+
+    # Its heights, with their size and units.
+    unit = fields.get("value unit") or (units[-1] if units else None)
+    place_unit = fields.get("lateral unit") or _find_unit_of_positions(units)
+    folded = _fold(table, header, fields) if table.shape[1] == 1 else None
+    _refuse_positions(table)
+    heights, places, more = read_columns(table.T) if folded is None else Gridded(folded, None)
+    if places is None and heights.ndim == 2:
+        places, place_unit = _find_steps(fields, heights.shape)
+    _check_counts(header, counted, table.shape[::-1], heights.shape)
+    mark = fields.get("nodata_value", "-9999" if "cellsize" in fields else None)
+    return Raw(
+        heights=heights,
+        source=str(path),
+        unit=unit,
+        places=places,
+        place_unit=place_unit,
+        missing_value=None if mark is None else float(mark),
+        remarks=(*remarks, *more),
+    )
 
 
-def _decode(raw: bytes) -> str:
+# Lines.
+
+
+def _decode(content: bytes) -> str:
     try:
-        return raw.decode("utf-16" if raw.startswith(UTF16) else "utf-8-sig")
+        return content.decode("utf-16" if content.startswith(UTF16) else "utf-8-sig")
     except UnicodeDecodeError:
-        return raw.decode("latin-1")  # older instruments write µ as one byte
+        return content.decode("latin-1")  # older instruments write µ as one byte
 
 
-def split_header(raw: bytes) -> tuple[list[str], list[tuple[int, str]]]:
-    """Comments and lines before the first row, and the rows with their line numbers."""
-    return _split_lines(_decode(raw).splitlines())
-
-
-def _split_lines(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
-    header: list[str] = []
-    rows: list[tuple[int, str]] = []
+def _split_lines(lines: list[str]) -> tuple[list[str], Rows]:
+    """Comments and lines before the first row, and the rows."""
+    header_lines: list[str] = []
+    rows: Rows = {}
     has_commas = any('"' in line and _QUOTED.search(line) for line in lines)
     for number, line in enumerate(lines, start=1):
         stripped = line.strip(" \r\n")
@@ -218,10 +178,10 @@ def _split_lines(lines: list[str]) -> tuple[list[str], list[tuple[int, str]]]:
         is_comment = stripped.startswith(("#", "%", "//"))
         is_numeric = _NUMERIC.match(row) and not _RESOLUTION.match(row)
         if is_comment or not (rows or is_numeric):
-            header.append(stripped)
+            header_lines.append(stripped)
         elif stripped.strip():
-            rows.append((number, row))
-    return header, rows
+            rows[number] = row
+    return header_lines, rows
 
 
 def _write_plainly(row: str) -> str:
@@ -231,95 +191,117 @@ def _write_plainly(row: str) -> str:
     return _FORTRAN.sub("e", _APOSTROPHE.sub("", row.translate(_SIGNS)))
 
 
-def _drop_count(rows: list[tuple[int, str]]) -> tuple[list[tuple[int, str]], list[int]]:
+def _drop_count(rows: Rows) -> tuple[Rows, list[int]]:
     """Rows without a first one that counts the others, and what it counts."""
-    words = [re.split(r"[\s,;]+", line.strip(" ")) for _, line in rows[:2]]
-    if len(rows) < 3 or len(words[0]) > 2 or len(words[1]) <= len(words[0]):
+    if len(rows) < 3:
         return rows, []
-    if not all(re.fullmatch(r"\d+", word) for word in words[0]):
+    first, second = (re.split(r"[\s,;]+", row.strip(" ")) for row in islice(rows.values(), 2))
+    are_whole = all(re.fullmatch(r"\d+", word) for word in first)
+    if len(first) > 2 or len(second) <= len(first) or not are_whole:
         return rows, []
-    return rows[1:], [int(word) for word in words[0]]
+    return dict(islice(rows.items(), 1, None)), [int(word) for word in first]
 
 
-def _find_fields(lines: list[str]) -> list[re.Match]:
-    """Fields that Gwyddion writes, in its language; others write several in one line."""
-    told = [part for line in lines if _FIELD.match(line) for part in _NEXT_FIELD.split(line)]
-    return [match for match in map(_FIELD.match, told) if match]
+def _refuse_blocks(rows: Rows, columns: int) -> None:
+    """Refuse a text of several maps or profiles, which blank or other lines separate."""
+    numbers = np.array(list(rows))
+    blocks = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
+    lengths = [len(block) for block in blocks]
+    if columns == 3 or len(lengths) == 1 or sorted(lengths)[-2] < 2:
+        return  # points may have a blank line behind every line of a scan
+    count = {2: "two", 3: "three"}.get(len(lengths), len(lengths))
+    equal = set(lengths) if len(set(lengths)) == 1 else lengths
+    told = " and ".join(map(str, equal)) if len(lengths) < 4 else f"{min(lengths)} or more"
+    raise ValueError(
+        f"{count} blocks of {told} rows; give one, in a file of its own (or remove the lines "
+        "between them if they are one map)"
+    )
 
 
-def _read_header(lines: list[str], columns: int) -> _Header:
-    matches = _find_fields(lines)
-    fields = {_GERMAN.get(match[1].lower(), match[1].lower()): match[2] for match in matches}
-    if matches and matches[0][1].lower() in _GERMAN:
-        fields = {name: text.replace(",", ".") for name, text in fields.items()}
-    cells = {}
+# What the header tells.
+
+
+def _find_last(pattern: re.Pattern, lines: list[str]) -> re.Match | None:
+    return next(filter(None, map(pattern.match, reversed(lines))), None)
+
+
+def _read_fields(lines: list[str]) -> tuple[Fields, bool]:
+    """What lines tell, the last one of each, and whether they are German."""
+    fields: Fields = {}
+    is_german = False
+    # Gwyddion writes fields in its language; others write several in one line.
+    apart = [field for line in lines if _FIELD.match(line) for field in _NEXT_FIELD.split(line)]
+    for match in filter(None, map(_FIELD.match, apart)):
+        name = match[1].lower()
+        is_german = is_german or name in _GERMAN
+        fields[_GERMAN.get(name, name)] = match[2]
+    if is_german:
+        fields = {name: told.replace(",", ".") for name, told in fields.items()}
     for match in filter(None, map(_CELL.match, lines)):
-        cells[match[1].lower()] = float(match[2])
-    for match in filter(None, map(_KEYENCE.match, lines)):
-        fields["pixel"] = f"{match[1]} {match[2]}"
-        told = [each[1] for each in map(_KEYENCE_UNIT.match, lines) if each]
-        fields |= {"value unit": told[-1]} if told else {}
-    aspects = [float(each[2]) / float(each[1]) for each in map(_ASPECT.match, lines) if each]
-    for match in filter(None, (_NANOSCOPE.match(line.replace("~", "u")) for line in lines)):
-        fields["width"] = f"{match[1]} {match[3]}"
-        height = float(match[2]) if match[2] else float(match[1]) * (aspects or [1.0])[-1]
-        fields["height"] = f"{height:.6g} {match[3]}"
-    names, units = _read_names(lines, columns)
-    if not units:
-        named = [match[1] for match in map(_NAMED_UNIT.match, lines) if match]
-        units = tuple(unit for unit in named[-1:] if is_length(unit))
-    return _Header(lines, fields, cells, names, units)
+        fields[match[1].lower()] = match[2]
+    if pixel := _find_last(_KEYENCE, lines):
+        fields["pixel"] = f"{pixel[1]} {pixel[2]}"
+        if unit := _find_last(_KEYENCE_UNIT, lines):
+            fields["value unit"] = unit[1]
+    if scan := _find_last(_NANOSCOPE, lines):
+        unit_of_scan = scan[3].replace("~", "u")
+        aspect = _find_last(_ASPECT, lines)
+        ratio = float(aspect[2]) / float(aspect[1]) if aspect else 1.0
+        height = float(scan[2]) if scan[2] else float(scan[1]) * ratio
+        fields["width"] = f"{scan[1]} {unit_of_scan}"
+        fields["height"] = f"{height:.6g} {unit_of_scan}"
+    return fields, is_german
 
 
-def _read_names(lines: list[str], columns: int) -> tuple[tuple[str, ...], tuple[str | None, ...]]:
-    """Names of the columns of a table and their units, from the last lines of the header."""
+def _read_names(lines: list[str], columns: int) -> tuple[tuple[str, ...], Units]:
+    """Names of the columns of a table and their units, from the last lines of the header.
+
+    Without them there may be one unit, that of the heights.
+    """
+    named = _find_last(_NAMED_UNIT, lines)
+    of_heights: Units = (named[1],) if named and is_length(named[1]) else ()
     if not 1 <= columns <= MOST_COLUMNS:
-        return (), ()
+        return (), of_heights
     below: tuple[str, ...] = ()  # units in a line of their own
     for line in reversed(lines[-3:]):
-        text = line.strip("#%/ \t")
-        words = _split_names(text, columns)
+        words = _split_names(line.strip("#%/ \t"), columns)
         if words is None:
             continue
         bare = tuple(word.strip("[]() ") for word in words)
         if all(map(is_length, bare)) and not below:
             below = bare
             continue
-        pairs = [_NAME_AND_UNIT.match(word) for word in words]
-        names = tuple(
-            pair[1].strip() if pair else word for pair, word in zip(pairs, words, strict=True)
-        )
+        names, units = zip(*(_NAME_AND_UNIT.findall(word)[0] for word in words), strict=True)
         if columns == 1 and not _HEIGHT_NAME.match(names[0]):
             continue
-        beside = tuple(pair[2].strip() if pair else None for pair in pairs)
-        units: tuple[str | None, ...] = below or beside
-        return names, units if any(units) else ()
-    return (), below
+        units = below or tuple(unit or None for unit in units)
+        return names, units if any(units) else of_heights
+    return (), below or of_heights
 
 
-def _split_names(text: str, columns: int) -> list[str] | None:
+def _split_names(line: str, columns: int) -> list[str] | None:
     """Words of a line that names so many columns; None of another line."""
     for separator in (r"\s*[\t;,]\s*", r"\s{2,}", r"(?<![\[(])\s+(?![\[(\])])"):
-        words = [word for word in re.split(separator, text) if word]
+        words = [word for word in re.split(separator, line) if word]
         if len(words) == columns and not any(re.search(r"[:=]", word) for word in words):
             return words
     return None
 
 
-def _unit_of_positions(header: _Header) -> str | None:
-    units = {unit for unit in header.units[:-1] if unit}
-    if len(units) > 1:
+def _find_unit_of_positions(units: Units) -> str | None:
+    different = sorted({unit for unit in units[:-1] if unit})
+    if len(different) > 1:
         raise ValueError(
-            f"its columns of positions are in {' and '.join(sorted(units))}; write both in one unit"
+            f"its columns of positions are in {' and '.join(different)}; write both in one unit"
         )
-    return units.pop() if units else None
+    return different[0] if different else None
 
 
-def _refuse_factors(header: _Header) -> None:
+def _refuse_factors(lines: list[str], has_units: bool) -> None:
     """Refuse factors in a header, which nobody applies."""
-    for line in header.lines:
+    for line in lines:
         # Calibrations that NanoScope copies from its file of counts, though columns name a unit.
-        is_applied = line.startswith("\\") and any(header.units)
+        is_applied = line.startswith("\\") and has_units
         is_factor = _FACTOR.search(line) and re.search(r"\d", line)
         if is_factor and not is_applied and not _OF_NO_HEIGHTS.search(line):
             raise ValueError(
@@ -328,92 +310,100 @@ def _refuse_factors(header: _Header) -> None:
             )
 
 
-def _refuse_blocks(rows: list[tuple[int, str]], columns: int) -> None:
-    """Refuse a text of several maps or profiles, which blank or other lines separate."""
-    numbers = np.array([number for number, _ in rows])
-    lengths = [len(block) for block in np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)]
-    if columns == 3 or len(lengths) == 1 or sorted(lengths)[-2] < 2:
-        return  # points may have a blank line behind every line of a scan
-    names = {2: "two", 3: "three"}
-    equal = set(lengths) if len(set(lengths)) == 1 else lengths
-    told = " and ".join(map(str, equal)) if len(lengths) < 4 else f"{min(lengths)} or more"
-    raise ValueError(
-        f"{names.get(len(lengths), len(lengths))} blocks of {told} rows; give one, in a file of "
-        "its own (or remove the lines between them if they are one map)"
-    )
+def _find_steps(fields: Fields, shape: tuple[int, ...]) -> tuple[NDArray | None, str | None]:
+    """Steps of a map and their unit, as its header tells them."""
+    if "pixel" in fields:
+        return np.full(2, metres(fields["pixel"], "XY calibration in the header")), "m"
+    if "width" in fields:
+        return np.divide(_find_sides(fields, shape), shape), "m"
+    steps = [fields.get("cellsize", fields.get(axis)) for axis in ("dx", "dy")]
+    return None if None in steps else np.array(steps, dtype=float), fields.get("lateral unit")
 
 
-def _order_columns(table: NDArray, header: _Header) -> tuple[NDArray, _Header, tuple[str, ...]]:
-    """Columns of positions and heights of a table, in this order, and a remark on others."""
+def _find_sides(fields: Fields, shape: tuple[int, ...]) -> tuple[float, ...]:
+    size = [fields[name] for name in ("width", "height") if name in fields]
+    # Without a height the pixels are square.
+    return sides(size if len(size) == 2 else size[0], shape, "Width, Height in the header")
+
+
+def _check_counts(
+    lines: list[str], counted: list[int], table: tuple[int, ...], shape: tuple[int, ...]
+) -> None:
+    """Check counts in the header and in the first row against the shape of the heights."""
+    columns, rows = table
+    # Columns and rows may be those of a map, of the table, or the points of a profile.
+    shapes = [shape, table] if len(shape) == 2 else [table, (rows, 1)]
+    for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
+        for match in filter(None, map(pattern.search, lines)):
+            if int(match[1] or match[2]) not in (each[axis] for each in shapes):
+                raise ValueError(
+                    f"{shapes[0][axis]} {name}, but its header says {match.string!r}; is the file "
+                    "complete, and do decimal commas or separators split its numbers?"
+                )
+    points = int(np.prod(shape))
+    if counted and counted not in ([points], [rows], [*shape], [*shape[::-1]]):
+        raise ValueError(
+            f"its first line counts {' x '.join(map(str, counted))} points, but {points} follow: "
+            "is the file complete?"
+        )
+
+
+# What the columns are.
+
+
+def _order_columns(
+    table: NDArray, names: tuple[str, ...], units: Units
+) -> tuple[NDArray, Units, tuple[str, ...]]:
+    """Columns of positions and heights, in this order, with their units, and a remark on others."""
     rows, columns = table.shape
-    names = [name.lower() for name in header.names]
-    order = list(range(columns))
+    names = tuple(map(str.lower, names))
     heights = [i for i, name in enumerate(names) if _HEIGHT_NAME.match(name)]
-    remarks: tuple[str, ...] = ()
     axes = {_AXES[name]: i for i, name in enumerate(names) if name in _AXES}
+    remarks: tuple[str, ...] = ()
     if columns == 3 and len(axes) == 2:
-        order = [axes["x"], axes["y"], *(i for i in order if i not in axes.values())]
+        order = [axes["x"], axes["y"], *({0, 1, 2} - {*axes.values()})]
     elif columns in (2, 3) and len(heights) == 1:
-        order = [i for i in order if i not in heights] + heights
+        order = [*(i for i in range(columns) if i not in heights), *heights]
     elif 3 < columns <= MOST_COLUMNS and rows >= ROWS_PER_COLUMN * columns:
         order = [names.index(name) for name in "xyz"] if {*"xyz"} <= {*names} else [0, 1, 2]
-        _try_points(table[:, order].T, columns)
+        try:
+            map_points(table[:, order].T)
+        except ValueError as error:
+            raise ValueError(
+                f"a table of {rows} rows in {columns} columns is no map, and its first three "
+                f"columns are no points x y z on a grid ({error}); give a matrix, a profile in two "
+                f"columns, or points x y z: {RESAMPLE}"
+            ) from None
         which = "columns x, y and z" if names else "first three columns"
         remarks = (f"of {columns} columns the {which} were taken for points x y z",)
     else:
-        return table, header, ()
-    names_in_order = tuple(header.names[i] for i in order) if header.names else ()
-    units = header.units
+        return table, units, ()
     if len(units) == columns:
         units = tuple(units[i] for i in order)
-    ordered = _Header(header.lines, header.fields, header.cells, names_in_order, units)
-    return table[:, order], ordered, remarks
+    return table[:, order], units, remarks
 
 
-def _try_points(points: NDArray, columns: int) -> Gridded:
-    try:
-        return map_points(points)
-    except ValueError as error:
-        raise ValueError(
-            f"a table of {points.shape[1]} rows in {columns} columns is no map, and its first "
-            f"three columns are no points x y z on a grid ({error}); give a matrix, a profile in "
-            f"two columns, or points x y z: {RESAMPLE}"
-        ) from None
-
-
-def _fold(column: NDArray, header: _Header) -> NDArray | None:
+def _fold(column: NDArray, lines: list[str], fields: Fields) -> NDArray | None:
     """Map whose rows follow each other in one column, if the header tells its sides."""
-    counts: Sequence[float] = header.count()
-    if not counts and {"width", "height"} <= header.fields.keys():
-        counts = _sides_in_header(header, (1, 1))
+    columns, rows, resolution = (
+        next(filter(None, map(pattern.search, lines)), None)
+        for pattern in (_COLUMNS, _ROWS, _RESOLUTION)
+    )
+    counts: Sequence[float] = [int(match[1] or match[2]) for match in (columns, rows) if match]
+    if resolution and len(counts) < 2:
+        counts = [int(resolution[1]), int(resolution[2])]
+    if not counts and {"width", "height"} <= fields.keys():
+        counts = _find_sides(fields, (1, 1))
     elif np.prod(counts) != column.size:
         return None
     return fold(column, counts)
 
 
-def _find_steps(header: _Header, shape: tuple[int, int]) -> tuple[NDArray | None, str | None]:
-    """Steps of a map and their unit, as its header tells them."""
-    if "pixel" in header.fields:
-        return np.full(2, metres(header.fields["pixel"], "XY calibration in the header")), "m"
-    if "width" in header.fields:
-        return np.divide(_sides_in_header(header, shape), shape), "m"
-    if "cellsize" in header.cells:
-        return np.full(2, header.cells["cellsize"]), header.fields.get("lateral unit")
-    if {"dx", "dy"} <= header.cells.keys():
-        steps = np.array([header.cells["dx"], header.cells["dy"]])
-        return steps, header.fields.get("lateral unit")
-    return None, header.fields.get("lateral unit")
-
-
-def _sides_in_header(header: _Header, shape: tuple[int, int]) -> tuple[float, ...]:
-    size = [header.fields[name] for name in ("width", "height") if name in header.fields]
-    # Without a height the pixels are square.
-    return sides(size if len(size) == 2 else size[0], shape, "Width, Height in the header")
-
-
-def _refuse_positions(heights: NDArray) -> None:
+def _refuse_positions(table: NDArray) -> None:
     """Refuse a matrix whose first column or row has even steps, unlike the next: positions."""
-    for name, lines in (("column", heights), ("row", heights.T)):
+    if min(table.shape) < 4:
+        return
+    for name, lines in (("column", table.T), ("row", table)):
         steps = np.diff(lines[:2, 1:], axis=1)
         if not np.all(np.isfinite(steps)):
             continue
@@ -425,24 +415,18 @@ def _refuse_positions(heights: NDArray) -> None:
             )
 
 
-def _check_counts(header: list[str], shapes: list[tuple[int, ...]]) -> None:
-    """Check the columns and rows that a header names against the shapes that they may mean."""
-    for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
-        for line in header:
-            match = pattern.search(line)
-            if match and int(match[1] or match[2]) not in (shape[axis] for shape in shapes):
-                raise ValueError(
-                    f"{shapes[0][axis]} {name}, but its header says {line!r}; is the file "
-                    "complete, and do decimal commas or separators split its numbers?"
-                )
+# Numbers.
 
 
-def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) -> NDArray:
-    first = rows[0][1]
+def _read_rows(rows: Rows, has_decimal_commas: bool) -> NDArray:
+    """Numbers of a table, NaN where they are missing."""
+    first = next(iter(rows.values()))
     separator = next((mark for mark in "\t;" if mark in first), None)  # None: any run of blanks
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
     if separator is None and not has_decimal_commas and re.search(r",\s|^[^ ]*,[^ ]*$", first):
         separator = ","
+
+    # Marks of thousands go; those that may be decimal ones are refused.
     mark = None if separator == "," else _find_mark_of_thousands(rows)
     if mark:
         rows = _join_groups(rows, mark)
@@ -450,58 +434,72 @@ def _read_rows(rows: list[tuple[int, str]], has_decimal_commas: bool = False) ->
         if separator != ",":
             _refuse_groups(rows, separator, ",")
         _refuse_groups(rows, separator, ".")
-    values: list[list[float]] = []
-    for number, line in rows:
-        fields = (line if separator == "," else line.replace(",", ".")).split(separator)
-        if separator and len(fields) > 1 and not fields[-1].strip():
-            fields.pop()  # a separator after the last number
+    if separator != ",":
+        rows = {number: row.replace(",", ".") for number, row in rows.items()}
+    table = np.array(_split_rows(rows, separator))
+    if separator == ",":
+        _refuse_split_decimals(table, rows)
+    return table
+
+
+def _split_rows(rows: Rows, separator: str | None) -> list[list[float]]:
+    """Numbers of every row, as many in each."""
+    table: list[list[float]] = []
+    for number, row in rows.items():
+        words = row.split(separator)
+        if separator and len(words) > 1 and not words[-1].strip():
+            words.pop()  # a separator after the last number
         try:
-            row = [np.nan if f.strip().lower() in _MISSING else float(f) for f in fields]
+            table.append([np.nan if w.strip().lower() in _MISSING else float(w) for w in words])
         except ValueError as error:
             raise ValueError(
                 f"line {number}: {str(error)[:80]}; mark missing points by NaN and comment lines "
                 "by #"
             ) from None
-        if values and len(row) != len(values[0]):
+        if len(words) != len(table[0]):
             raise ValueError(
-                f"line {number}: {len(row)} numbers where the first row has {len(values[0])}; "
+                f"line {number}: {len(words)} numbers where the first row has {len(table[0])}; "
                 "every row needs as many"
             )
-        values.append(row)
-    matrix = np.array(values)
-    # Do columns by turns hold whole numbers and their decimals: close to the next but one?
-    pairs = matrix.shape[1] >= 4 and matrix.shape[1] % 2 == 0 and not np.any(matrix[:, 1::2] < 0)
-    if separator == "," and "." not in first and pairs:
-        beside = np.nanmedian(np.abs(np.diff(matrix, axis=1)))
-        whole = np.nanmedian(np.abs(np.diff(matrix[:, ::2], axis=1)))
+    return table
+
+
+def _refuse_split_decimals(table: NDArray, rows: Rows) -> None:
+    """Refuse numbers that separating commas may have split into whole numbers and decimals."""
+    first = next(iter(rows.values()))
+    # Do columns by turns hold them: close to the next but one?
+    columns = table.shape[1]
+    are_pairs = columns >= 4 and columns % 2 == 0 and not np.any(table[:, 1::2] < 0)
+    if "." not in first and are_pairs:
+        beside = np.nanmedian(np.abs(np.diff(table, axis=1)))
+        whole = np.nanmedian(np.abs(np.diff(table[:, ::2], axis=1)))
         if beside > 5 * whole:
             raise ValueError(
-                f"{matrix.shape[1]} columns without a decimal point that alternate: "
-                "decimal commas, which its separating commas hide; separate by tabs or "
-                "semicolons, or write decimal points"
+                f"{columns} columns without a decimal point that alternate: decimal commas, which "
+                "its separating commas hide; separate by tabs or semicolons, or write decimal "
+                "points"
             )
-    is_repeated = len(np.unique(matrix[:, 0])) < len(matrix)
-    may_be_one = separator == "," and (is_repeated or "." in first.partition(",")[0])
-    if may_be_one and all(_ONE_NUMBER.fullmatch(line) for _, line in rows):
+    is_repeated = len(np.unique(table[:, 0])) < len(table)
+    may_be_one = is_repeated or "." in first.partition(",")[0]
+    if may_be_one and all(map(_ONE_NUMBER.fullmatch, rows.values())):
         raise ValueError(
             f"lines such as {first!r} may hold two numbers, or one with a comma: write decimal "
             "points and no thousands, or separate numbers by tabs or semicolons"
         )
-    return matrix
 
 
-def _find_mark_of_thousands(rows: list[tuple[int, str]]) -> str:
+def _find_mark_of_thousands(rows: Rows) -> str:
     """Mark between groups of three digits, if a number shows that it is one."""
     # Most lines have points alone, and no group of digits between two of them.
-    odd = (line for _, line in rows if "," in line or re.search(r"\.\d{3}\.", line))
-    return next((found[1] for line in odd if (found := _GROUPED.search(line))), "")
+    odd = (row for row in rows.values() if "," in row or re.search(r"\.\d{3}\.", row))
+    return next((match[1] for match in map(_GROUPED.search, odd) if match), "")
 
 
-def _join_groups(rows: list[tuple[int, str]], mark: str) -> list[tuple[int, str]]:
+def _join_groups(rows: Rows, mark: str) -> Rows:
     """Rows without a mark of thousands, which nowhere may be the decimal one."""
     groups = re.compile(rf"(?<=\d){re.escape(mark)}(?=\d{{3}}(?!\d))")
-    joined = [(number, groups.sub("", line)) for number, line in rows]
-    if mixed := [number for number, line in joined if mark in line]:
+    joined = {number: groups.sub("", row) for number, row in rows.items()}
+    if mixed := [number for number, row in joined.items() if mark in row]:
         raise ValueError(
             f"line {mixed[0]}: {mark!r} separates decimals, but thousands elsewhere: write "
             "decimal points, and no thousands"
@@ -509,7 +507,7 @@ def _join_groups(rows: list[tuple[int, str]], mark: str) -> list[tuple[int, str]
     return joined
 
 
-def _refuse_groups(rows: list[tuple[int, str]], separator: str | None, mark: str) -> None:
+def _refuse_groups(rows: Rows, separator: str | None, mark: str) -> None:
     """Refuse numbers if all their commas, or points, may separate thousands or decimals.
 
     Points do only beside whole numbers in the same column: those that are decimal have them there.
@@ -517,14 +515,14 @@ def _refuse_groups(rows: list[tuple[int, str]], separator: str | None, mark: str
     example = ""
     whole: dict[int, set[str]] = {}  # numbers without the mark, of every column
     marked: set[int] = set()
-    for _, line in rows:
-        for column, field in enumerate(map(str.strip, line.split(separator))):
-            if mark not in field:
-                if not _SMALLER.fullmatch(field):
+    for row in rows.values():
+        for column, word in enumerate(map(str.strip, row.split(separator))):
+            if mark not in word:
+                if not _SMALLER.fullmatch(word):
                     return
-                whole.setdefault(column, set()).add(field)
-            elif _GROUPS[mark].fullmatch(field):
-                example = example or field
+                whole.setdefault(column, set()).add(word)
+            elif _GROUPS[mark].fullmatch(word):
+                example = example or word
                 marked.add(column)
             else:
                 return
