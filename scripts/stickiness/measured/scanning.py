@@ -29,7 +29,7 @@ and have waves as short as two points are taken for offsets in 2.5 % if H = 0.3,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal
 
@@ -179,20 +179,20 @@ def _block_medians(rows: NDArray, count: int) -> NDArray:
     return np.where(np.isnan(medians), np.nanmean(medians, axis=1, keepdims=True), medians)
 
 
-def _spread(values: NDArray) -> NDArray:
+def _spread(steps: NDArray) -> NDArray:
     """Robust standard deviation."""
-    return 1.4826 * np.nanmedian(np.abs(values - np.nanmedian(values, axis=0)), axis=0)
+    return 1.4826 * np.nanmedian(np.abs(steps - np.nanmedian(steps, axis=0)), axis=0)
 
 
 # Rows at random heights or tilts.
 
 
-def _white_part(quarters: NDArray, kind: str = "offset") -> tuple[float, float, float]:
-    """Tell whether two estimates of the steps between rows agree, and are differences of noise.
+def _has_white(quarters: NDArray, kind: str, least_common: float | None = None) -> bool:
+    """Whether rows have random offsets or tilts, by steps between quarters of them.
 
-    Returns their correlation, that of neighbouring steps, and the share of the strongest wave. The
-    outer and the inner quarters of the rows are used apart, so that neither estimate of offsets
-    contains a tilt, and points that are noise have no correlation.
+    Two estimates of these steps must agree and be differences of noise. The outer and the inner
+    quarters are used apart, so that neither estimate of offsets contains a tilt, and points that
+    are noise have no correlation.
     """
     first, second, third, fourth = quarters.T
     if kind == "offset":
@@ -207,17 +207,13 @@ def _white_part(quarters: NDArray, kind: str = "offset") -> tuple[float, float, 
     size = np.sqrt((outer @ outer) * (inner @ inner))
     covariance = outer @ inner
     if not (size > 0 and covariance > 0):
-        return 0.0, 0.0, 0.0
+        return False
+    # Correlation of neighbouring steps, and the share of the strongest wave.
     beside = (outer[1:] @ inner[:-1] + inner[1:] @ outer[:-1]) / 2
     power = np.abs(np.fft.rfft(outer + inner)[1:]) ** 2
-    return covariance / size, beside / covariance, float(power.max() / power.sum())
-
-
-def _has_white(quarters: NDArray, kind: str, least_common: float | None = None) -> bool:
-    """Whether rows have random offsets or tilts."""
-    common, beside, line = _white_part(quarters, kind)
-    least = min(WHITEST, -WHITEST_ERRORS / np.sqrt(len(quarters)))
-    return common > (least_common or LEAST_COMMON[kind]) and beside < least and line < LARGEST_LINE
+    is_common = covariance / size > (least_common or LEAST_COMMON[kind])
+    is_white = beside / covariance < min(WHITEST, -WHITEST_ERRORS / np.sqrt(len(quarters)))
+    return bool(is_common and is_white and power.max() / power.sum() < LARGEST_LINE)
 
 
 def _align_rows(mended: Mended, axis: int, scale: float) -> None:
@@ -261,11 +257,11 @@ def _white_noise(profile: NDArray) -> NDArray:
     best = np.inf
     noise = modes
     for weight in np.geomspace(0.1, 1e9, 51):
-        rest = weight * stiffness / (1 + weight * stiffness)
-        score = np.mean((rest * modes) ** 2) / np.mean(rest) ** 2
+        share_left = weight * stiffness / (1 + weight * stiffness)
+        score = np.mean((share_left * modes) ** 2) / np.mean(share_left) ** 2
         if score < best:
             best = score
-            noise = rest * modes
+            noise = share_left * modes
     return scipy.fft.idct(noise, norm="ortho")
 
 
@@ -275,28 +271,34 @@ def _white_noise(profile: NDArray) -> NDArray:
 def _move_back_jumps(mended: Mended, axis: int, scale: float) -> None:
     """Subtract jumps that happen between two rows and are the same along them."""
     rows = _rows(mended.heights, axis)
-    blocks = _block_medians(rows, 8)
-    blocks = blocks - np.median(blocks)
-    steps = np.median(blocks, axis=1)
-    mean = np.abs(blocks).mean(axis=1)
-    variation = np.abs(blocks - steps[:, None]).max(axis=1)
-    size = np.abs(steps)
-    is_sharp = np.zeros(len(steps), dtype=bool)  # nor where creep is steepest
-    is_sharp[1:-1] = np.maximum(mean[:-2], mean[2:]) < LEAST_CONSTANT * mean[1:-1]
-    noise = _spread(blocks.ravel())
-    is_constant = variation < np.maximum(LEAST_CONSTANT * size, CLIPPED * noise)
-    is_jump = is_sharp & is_constant & (size > OUTSTANDING_JUMP * _spread(steps))
-    steep = np.abs(blocks) > OUTSTANDING_JUMP * noise
+    # Steps between rows, in eight parts of them.
+    parts = _block_medians(rows, 8)
+    parts = parts - np.median(parts)
+    steps = np.median(parts, axis=1)
+    noise = _spread(parts.ravel())
+
+    # Jumps and seams stand out from the steps before and behind, as creep does not.
+    mean_size = np.abs(parts).mean(axis=1)
+    is_sharp = np.zeros(len(steps), dtype=bool)
+    is_sharp[1:-1] = np.maximum(mean_size[:-2], mean_size[2:]) < LEAST_CONSTANT * mean_size[1:-1]
+    variation = np.abs(parts - steps[:, None]).max(axis=1)
+    is_constant = variation < np.maximum(LEAST_CONSTANT * np.abs(steps), CLIPPED * noise)
+
+    # A seam differs along the row.
     differs = ~is_constant & (variation > OUTSTANDING_JUMP * noise)
-    seams = np.flatnonzero(is_sharp & differs & (steep.mean(axis=1) > LEAST_SEAM))
+    share_of_parts = (np.abs(parts) > OUTSTANDING_JUMP * noise).mean(axis=1)
+    seams = np.flatnonzero(is_sharp & differs & (share_of_parts > LEAST_SEAM))
     if 0 < len(seams) <= MOST_JUMPS:
         mended.doubts.append(
             f"heights jump all along row {seams[0] + 1} along {'xy'[axis]}, by different amounts, "
             "as where tiles are stitched: give the map of one tile; scan: keep judges it as it is"
         )
+
+    # A jump is the same in all of the row, and does not go back as at a printed line.
+    is_jump = is_sharp & is_constant & (np.abs(steps) > OUTSTANDING_JUMP * _spread(steps))
     places = np.flatnonzero(is_jump)
     sums = np.abs(steps[places][:-1] + steps[places][1:])
-    goes_back = bool((sums < LEAST_CONSTANT * size[places][1:]).any())  # as at a printed line
+    goes_back = bool((sums < LEAST_CONSTANT * np.abs(steps[places][1:])).any())
     if not 0 < len(places) <= MOST_JUMPS or goes_back:
         return
     # What is usual between these rows is not of the jump.
@@ -304,7 +306,7 @@ def _move_back_jumps(mended: Mended, axis: int, scale: float) -> None:
     jumps = np.zeros(len(rows))
     jumps[places + 1] = steps[places] - usual
     where = " and ".join(str(place + 1) for place in places)
-    heights = " and ".join(amount(abs(jumps[place + 1]) * scale, "m", 2) for place in places)
+    heights = " and ".join(amount(abs(jump) * scale, "m", 2) for jump in jumps[places + 1])
     mended.subtract(
         np.expand_dims(np.cumsum(jumps), 1 - axis),
         f"from row {where} along {'xy'[axis]} on, heights were {heights} off, as a probe jumps: "
@@ -319,37 +321,37 @@ def _subtract_smooth(mended: Mended, axis: int, scale: float) -> None:
     """Subtract creep or drift that is nearly all of the profile of the rows' medians."""
     rows = _rows(mended.heights, axis)
     profile = _medians_of_rows(rows)
-    n = len(profile)
-    line = _polynomials(n)[:, :2]
+    points = len(profile)
+    line = _polynomials(points)[:, :2]
 
-    def less_line(values: NDArray) -> NDArray:
-        return values - line @ (line.T @ values)
+    def less_line(curve: NDArray) -> NDArray:
+        return curve - line @ (line.T @ curve)
 
     level = less_line(profile)
     variance = np.var(level)
-    within = max(float(np.nanvar(rows)) - float(np.var(profile)), 0.0)
+    within_rows = max(float(np.nanvar(rows)) - float(np.var(profile)), 0.0)
 
-    def is_all(kind: str, fault: NDArray) -> bool:
-        rest = np.var(level - less_line(fault))
-        share = (variance - rest) / max(variance + within, np.finfo(float).tiny)
-        return bool(
-            rest < (1 - LEAST_OF_PROFILE[kind]) * variance
-            or (share > LEAST_OF_ALL[kind] and rest < LARGEST_LAY * within)
-        )
+    def is_nearly_all(kind: str, fault: NDArray) -> bool:
+        left = np.var(level - less_line(fault))
+        share = (variance - left) / max(variance + within_rows, np.finfo(float).tiny)
+        is_all_of_profile = left < (1 - LEAST_OF_PROFILE[kind]) * variance
+        is_most = share > LEAST_OF_ALL[kind] and left < LARGEST_LAY * within_rows
+        return bool(is_all_of_profile or is_most)
 
-    quartic, is_form = _fit_drift(mended.heights, level, axis, within)
-    if is_all("creep", _fit_creep(level, less_line, longest=n / 8)):
-        fault = _fit_creep(level, less_line, longest=n / 2)
+    quartic, is_form = _fit_drift(mended.heights, level, axis, within_rows)
+    if is_nearly_all("creep", _fit_creep(level, less_line, longest=points / 8)):
+        fault = _fit_creep(level, less_line, longest=points / 2)
         what = "creep after the start"
-    elif is_all("drift", quartic) and not is_form:
+    elif is_nearly_all("drift", quartic) and not is_form:
         fault = quartic
         what = "drift or the bow of a scanner"
     else:
         return
+    height = amount(float(np.ptp(fault)) * scale, "m", 2)
     mended.subtract(
         np.expand_dims(fault, 1 - axis),
-        f"heights follow a smooth curve along {'xy'[axis]}, the same in all rows (range "
-        f"{amount(float(np.ptp(fault)) * scale, 'm', 2)}), as {what}: it was subtracted",
+        f"heights follow a smooth curve along {'xy'[axis]}, the same in all rows (range {height}), "
+        f"as {what}: it was subtracted",
     )
 
 
@@ -365,14 +367,13 @@ def _fit_drift(heights: NDArray, level: NDArray, axis: int, within: float) -> tu
     """
     n = len(level)
     basis = _polynomials(n)[:, 2:]
-    parts = basis.T @ level
-    higher = float(np.sum(parts[1:] ** 2)) / n
+    coefficients = basis.T @ level
+    is_parabola = float(np.sum(coefficients[1:] ** 2)) / n < LEAST_HIGHER * within
     other = _medians_of_rows(_rows(heights, 1 - axis))
-    m = len(other)
-    own_bend = parts[0] / n**2.5
-    other_bend = _polynomials(m)[:, 2] @ other / m**2.5
+    own_bend = coefficients[0] / n**2.5
+    other_bend = _polynomials(len(other))[:, 2] @ other / len(other) ** 2.5
     alike = min(own_bend / other_bend, other_bend / own_bend) if own_bend * other_bend else 0.0
-    return basis @ parts, higher < LEAST_HIGHER * within or alike > LEAST_ALIKE
+    return basis @ coefficients, is_parabola or alike > LEAST_ALIKE
 
 
 def _fit_creep(level: NDArray, less_line: Callable[[NDArray], NDArray], longest: float) -> NDArray:
@@ -413,35 +414,29 @@ def _find_scars(rows: NDArray) -> list[_Scar]:
         below = rows[: -width - 1]
         above = rows[width + 1 :]
         inner = [rows[1 + i : len(rows) - width + i] for i in range(width)]
-        bend = np.abs(
-            sum(row[::thin, ::thin] for row in inner) / width - (below + above)[::thin, ::thin] / 2
-        )
+        mean_of_inner = sum(row[::thin, ::thin] for row in inner) / width
+        bend = np.abs(mean_of_inner - (below + above)[::thin, ::thin] / 2)
         bend = bend[np.isfinite(bend)]
         # Of a flat surface with a few features most points are far closer to their neighbours.
         deviation = max(1.4826 * np.median(bend), TAIL * np.quantile(bend, 0.9)) if bend.size else 0
         if not deviation > 0:
             continue
         step = np.abs(above - below)
-        up = np.minimum.reduce(inner) - np.maximum(below, above)
-        down = np.minimum(below, above) - np.maximum.reduce(inner)
-        for off in (up, down):
+        height_above = np.minimum.reduce(inner) - np.maximum(below, above)
+        depth_below = np.minimum(below, above) - np.maximum.reduce(inner)
+        for off in (height_above, depth_below):
             with np.errstate(invalid="ignore"):
                 streaks = (off > SCAR_ENDS * deviation) & (off > step)
-            for row, points in _runs(streaks):
+            # Points beside each other along a row are one streak.
+            groups, _ = scipy.ndimage.label(streaks, structure=[[0] * 3, [1] * 3, [0] * 3])
+            for in_row, points in scipy.ndimage.find_objects(groups):
+                row = in_row.start
+                if not SHORTEST_SCAR <= points.stop - points.start < rows.shape[1] / 2:
+                    continue
                 height = float(np.median(off[row, points]) / deviation)
                 if height > FAINT_SCAR and _has_sharp_ends(np.nan_to_num(off[row]), points):
                     scars.append(_Scar(row + 1, width, points, height))
     return scars
-
-
-def _runs(is_in: NDArray) -> Iterator[tuple[int, slice]]:
-    """Rows and columns of runs that are long enough, and end within the row."""
-    edges = np.diff(np.pad(is_in, ((0, 0), (1, 1))).astype("i1"), axis=1)
-    starts = np.argwhere(edges == 1)
-    ends = np.argwhere(edges == -1)
-    for (row, start), (_, end) in zip(starts, ends, strict=True):
-        if SHORTEST_SCAR <= end - start < is_in.shape[1] / 2:
-            yield int(row), slice(int(start), int(end))
 
 
 def _has_sharp_ends(off: NDArray, points: slice) -> bool:
@@ -461,7 +456,8 @@ def _mask_scars(mended: Mended, axis: int, scars: list[_Scar], scale: float) -> 
     level = rows - _medians_of_rows(rows)[:, None]
     height = amount(float(np.nanmedian(np.abs(level[is_scar]))) * scale, "m", 2)
     numbers = sorted({scar.first for scar in scars})
-    named = ", ".join(map(str, numbers[:MOST_NAMED])) + (" …" if len(numbers) > MOST_NAMED else "")
+    more = " …" if len(numbers) > MOST_NAMED else ""
+    named = ", ".join(map(str, numbers[:MOST_NAMED])) + more
     mended.heights = np.where(_rows(is_scar, axis), np.nan, mended.heights)
     mended.remarks.append(
         f"{len(scars)} scars of about {height}, streaks along {'xy'[1 - axis]} in row"
