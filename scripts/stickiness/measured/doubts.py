@@ -43,9 +43,9 @@ def doubt_values(values: NDArray) -> Iterator[str]:
     levels, counts = np.unique(values[np.isfinite(values)], return_counts=True)
     if len(levels) > 1:
         top = int(np.argmax(counts))
-        beside = np.delete(counts[max(top - 3, 0) : top + 4], min(top, 3))
+        counts_beside = np.delete(counts[max(top - 3, 0) : top + 4], min(top, 3))
         share = counts[top] / counts.sum()
-        times = counts[top] / beside.max()
+        times = counts[top] / counts_beside.max()
         if any(share >= least and times >= most for least, most in PLATEAUS):
             yield (
                 f"{share:.2g} of the points have the one value {levels[top]:g}, as where nothing "
@@ -67,9 +67,9 @@ def doubt_values(values: NDArray) -> Iterator[str]:
 
 def _written(value: float) -> str:
     """All digits of a number, as YAML reads them: missing points are told by equality."""
-    text = repr(float(value)).removesuffix(".0")
+    digits = repr(float(value)).removesuffix(".0")
     # YAML takes 1e-09 for a text.
-    return np.format_float_scientific(value) if "e" in text and "." not in text else text
+    return np.format_float_scientific(value) if "e" in digits and "." not in digits else digits
 
 
 def doubt_sizes(
@@ -158,26 +158,26 @@ def find_pattern(heights: NDArray) -> tuple[float, ...] | None:
     for axis, n in enumerate(level.shape):
         level = level * np.expand_dims(np.hanning(n), [i for i in range(level.ndim) if i != axis])
     power = np.abs(np.fft.fftn(level)) ** 2
-    numbers = np.stack(
-        np.meshgrid(*(np.fft.fftfreq(n, 1 / n) for n in power.shape), indexing="ij"), axis=-1
-    )
+    along_axes = [np.fft.fftfreq(n, 1 / n) for n in power.shape]
+    numbers = np.stack(np.meshgrid(*along_axes, indexing="ij"), axis=-1)
 
     # The strongest wave, and then the strongest of the others.
-    rest = power.copy()
+    power_left = power.copy()
     waves: list[NDArray] = []
     while len(waves) < power.ndim:
-        top = np.unravel_index(np.argmax(rest), rest.shape)
+        top = np.unravel_index(np.argmax(power_left), power.shape)
         is_near = np.abs(numbers - numbers[top]).max(axis=-1) <= 1
-        wave = np.average(numbers[is_near], axis=0, weights=rest[is_near])
+        wave = np.average(numbers[is_near], axis=0, weights=power_left[is_near])
         if np.linalg.norm(wave) < FEWEST_PERIODS:
             return None
         waves.append(wave)
+        # Its multiples, and sums of both waves and theirs, are of the pattern.
         counts = np.rint(numbers @ np.linalg.pinv(waves))
         is_multiple = np.abs(numbers - counts @ np.array(waves)).max(axis=-1) <= 1.5
         if is_multiple.mean() > MOST_COVERED:
             return None
-        rest[is_multiple & counts.any(axis=-1)] = 0.0
-        if rest.sum() < (1 - LEAST_PATTERN) * power.sum():
+        power_left[is_multiple & counts.any(axis=-1)] = 0.0
+        if power_left.sum() < (1 - LEAST_PATTERN) * power.sum():
             return tuple(map(float, waves[0]))
     return None
 

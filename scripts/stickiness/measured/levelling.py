@@ -36,15 +36,10 @@ Spikes = Literal["mask", "keep"]
 
 
 def detrend(heights: NDArray, kind: Detrend = "plane") -> NDArray:
-    """Subtract the mean, plane or quadratic surface that fits a map or profile best.
-
-    "detect" subtracts a plane, or a quadratic surface where `find_form` sees one.
-    """
+    """Subtract the mean, plane or quadratic surface that fits a map or profile best."""
     heights = np.asarray(heights, dtype=float)
     if heights.ndim not in (1, 2) or not np.all(np.isfinite(heights)):
         raise ValueError(f"heights must be finite and 1D or 2D, got shape {heights.shape}")
-    if kind == "detect":
-        kind = "plane" if find_form(heights) is None else "quadratic"
     # Legendre polynomials of each axis: nearly orthogonal on the grid, so the normal equations
     # (small, whatever the grid) lose no digits.
     bases, powers = _polynomials(heights.shape, kind)
@@ -96,9 +91,9 @@ def find_tile(heights: NDArray) -> tuple[int, ...]:
         for copies in range(2, MOST_COPIES + 1):
             while tile[axis] % copies == 0 and agrees(tile[axis] // copies, axis):
                 tile[axis] //= copies
-        half = np.moveaxis(heights, axis, 0)[: tile[axis]]
-        if np.allclose(half, half[::-1], rtol=0, atol=tolerance, equal_nan=True):
-            tile[axis] = (tile[axis] + 1) // 2
+        lines = np.moveaxis(heights, axis, 0)[: tile[axis]]
+        if np.allclose(lines, lines[::-1], rtol=0, atol=tolerance, equal_nan=True):
+            tile[axis] = (tile[axis] + 1) // 2  # the other half is a mirror image
     return tuple(tile)
 
 
@@ -124,9 +119,9 @@ def rms_of_known(heights: NDArray, kind: Detrend = "plane") -> float:
     is_finite = np.isfinite(heights)
     (px, py), powers = _polynomials(heights.shape, kind)
     design = np.array([np.outer(px[:, i], py[:, j])[is_finite] for i, j in powers.T])
-    values = heights[is_finite]
-    trend = np.linalg.lstsq(design @ design.T, design @ values, rcond=None)[0]
-    return float(np.sqrt(np.mean((values - trend @ design) ** 2)))
+    known = heights[is_finite]
+    trend = np.linalg.lstsq(design @ design.T, design @ known, rcond=None)[0]
+    return float(np.sqrt(np.mean((known - trend @ design) ** 2)))
 
 
 def _polynomials(shape: tuple[int, ...], kind: Detrend) -> tuple[list[NDArray], NDArray]:
@@ -154,14 +149,10 @@ def outstanding_rim(heights: NDArray) -> int:
     for rim in range(LARGEST_RIM if hole.any() else 0, 0, -1):
         # 0 within, 1 the last of the rim, 2 beyond; so a step has 2 to the rim, 4 beyond it.
         zone = 2 - _widen(hole, rim - 1).astype(int) - _widen(hole, rim)
-        to_rim = []
-        beyond = []
-        for axis, step in enumerate(steps):
-            pair = np.delete(zone, 0, axis) * np.delete(zone, -1, axis)
-            to_rim.append(step[pair == 2])
-            beyond.append(step[pair == 4])
-        steps_to_rim = np.concatenate(to_rim)
-        steps_beyond = np.concatenate(beyond)
+        axes = range(heights.ndim)
+        pairs = [np.delete(zone, 0, axis) * np.delete(zone, -1, axis) for axis in axes]
+        steps_to_rim = np.concatenate([steps[axis][pairs[axis] == 2] for axis in axes])
+        steps_beyond = np.concatenate([steps[axis][pairs[axis] == 4] for axis in axes])
         if steps_to_rim.size and steps_beyond.size:
             elsewhere = np.sqrt(np.mean(steps_beyond**2))
             if np.sqrt(np.mean(steps_to_rim**2)) > OUTSTANDING * elsewhere > 0:
@@ -179,16 +170,17 @@ def fill_missing(
     """Fill points that are not finite from their neighbours; returns a copy, and how many."""
     hole = ~np.isfinite(heights)
     missing = int(np.count_nonzero(hole))
+    told = f"{source}: {missing} of {hole.size} points"
     if missing == hole.size:
         raise ValueError(
-            f"{source}: {missing} of {hole.size} points, which are all, are missing: give a map or "
-            "profile of which some points were measured"
+            f"{told}, which are all, are missing: give a map or profile of which some points were "
+            "measured"
         )
     if missing / hole.size > max_missing:
         raise ValueError(
-            f"{source}: {missing} of {hole.size} points ({100 * missing / hole.size:.1f} %) are "
-            f"missing, more than the {100 * max_missing:.1f} % that are filled; cut them off with "
-            "missing: crop, measure again or raise max_missing"
+            f"{told} ({100 * missing / hole.size:.1f} %) are missing, more than the "
+            f"{100 * max_missing:.1f} % that are filled; cut them off with missing: crop, measure "
+            "again or raise max_missing"
         )
     if not missing:
         return np.array(heights, dtype=float), 0
@@ -210,25 +202,23 @@ def complete_rectangle(known: NDArray, source: str = "heights") -> tuple[slice, 
         return complete_rectangle(known[None, :], source)[1:]
     # For every row the largest rectangle under the histogram of known points that end in it.
     largest = 0
-    rows = slice(0)
-    columns = slice(0)
-    heights = np.zeros(known.shape[1], dtype=int)
+    rectangle = (slice(0), slice(0))
+    bars = np.zeros(known.shape[1], dtype=int)
     for row, line in enumerate(known):
-        heights = np.where(line, heights + 1, 0)
+        bars = np.where(line, bars + 1, 0)
         # Bars that may still extend to the right: (start, height), of increasing height.
         open_bars: list[tuple[int, int]] = []
-        for column, height in enumerate([*heights.tolist(), 0]):
+        for column, height in enumerate([*bars.tolist(), 0]):
             start = column
             while open_bars and open_bars[-1][1] >= height:
                 start, ended = open_bars.pop()
                 if ended * (column - start) > largest:
                     largest = ended * (column - start)
-                    rows = slice(row + 1 - ended, row + 1)
-                    columns = slice(start, column)
+                    rectangle = (slice(row + 1 - ended, row + 1), slice(start, column))
             open_bars.append((start, height))
     if not largest:
         raise ValueError(f"{source}: every point is missing")
-    return rows, columns
+    return rectangle
 
 
 def find_spikes(heights: NDArray) -> NDArray:
@@ -242,12 +232,11 @@ def find_spikes(heights: NDArray) -> NDArray:
             along = np.expand_dims(np.arange(n), [i for i in range(level.ndim) if i != axis])
             level = level - np.median(steps) * along
     distance = _neighbour_distance(level)
-    finite = distance[np.isfinite(distance)]
-    if not finite.size or not finite.max() > 0:
+    known = distance[np.isfinite(distance)]
+    if not known.size or not known.max() > 0:
         return np.zeros(level.shape, dtype=bool)
-    typical = np.quantile(finite, TYPICAL, method="lower")
     # Coarse steps of an instrument's converter: many points equal their neighbours.
-    typical = max(typical, finite[finite > 0].min())
+    typical = max(np.quantile(known, TYPICAL, method="lower"), known[known > 0].min())
     distance = np.nan_to_num(distance, nan=0.0, posinf=0.0)
     spikes = distance > OUTLYING * typical
     if level.ndim == 2 and spikes.any():
