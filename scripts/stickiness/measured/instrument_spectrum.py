@@ -120,37 +120,37 @@ def analyse(
         If the heights are flat, the limits leave too little for a fit, or a profile is noise.
     """
     limits = Limits() if limits is None else limits
-    values = numbers("heights", heights.heights)
-    if values.size and np.ptp(values) <= 1e-13 * np.max(np.abs(values)):  # equal to rounding
-        raise ValueError(f"heights must not be flat, got {values.flat[0]:.6g} throughout")
+    levelled = numbers("heights", heights.heights)
+    if levelled.size and np.ptp(levelled) <= 1e-13 * np.max(np.abs(levelled)):  # but for rounding
+        raise ValueError(f"heights must not be flat, got {levelled.flat[0]:.6g} throughout")
+
+    # The spectrum in fine rings, of a profile C1, and in rings proportional to C.
     modes: psd.Modes
     if isinstance(heights, Topography):
-        modes = psd.power_spectrum(values, heights.dx, heights.dy, taper=taper)
+        modes = psd.power_spectrum(levelled, heights.dx, heights.dy, taper=taper)
         line = radial_average(modes, FINE)
         narrow = line
         nyquist = modes.q_nyquist
     else:
-        modes = psd.profile_spectrum(values, heights.dx, taper=taper)
+        modes = psd.profile_spectrum(levelled, heights.dx, taper=taper)
         line = radial_average(modes, FINE)
-        narrow = replace(line, psd=line.psd / line.q)  # proportional to C
+        narrow = replace(line, psd=line.psd / line.q)
         # Unevenly spaced points resolve no wave shorter than twice their largest gap.
         nyquist = min(modes.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
     lowest = min(modes.steps)
     of_grid = Cutoff(nyquist, "two steps of the grid")
 
-    # The interval of the fit.
-    # `modes.blur` is by the taper, not by the instrument.
+    # The interval of the fit. `modes.blur` is by the taper, not by the instrument.
     q_min = (LOWEST_MODES if modes.blur else 1) * max(modes.steps)
     if limits.fit_from is not None:
         q_min = 2 * np.pi / limits.fit_from
     if demand:
-        cutoff = _find_cutoff(limits, narrow, q_min, nyquist, values, heights.steps)
+        cutoff = _find_cutoff(limits, narrow, q_min, nyquist, levelled, heights.steps)
     else:
         q_min = lowest
         cutoff = of_grid
 
-    # The fit, and the rings that are shown and integrated. The end of the waves that an instrument
-    # resolves looks like that of a plateau.
+    # The fit. The end of the waves that an instrument resolves looks like that of a plateau.
     enough = demand and alone
 
     def fit_to(q_max: float) -> tuple[RadialPSD, SelfAffineFit]:
@@ -158,33 +158,40 @@ def analyse(
             return narrow, fit_rings(narrow, q_min, q_max, demand=enough)
         return _fit_profile(line, q_min, q_max, NYQUIST_SHARE * nyquist, enough)
 
-    rings, fit = fit_to(cutoff.q)
+    fitted, fit = fit_to(cutoff.q)
     while demand and limits.detect and fit.q_rolloff is not None and fit.fall > END_EXPONENT:
         reason = f"blur of the instrument (C falls as q^-{fit.fall:.1f} beyond)"
         cutoff = Cutoff(fit.q_rolloff, reason, detected=True)
-        rings, fit = fit_to(cutoff.q)
-    narrow = rings
+        fitted, fit = fit_to(cutoff.q)
+
+    rings, area = _broad_rings(modes, fitted)
+    anisotropy = np.nan
     if isinstance(modes, psd.PowerSpectrum):
-        rings = radial_average(modes, RINGS)
-        area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
         anisotropy, _ = modes.anisotropy(fit.q_min, fit.q_max)
-    else:
-        q, mean, dof = merge_rings(narrow, narrow.psd, RINGS)
-        rings = RadialPSD(q, mean, dof)
-        area = ring_areas(q, lowest)
-        anisotropy = np.nan
-    # Exact waves have rings without power between them.
-    used = rings.psd > 0
     return MeasuredSpectrum(
-        rings=RadialPSD(rings.q[used], rings.psd[used], rings.dof[used]),
-        area=area[used],
-        narrow=narrow,
+        rings=rings,
+        area=area,
+        narrow=fitted,
         fit=fit,
         cutoff=replace(cutoff, q=fit.q_max),
         lowest=lowest,
         held=cutoff if cutoff.detected or cutoff.is_noise_beyond else of_grid,
         anisotropy=anisotropy,
     )
+
+
+def _broad_rings(modes: psd.Modes, fitted: RadialPSD) -> tuple[RadialPSD, NDArray]:
+    """Rings that are shown and integrated, and their areas in the plane of q."""
+    if isinstance(modes, psd.PowerSpectrum):
+        rings = radial_average(modes, RINGS)
+        area = rings.modes(modes) * modes.steps[0] * modes.steps[1]
+    else:
+        rings = RadialPSD(*merge_rings(fitted, fitted.psd, RINGS))
+        area = ring_areas(rings.q, min(modes.steps))
+    # Exact waves have rings without power between them.
+    has_power = rings.psd > 0
+    filled = RadialPSD(rings.q[has_power], rings.psd[has_power], rings.dof[has_power])
+    return filled, area[has_power]
 
 
 def ring_areas(q: NDArray, lowest: float) -> NDArray:
@@ -298,11 +305,8 @@ def tip_cutoff(heights: ArrayLike, steps: tuple[float, ...], radius: float) -> f
             wavelengths.append(np.inf)
         elif below[0] > 0:
             # The curve falls as a power between the two distances.
-            after = below[0]
-            sharp = curvatures[after - 1]
-            blunt = max(curvatures[after], limit * 1e-9)
-            near = distances[after - 1]
-            far = distances[after]
+            near, far = distances[below[0] - 1 : below[0] + 1]
+            sharp, blunt = np.maximum(curvatures[below[0] - 1 : below[0] + 1], limit * 1e-9)
             share = np.log(sharp / limit) / np.log(sharp / blunt)
             wavelengths.append(float(2 * (near * (far / near) ** share) * step))
     return max(wavelengths, default=None)
@@ -313,19 +317,43 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None
     rings = rings.between(q_min, q_nyquist)
     if not len(rings):
         return None
+    log_q, log_psd, exponents = _find_local_exponents(rings)
+
+    # A filter may leave nothing but rounding.
+    flattened = log_psd + BLUR_EXPONENT * log_q
+    is_empty = flattened < np.max(flattened, initial=-np.inf) + np.log(EMPTY)
+    filled = slice(_start_of_last_run(is_empty))
+    q = np.exp(log_q[filled])
+    exponents = exponents[filled]
+
+    # Noise is the last run, up to the Nyquist wave number, of exponents below NOISE_EXPONENT; blur
+    # is the last run before it of exponents above BLUR_EXPONENT.
+    noise = _start_of_last_run(exponents < NOISE_EXPONENT)
+    blur = _start_of_last_run(exponents[:noise] > BLUR_EXPONENT)
+    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
+        # A bend within half a decade of `q_min` is ignored; the surface may be smooth.
+        if 0 < start < end and q[start - 1] > q_min * 10**0.5:
+            fall = max(float(exponents[start]), 0)
+            return Cutoff(
+                float(q[start - 1]),
+                f"{kind} of the instrument (C falls as q^-{fall:.1f} beyond)",
+                detected=True,
+                is_noise_beyond=kind == "noise",
+            )
+    return None
+
+
+def _find_local_exponents(rings: RadialPSD) -> NDArray:
+    """Centres ln q, ln C and s of C ~ q^-s, `(3, n)`, by regression over a quarter of a decade."""
     q, mean, dof = merge_rings(rings, rings.psd, bins_per_decade=20)
-    inside = mean > 0
-    x = np.log(q[inside])
-    dof = dof[inside]
-    y = np.log(mean[inside]) - special.digamma(dof) + np.log(dof)
+    has_power = mean > 0
+    x = np.log(q[has_power])
+    dof = dof[has_power]
+    y = np.log(mean[has_power]) - special.digamma(dof) + np.log(dof)
     # A scatter of ln C beyond sampling, so that rings of many modes do not decide alone.
     weight = 1 / (special.polygamma(1, dof) + 0.05**2)
-
-    # Local exponents s of C ~ q^-s, by regression over a quarter of a decade.
     width = np.log(10) / 4
-    centres = []
-    levels = []
-    exponents = []
+    regressions = []
     for centre in x:
         near = np.abs(x - centre) <= width / 2
         if np.count_nonzero(near) < 4 or np.ptp(x[near]) < width * 0.7:
@@ -335,35 +363,8 @@ def find_bend(rings: RadialPSD, q_min: float, q_nyquist: float) -> Cutoff | None
         mean_y = np.average(y[near], weights=w)
         dx = x[near] - mean_x
         exponent = -np.sum(w * dx * y[near]) / np.sum(w * dx**2)
-        centres.append(centre)
-        levels.append(mean_y - exponent * (centre - mean_x))
-        exponents.append(exponent)
-    log_q = np.array(centres)
-    log_psd = np.array(levels)
-    slope = np.array(exponents)
-
-    # A filter may leave nothing but rounding.
-    flattened = log_psd + BLUR_EXPONENT * log_q
-    is_empty = flattened < np.max(flattened, initial=-np.inf) + np.log(EMPTY)
-    filled = slice(_start_of_last_run(is_empty))
-    q = np.exp(log_q[filled])
-    slope = slope[filled]
-
-    # Noise is the last run, up to the Nyquist wave number, of exponents below NOISE_EXPONENT; blur
-    # is the last run before it of exponents above BLUR_EXPONENT.
-    noise = _start_of_last_run(slope < NOISE_EXPONENT)
-    blur = _start_of_last_run(slope[:noise] > BLUR_EXPONENT)
-    for kind, start, end in (("blur", blur, noise), ("noise", noise, len(q))):
-        # A bend within half a decade of `q_min` is ignored; the surface may be smooth.
-        if 0 < start < end and q[start - 1] > q_min * 10**0.5:
-            falls = f"C falls as q^-{max(float(slope[start]), 0):.1f} beyond"
-            return Cutoff(
-                float(q[start - 1]),
-                f"{kind} of the instrument ({falls})",
-                detected=True,
-                is_noise_beyond=kind == "noise",
-            )
-    return None
+        regressions.append((centre, mean_y - exponent * (centre - mean_x), exponent))
+    return np.reshape(regressions, (-1, 3)).T
 
 
 def _start_of_last_run(flags: NDArray) -> int:

@@ -114,27 +114,31 @@ def stitch(measurements: Sequence[MeasuredSpectrum]) -> MeasuredSpectrum:
     if not any(m.trusted for m in measurements):
         measurements = [replace(m, trusted=True) for m in measurements]
     trusted = [m for m in measurements if m.trusted]
+    lowest = min(m.lowest for m in trusted)
+    top = max(trusted, key=lambda m: m.cutoff.q)
+    band = (min(m.fit.q_min for m in trusted), top.cutoff.q)
+
+    # The mean of ln C in common rings, and its fit.
     gaps = _find_gaps(trusted)
     logs, variances, q = _on_common_rings(measurements, gaps)
     tau2 = _variance_between(logs, variances)
+    tau = float(np.sqrt(tau2))
     shares, rings = _average(q, logs, variances, tau2, gaps)
     narrow = _weigh_gaps(rings, gaps)
-    top = max(trusted, key=lambda m: m.cutoff.q)
-    band = (min(m.fit.q_min for m in trusted), top.cutoff.q)
     fit = fit_rings(narrow, *band)
-    tau = float(np.sqrt(tau2))
-    covariance = fit.log_covariance.copy()
-    # Offsets tilt the spectrum: add what raising each measurement by tau changes.
-    for offsets in tau * np.eye(len(logs)) if tau > 0 else ():
-        _, raised = _average(q, logs + offsets[:, None], variances, tau**2, gaps)
-        change = _find_change(fit, _weigh_gaps(raised, gaps), band)
-        covariance += np.outer(change, change)
-    # So do corners in gaps: add a sixth of what both ends of their even distribution change.
+
+    # Offsets tilt the spectrum: add what raising each measurement by tau changes. So do corners in
+    # gaps: add a sixth of what both ends of their even distribution change.
+    others = []
+    for raised in tau * np.eye(len(logs)) if tau > 0 else ():
+        others.append((_average(q, logs + raised[:, None], variances, tau**2, gaps)[1], 1))
     for corner in (0.0, 1.0) if gaps else ():
-        _, bent = _average(q, logs, variances, tau2, gaps, corner)
-        change = _find_change(fit, _weigh_gaps(bent, gaps), band)
-        covariance += np.outer(change, change) / 6
-    lowest = min(m.lowest for m in trusted)
+        others.append((_average(q, logs, variances, tau2, gaps, corner)[1], 6))
+    covariance = fit.log_covariance.copy()
+    for other, divisor in others:
+        change = _find_change(fit, _weigh_gaps(other, gaps), band)
+        covariance += np.outer(change, change) / divisor
+
     # Where a measurement overlaps with others, how far it is off the mean.
     excess = logs - np.log(rings.psd) + _log_bias(rings.dof)
     shared = np.isfinite(logs) & (shares < 1)
@@ -353,7 +357,12 @@ def draw(
     ValueError
         If the fit is to extrapolate, but is not self-affine or `extend_to` is below the cutoff.
     """
-    _check_extension(spectrum, extend_to)
+    if extend_to is not None and not extend_to > spectrum.cutoff.q:
+        raise ValueError(
+            f"extend_to must be below the shortest wavelength measured, "
+            f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
+        )
+    # Spectra and laws that agree with the measured ones.
     rng = np.random.default_rng(seed)
     rings = spectrum.rings
     cutoff = spectrum.cutoff.q
@@ -365,20 +374,7 @@ def draw(
         levels[:, inside] = np.exp(gap.bridge(rings.q[inside], _draw_places(count, rng), ends))
     continuation = _continue(spectrum, levels, law, rng)
 
-    # Beyond the cutoff slope, curvature and energy would be the instrument's.
-    is_resolved = rings.q <= cutoff * (1 + 1e-9)
-    resolved = {
-        order: (levels * np.where(is_resolved, spectrum.area * rings.q**order, 0.0)).sum(1)
-        for order in ORDERS.values()
-    }
-    moments = {}
-    for name, order in ORDERS.items():
-        moment = resolved[order]
-        if extend_to is not None:
-            moment = moment + continuation.integrate(extend_to, order)
-        elif order == 0:
-            moment = levels @ spectrum.area
-        moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
+    resolved, moments = _sum_moments(spectrum, levels, continuation, extend_to)
 
     # Waves that are not resolved, up to ends that are spread over the orders of magnitude.
     furthest: float | NDArray = cutoff
@@ -389,36 +385,50 @@ def draw(
     ends = cutoff * (furthest / cutoff) ** _draw_places(count, rng)
     moments["elastic_energy"] = moments["elastic_energy"] + continuation.integrate(ends, 1) / 4
     energy = moments["elastic_energy"]
-    beyond = np.maximum(4 * energy / resolved[1] - 1, 0.0)
+    last = np.broadcast_to(ends if extend_to is None else extend_to, (count,))
 
-    unheld = _find_unheld(
-        spectrum,
-        levels,
-        continuation,
-        energy=energy,
-        last=ends if extend_to is None else extend_to,
-    )
-
+    # The longest waves, which levelling and the taper change, and what the law says of them.
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
         q0 = np.exp(law.log_q_rolloff)
-    # The longest waves, which levelling and the taper change, and what the law says of them.
     first = spectrum.fit.q_min
-    long = levels * np.where(rings.q < first * (1 - 1e-9), spectrum.area, 0.0)
+    long_waves = levels * np.where(rings.q < first * (1 - 1e-9), spectrum.area, 0.0)
     start = np.log(np.maximum(first, q0))
     return Draws(
         moments=moments,
         q0=q0,
         unresolved=unresolved,
-        beyond=beyond,
-        unheld=unheld,
-        long_variance=long.sum(1),
-        long_energy=long @ rings.q / 4,
+        beyond=np.maximum(4 * energy / resolved[1] - 1, 0.0),
+        unheld=_find_unheld(spectrum, levels, continuation, energy, last),
+        long_variance=long_waves.sum(1),
+        long_energy=long_waves @ rings.q / 4,
         hurst=law.hurst,
         first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
         continuation=continuation,
-        end=np.broadcast_to(ends if extend_to is None else extend_to, (count,)),
+        end=last,
     )
+
+
+def _sum_moments(
+    spectrum: MeasuredSpectrum, levels: NDArray, continuation: Continuation, extend_to: float | None
+) -> tuple[dict[int, NDArray], dict[str, NDArray]]:
+    """Sums of C q^n up to the cutoff by the order n, and moments up to where the fit extends."""
+    # Beyond the cutoff slope, curvature and energy would be the instrument's.
+    q = spectrum.rings.q
+    is_resolved = q <= spectrum.cutoff.q * (1 + 1e-9)
+    resolved = {
+        order: (levels * np.where(is_resolved, spectrum.area * q**order, 0.0)).sum(1)
+        for order in ORDERS.values()
+    }
+    moments = {}
+    for name, order in ORDERS.items():
+        moment = resolved[order]
+        if extend_to is not None:
+            moment = moment + continuation.integrate(extend_to, order)
+        elif order == 0:
+            moment = levels @ spectrum.area
+        moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
+    return resolved, moments
 
 
 def _find_unheld(
@@ -426,7 +436,7 @@ def _find_unheld(
     levels: NDArray,
     continuation: Continuation,
     energy: NDArray,
-    last: ArrayLike,
+    last: NDArray,
 ) -> NDArray:
     """Energy that the first measurement does not hold over what it holds, `(count,)`.
 
@@ -440,15 +450,6 @@ def _find_unheld(
     held_end = np.clip(spectrum.held.q, cutoff, last)
     held = measured + continuation.integrate(held_end, 1) / 4
     return np.maximum(energy / held - 1, 0.0)
-
-
-def _check_extension(spectrum: MeasuredSpectrum, extend_to: float | None) -> None:
-    """Raise an error if the spectrum does not end below a wave number [1/length]."""
-    if extend_to is not None and not extend_to > spectrum.cutoff.q:
-        raise ValueError(
-            f"extend_to must be below the shortest wavelength measured, "
-            f"{2 * np.pi / spectrum.cutoff.q:.3g} m, got {2 * np.pi / extend_to:.3g} m"
-        )
 
 
 def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:
