@@ -407,16 +407,13 @@ def _keep_one_copy(heights: NDArray, steps: NDArray) -> tuple[NDArray, NDArray, 
     if tile != heights.shape:
         copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
         points = " x ".join(map(str, tile))
-        remarks.append(
-            f"the map is {copies} copies or mirror images of one tile of {points} points; one is "
-            "used"
-        )
+        copied = f"the map is {copies} copies or mirror images of one tile of {points} points"
+        remarks.append(f"{copied}; one is used")
         heights = heights[: tile[0], : tile[1]]
     repeats = levelling.find_repeats(heights)
     if max(repeats) > 1:
-        remarks.append(
-            f"every point is repeated {repeats[0]} x {repeats[1]} times; it is used once"
-        )
+        times = " x ".join(map(str, repeats))
+        remarks.append(f"every point is repeated {times} times; it is used once")
         heights = heights[:: repeats[0], :: repeats[1]]
         steps = np.multiply(steps, repeats)
     return heights, steps, remarks
@@ -514,14 +511,13 @@ def _find_marks(raw: Raw, missing_value: float | None) -> tuple[NDArray, list[st
     is_given = raw.heights == missing_value
     is_missing = is_given | (raw.heights == raw.missing_value) | (np.abs(raw.heights) >= _MARK)
     heights = np.where(is_missing, np.nan, raw.heights)
-    is_known = missing_value in (None, raw.missing_value) or abs(missing_value) >= _MARK
-    if is_known or is_given.any():
+    is_in_any_file = missing_value in (None, raw.missing_value) or abs(missing_value) >= _MARK
+    if is_in_any_file or is_given.any():
         return heights, []
-    known = heights[np.isfinite(heights)]
-    told = f"; heights in the file are {known.min():.9g} to {known.max():.9g}" if known.size else ""
-    return heights, [
-        f"{raw.source}: no point is {missing_value:.9g}, the missing_value given{told}"
-    ]
+    notice = f"{raw.source}: no point is {missing_value:.9g}, the missing_value given"
+    if (known := heights[np.isfinite(heights)]).size:
+        notice += f"; heights in the file are {known.min():.9g} to {known.max():.9g}"
+    return heights, [notice]
 
 
 def _ask_for_units(raw: Raw, size, height_unit, position_unit) -> None:
@@ -549,11 +545,10 @@ def _find_scale(raw: Raw, height_unit: str | None, is_native: bool) -> tuple[flo
 
 def _contradict_size(raw: Raw, places: NDArray, position_unit: str | None) -> list[str]:
     """Say if the size given is not that in the file; without a unit, not that in any unit."""
-    notices = []
     told = None if raw.places is None else _steps(raw.places, raw)
     unit = raw.place_unit or position_unit
-    are_pixels = told is not None and unit is None and np.all(told == 1)
-    if told is not None and np.all(told > 0) and not are_pixels:
+    notices = []
+    if told is not None and np.all(told > 0) and (unit or np.any(told != 1)):  # 1: of pixels
         units = [unit] if unit else _UNITS_OF_LENGTH
         factors = [metres_per(each, "position_unit") for each in units]
         ratios = _steps(places, raw) / told

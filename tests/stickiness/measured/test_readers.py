@@ -282,6 +282,11 @@ READ = {
         "Width: 48 um Height: 32 um, 24 x 16 pixels\n" + lines(MAP),
         UNIT,
     ),
+    "several fields in a German line": (
+        "a.txt",
+        "Breite: 48 um, Höhe: 32 um\n" + lines(MAP).replace(".", ","),
+        UNIT,
+    ),
     "one column below its columns and a resolution": (
         "a.txt",
         f"# columns: {NX}\n# {NX} x {NY} pixels\n" + lines(MAP.reshape(-1, 1)),
@@ -492,6 +497,7 @@ REFUSED = {
     ),
     "one number": ("a.txt", "5", SIZED, "one number is no map and no profile"),
     "half a grid": ("a.grd", "DSAA\n24 16\n0 1\n0 1\n0 1\n1 2 3\n", PLACED, "has 3 heights, but"),
+    "half a binary grid": ("a.grd", b"DSBB\1\0", PLACED, "its end is missing"),
     "half of Zygo's": (
         "a.xyz",
         "Zygo XYZ Data File - Format 1\n0 0\n",

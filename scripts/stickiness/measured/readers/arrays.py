@@ -241,13 +241,26 @@ def _place_line(raw: Raw, x: NDArray | None, y: NDArray | None) -> Raw:
 
 def _place_map(raw: Raw, x: NDArray | None, y: NDArray | None) -> Raw:
     """Heights of a matrix along x and y, with the steps of positions, if these are its own."""
-    heights = raw.heights if _first_is_x(raw.heights.shape, x, y) else raw.heights.T
-    line_x = _line(x, heights.shape[0])
-    line_y = _line(y, heights.shape[1])
-    if line_x is None or line_y is None:
+    # A mesh shows along which axis it changes; of lines only their numbers of points may.
+    first_is_x = False
+    shape = raw.heights.shape
+    if x is not None and x.ndim == 2:
+        first_is_x = bool(x[0, 0] != x[-1, 0])
+    elif x is not None and y is not None:
+        first_is_x = (x.size, y.size) == shape != shape[::-1]
+    heights = raw.heights if first_is_x else raw.heights.T
+    lines = {name: _line(each) for name, each in (("x", x), ("y", y)) if each is not None}
+    if tuple(line.size for line in lines.values()) != heights.shape:
         return replace(raw, heights=heights)
-    steps = np.array([find_step(line_x, "x"), find_step(line_y, "y")])
+    steps = np.array([find_step(line, name) for name, line in lines.items()])
     return replace(raw, heights=heights, places=steps)
+
+
+def _line(positions: NDArray) -> NDArray:
+    """Positions along the axis of a mesh on which they change."""
+    if positions.ndim == 1:
+        return positions
+    return positions[0] if positions[0, 0] != positions[0, -1] else positions[:, 0]
 
 
 def _read_alone(raw: Raw) -> Raw:
@@ -298,24 +311,6 @@ def _is_mesh(array: NDArray) -> bool:
         np.allclose(lines, lines[:1], rtol=1e-9, atol=0) and lines[0, 0] != lines[0, -1]
         for lines in (array, array.T)
     )
-
-
-def _first_is_x(shape: tuple[int, ...], x: NDArray | None, y: NDArray | None) -> bool:
-    """Whether positions say that the first axis of a matrix is x."""
-    if x is not None and x.ndim == 2:
-        return x[0, 0] != x[-1, 0]
-    if x is None or y is None:
-        return False
-    return (x.size, y.size) == shape != shape[::-1]
-
-
-def _line(positions: NDArray | None, points: int) -> NDArray | None:
-    """Positions along an axis of so many points; None if these are not theirs."""
-    if positions is None:
-        return None
-    if positions.ndim == 2:
-        positions = positions[0] if positions[0, 0] != positions[0, -1] else positions[:, 0]
-    return positions if positions.size == points else None
 
 
 def read_matlab(path: Path, wanted: str | int | None) -> Raw:

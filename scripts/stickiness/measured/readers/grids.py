@@ -157,14 +157,15 @@ class _GwyddionBytes:
 
     def take(self, kind: str) -> Any:
         """A component: a number, an object or a text by its letter, many by the capital."""
+        take_one = {"o": self.take_object, "s": self.take_text}
+        if kind in take_one:
+            return take_one[kind]()
         if kind in _ATOMS:
             return self.take_numbers(_ATOMS[kind]).item()
-        if kind in "os":
-            return self.take_object() if kind == "o" else self.take_text()
         count = self.take_numbers("<u4").item()
         if kind.lower() in _ATOMS:
             return self.take_numbers(_ATOMS[kind.lower()], count)
-        return [self.take(kind.lower()) for _ in range(count)]
+        return [take_one[kind.lower()]() for _ in range(count)]
 
 
 def read_tiff(path: Path) -> Raw:
