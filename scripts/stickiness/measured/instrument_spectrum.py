@@ -347,23 +347,22 @@ def _find_local_exponents(rings: RadialPSD) -> NDArray:
     """Centres ln q, ln C and s of C ~ q^-s, `(3, n)`, by regression over a quarter of a decade."""
     q, mean, dof = merge_rings(rings, rings.psd, bins_per_decade=20)
     has_power = mean > 0
-    x = np.log(q[has_power])
     dof = dof[has_power]
-    y = np.log(mean[has_power]) - special.digamma(dof) + np.log(dof)
+    log_q = np.log(q[has_power])
+    log_psd = np.log(mean[has_power]) - special.digamma(dof) + np.log(dof)
     # A scatter of ln C beyond sampling, so that rings of many modes do not decide alone.
     weight = 1 / (special.polygamma(1, dof) + 0.05**2)
     width = np.log(10) / 4
     regressions = []
-    for centre in x:
-        near = np.abs(x - centre) <= width / 2
-        if np.count_nonzero(near) < 4 or np.ptp(x[near]) < width * 0.7:
+    for centre in log_q:
+        near = np.abs(log_q - centre) <= width / 2
+        if np.count_nonzero(near) < 4 or np.ptp(log_q[near]) < width * 0.7:
             continue
-        w = weight[near]
-        mean_x = np.average(x[near], weights=w)
-        mean_y = np.average(y[near], weights=w)
-        dx = x[near] - mean_x
-        exponent = -np.sum(w * dx * y[near]) / np.sum(w * dx**2)
-        regressions.append((centre, mean_y - exponent * (centre - mean_x), exponent))
+        mean_log_q = np.average(log_q[near], weights=weight[near])
+        mean_log_psd = np.average(log_psd[near], weights=weight[near])
+        off = log_q[near] - mean_log_q
+        exponent = -np.sum(weight[near] * off * log_psd[near]) / np.sum(weight[near] * off**2)
+        regressions.append((centre, mean_log_psd - exponent * (centre - mean_log_q), exponent))
     return np.reshape(regressions, (-1, 3)).T
 
 
