@@ -331,17 +331,7 @@ def from_array(
     (1, (32, 32))
     """
     _check_options(max_missing, missing_rim, missing=missing, spikes=spikes, scan=scan)
-    heights = with_gaps("heights", heights)
-    if heights.ndim not in (1, 2) or heights.size == 0:
-        raise ValueError(
-            f"{source}: heights must be a map (nx, ny) or a profile (n,), got shape {heights.shape}"
-        )
-    positions = None
-    remarks: list[str] = []
-    if heights.ndim == 1:
-        heights, positions = _sort_profile(heights, steps, source)
-    else:
-        heights, spacing, remarks = _keep_one_copy(heights, positive(steps=steps)[0])
+    heights, places, remarks = _arrange(heights, steps, source)
 
     # Spikes, scars and points beside missing ones are taken for missing.
     as_measured, dropped = levelling.without_rims(heights, missing_rim)
@@ -362,13 +352,15 @@ def from_array(
     }
     told = "".join(f", {count} {loss}" for loss, count in losses.items() if count)
     limit = 0.0 if missing == "refuse" else max_missing
-    positions = None if positions is None else positions[kept]
-    filled, missing_count = levelling.fill_missing(usable[kept], limit, source + told, positions)
+    if heights.ndim == 1:
+        places = places[kept]
+    filled, missing_count = levelling.fill_missing(usable[kept], limit, source + told, places)
 
     # Heights of a profile are interpolated to even positions, and all are converted to metres.
+    spacing = places
     largest_gap = 0.0
-    if positions is not None:
-        filled, spacing, largest_gap = _resample(filled, positions, source)
+    if heights.ndim == 1:
+        filled, spacing, largest_gap = _resample(filled, places, source)
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
@@ -389,9 +381,24 @@ def from_array(
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
         "remarks": tuple(f"{source}: {remark}" for remark in (*remarks, *mended.remarks)),
     }
-    if positions is not None:
+    if heights.ndim == 1:
         return Profile(filled, float(spacing[0]), source, largest_gap, **record)
     return Topography(filled, float(spacing[0]), float(spacing[1]), source, **record)
+
+
+def _arrange(
+    heights: ArrayLike, steps: ArrayLike, source: str
+) -> tuple[NDArray, NDArray, list[str]]:
+    """Heights in order, with the steps of a map or positions on a line, and remarks on copies."""
+    known = with_gaps("heights", heights)
+    if known.ndim not in (1, 2) or known.size == 0:
+        raise ValueError(
+            f"{source}: heights must be a map (nx, ny) or a profile (n,), got shape {known.shape}"
+        )
+    if known.ndim == 1:
+        return *_sort_profile(known, steps, source), []
+    spacing = np.broadcast_to(positive(steps=steps)[0], 2)
+    return _keep_one_copy(known, spacing) if np.isfinite(known).any() else (known, spacing, [])
 
 
 def _keep_one_copy(heights: NDArray, steps: NDArray) -> tuple[NDArray, NDArray, list[str]]:
@@ -399,10 +406,7 @@ def _keep_one_copy(heights: NDArray, steps: NDArray) -> tuple[NDArray, NDArray, 
 
     Copies tell nothing more of the surface.
     """
-    steps = np.broadcast_to(steps, 2)
-    remarks: list[str] = []
-    if not np.isfinite(heights).any():
-        return heights, steps, remarks
+    remarks = []
     tile = levelling.find_tile(heights)
     if tile != heights.shape:
         copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
