@@ -125,18 +125,9 @@ def analyse(
         raise ValueError(f"heights must not be flat, got {levelled.flat[0]:.6g} throughout")
 
     # The spectrum in fine rings, of a profile C1, and in rings proportional to C.
-    modes: psd.Modes
-    if isinstance(heights, Topography):
-        modes = psd.power_spectrum(levelled, heights.dx, heights.dy, taper=taper)
-        line = radial_average(modes, FINE)
-        narrow = line
-        nyquist = modes.q_nyquist
-    else:
-        modes = psd.profile_spectrum(levelled, heights.dx, taper=taper)
-        line = radial_average(modes, FINE)
-        narrow = replace(line, psd=line.psd / line.q)
-        # Unevenly spaced points resolve no wave shorter than twice their largest gap.
-        nyquist = min(modes.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
+    is_map = isinstance(heights, Topography)
+    modes, line, nyquist = _transform(heights, levelled, taper)
+    narrow = line if is_map else replace(line, psd=line.psd / line.q)
     lowest = min(modes.steps)
     of_grid = Cutoff(nyquist, "two steps of the grid")
 
@@ -154,7 +145,7 @@ def analyse(
     enough = demand and alone
 
     def fit_to(q_max: float) -> tuple[RadialPSD, SelfAffineFit]:
-        if isinstance(heights, Topography):
+        if is_map:
             return narrow, fit_rings(narrow, q_min, q_max, demand=enough)
         return _fit_profile(line, q_min, q_max, NYQUIST_SHARE * nyquist, enough)
 
@@ -178,6 +169,20 @@ def analyse(
         held=cutoff if cutoff.detected or cutoff.is_noise_beyond else of_grid,
         anisotropy=anisotropy,
     )
+
+
+def _transform(
+    heights: Topography | Profile, levelled: NDArray, taper: Taper
+) -> tuple[psd.Modes, RadialPSD, float]:
+    """Waves of a measurement, their power in fine rings, and the highest one that it records."""
+    modes: psd.Modes
+    if isinstance(heights, Topography):
+        modes = psd.power_spectrum(levelled, heights.dx, heights.dy, taper=taper)
+        return modes, radial_average(modes, FINE), modes.q_nyquist
+    modes = psd.profile_spectrum(levelled, heights.dx, taper=taper)
+    # Unevenly spaced points resolve no wave shorter than twice their largest gap.
+    nyquist = min(modes.q_nyquist, np.pi / max(heights.largest_gap, heights.dx))
+    return modes, radial_average(modes, FINE), nyquist
 
 
 def _broad_rings(modes: psd.Modes, fitted: RadialPSD) -> tuple[RadialPSD, NDArray]:
