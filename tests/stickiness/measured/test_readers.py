@@ -16,7 +16,7 @@ from PIL import Image, TiffImagePlugin
 
 from stickiness import Surface
 from stickiness.measured import topography
-from stickiness.measured.readers import instruments
+from stickiness.measured.readers import grids, instruments
 
 pytestmark = pytest.mark.processors
 
@@ -118,8 +118,8 @@ def packed(name, *components):
     return name.encode() + b"\0" + struct.pack("<I", len(content)) + content
 
 
-def gwyddion(path, unit="", scale=1.0):
-    """A .gwy file of one channel, lengths in m and heights without a unit."""
+def gwyddion(path, unit="", scale=1.0, titles=("Z",)):
+    """A .gwy file of equal channels, lengths in m and heights without a unit."""
     heights = (scale * MAP).astype("<f8")
     field = packed(
         "GwyDataField",
@@ -133,9 +133,11 @@ def gwyddion(path, unit="", scale=1.0):
         ),
         component("data", "D", struct.pack("<I", MAP.size) + heights.tobytes()),
     )
-    title = component("/0/data/title", "s", b"Z\0")
-    content = packed("GwyContainer", title, component("/0/data", "o", field))
-    path.write_bytes(b"GWYP" + content)
+    channels = []
+    for number, title in enumerate(titles):
+        channels.append(component(f"/{number}/data/title", "s", title.encode() + b"\0"))
+        channels.append(component(f"/{number}/data", "o", field))
+    path.write_bytes(b"GWYP" + packed("GwyContainer", *channels))
 
 
 def simple_field(path, fields=""):
@@ -610,6 +612,13 @@ def test_heights_are_found_beside_a_first_channel_without_them():
     )
     found = instruments.read_channel(Path("a.spm"), reader)
     np.testing.assert_array_equal(found.heights, MAP.T)
+
+
+def test_channels_of_one_title_are_told_apart(tmp_path):
+    gwyddion(tmp_path / "a.gwy", "m", titles=("Z", "Z", "Z#2"))
+    found = grids.read_gwyddion(tmp_path / "a.gwy")
+    assert found.source.endswith("Z#1")
+    assert found.others == ("Z#2", "Z#2#2")
 
 
 def test_periodic_heights_are_analysed_as_such_unless_told_otherwise(tmp_path):

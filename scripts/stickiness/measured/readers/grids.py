@@ -115,6 +115,8 @@ def _list_fields(content: dict[str, Any]) -> dict[str, dict[str, Any]]:
     fields = {}
     for number, (key, title) in enumerate(zip(keys, titles, strict=True), start=1):
         name = title if titles.count(title) == 1 else f"{title}#{titles[:number].count(title)}"
+        while name in fields:  # as another's title is
+            name = f"{name}#2"
         fields[name] = content[key] | {"mask": content.get(key.replace("/data", "/mask"))}
     return fields
 
