@@ -170,7 +170,8 @@ def si(value: str, unit: str) -> float:
     match = _NUMBER.match(text)
     if match is None:
         raise ValueError(f"{value!r} does not begin with a number: {wanted}")
-    number, written = match[0].strip(), text[match.end() :]
+    number = match[0].strip()
+    written = text[match.end() :]
     if re.search(r"[±~\[\]]|\+/-|[0-9] ?[-–] ?[0-9]", text) or re.match(
         r"[.'_]| ?[0-9](?! ?/)", written
     ):

@@ -140,7 +140,8 @@ class Tradeoff(Section):
     def check_presets(self, info: ValidationInfo) -> Self:
         """Check that the presets are in the configuration, and find the surface of their role."""
         config = info.context["config"]
-        role, roles = self.presets.surface, config["roles"]
+        role = self.presets.surface
+        roles = config["roles"]
         if role not in roles:
             raise EntryError("presets.surface", role, f"unknown role; {suggest(role, roles)}")
         self.presets.surface = config["cases"][roles[role]]["surface"]

@@ -12,7 +12,9 @@ import yaml
 from snakemake.utils import update_config
 
 TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
-USER, PAPER = "config/config.yaml", "config/campaigns/paper.yaml"  #: files that are read as one
+# Files that are read as one.
+USER = "config/config.yaml"
+PAPER = "config/campaigns/paper.yaml"
 #: Files of what this project measures once, which users do not configure.
 CAMPAIGNS = {
     name: f"config/campaigns/{name}.yaml" for name in ("tradeoff", "remaining", "heights", "limits")
@@ -49,7 +51,8 @@ def load(path: str | Path) -> dict[str, Any]:
         reason = getattr(error, "strerror", "it is no text in UTF-8")
         raise ConfigError(f"{path}: cannot be read as YAML: {reason}") from None
     except yaml.YAMLError as error:
-        mark, problem = getattr(error, "problem_mark", None), getattr(error, "problem", error)
+        mark = getattr(error, "problem_mark", None)
+        problem = getattr(error, "problem", error)
         line = f" line {mark.line + 1}" if mark else ""
         if mark and "\t" in "".join(text.splitlines()[mark.line : mark.line + 1]):
             problem = "it holds a tab: indent with blanks"

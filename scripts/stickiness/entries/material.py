@@ -216,7 +216,8 @@ class Material(ElasticPair, f.Labelled):
             )
             raise EntryError(f"youngs_modulus_table[{fall}]", moduli[fall], text)
         if self.dwell is None:
-            needed_frequency, role = REFERENCE_FREQUENCY, "at which the verdict is quoted"
+            needed_frequency = REFERENCE_FREQUENCY
+            role = "at which the verdict is quoted"
         elif self.depends_on_rate:
             needed_frequency = float(f"{relaxation_frequency(self.dwell):.3g}")
             role = f"1/(pi^2 dwell) for dwell = {self.dwell!r}"

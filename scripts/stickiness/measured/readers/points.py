@@ -11,7 +11,8 @@ _SLACK = 0.01  # of a step, by which positions may be off the grid
 _MOST_EMPTY = 0.5  # share of the grid that may have no point; more are scattered points
 FEWEST_POINTS = 16  #: fewer rows of three numbers are a map
 #: Of a step, by which measured positions may scatter about a grid: rms and largest.
-SNAPPED_RMS, SNAPPED_MOST = 0.05, 0.25
+SNAPPED_RMS = 0.05
+SNAPPED_MOST = 0.25
 RESAMPLE = (
     "resample them to a regular grid, e.g. by scipy.interpolate.griddata or Gwyddion's import of "
     "XYZ data"
