@@ -4,7 +4,7 @@ Limits are calibrated on these comparisons, and the page of validation says how 
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 from typing import Self
 
@@ -37,6 +37,8 @@ NEXT_TO_NOTHING = 0.01  # share, below which an error is absolute
 LEAST_SHARE = 0.02  # of which ratios of pull-offs and works are taken
 LEAST_LACKING = 0.02  # energy, over that of the others
 LEAST_LOST = 1e-3  # ln of what roughness takes from the force, of weights
+#: Columns of what is the same for all places of a ball.
+OF_BALL = ("law", "tabor", "hurst", "skewness", "shortest", "waves", "height")
 BALL_RANGE = 3e-10  # m
 BALL_WORK = 0.05  # J/m^2
 ROUNDING = 1e-4  # of shares: tolerance of simulations, rounding of tables
@@ -323,8 +325,10 @@ def of_balls(balls, summits):
 
     Their error goes with the root of ln of the factor that roughness takes from the force.
     """
-    groups = balls.groupby(["set", "waves", "height"])
-    rows = pd.concat([rows.assign(**predict_force(rows.iloc[0], summits)) for _, rows in groups])
+    groups = balls.groupby(list(OF_BALL), sort=False)
+    rows = pd.concat(
+        [rows.assign(**predict_force(ball, summits)) for ball, rows in groups]
+    ).sort_index()
     logarithms = np.log(rows[["simulated", *Limited._fields]])
     lost = np.maximum(-logarithms.value, LEAST_LOST)
     return Comparison(
@@ -332,29 +336,39 @@ def of_balls(balls, summits):
     )
 
 
-def predict_force(row, summits):
+def predict_force(ball, summits):
     """Value and limits of the force of a ball over that of a smooth one, without the place's error.
 
-    The surface is a user's who knows its spectrum, and the skewness of its heights.
+    `ball` has the columns of `OF_BALL`.
     """
-    zone = BALL_RANGE / make_ball(row.law, row.tabor).law.range
-    ball = make_ball(row.law, row.tabor, zone)
-    rough = Surface.from_spectrum(ball.rough(row.waves, row.height, row.shortest, row.hurst))
-    shape, shape_error = find_height_shape(row.skewness)
+    contact = find_contact(replace(touch_ball(*ball), summits=summits))
+    low, value, high = np.divide(contact.force, contact.smooth_force)
+    return {"value": value, "low": low, "high": high}
+
+
+@cache
+def touch_ball(law, tabor, hurst, skewness, shortest, waves, height):
+    """Contact of a ball with the surface of a user who knows its spectrum and its skewness."""
+    zone = BALL_RANGE / make_ball(law, tabor).law.range
+    ball = make_ball(law, tabor, zone)
+    rough = Surface.from_spectrum(ball.rough(waves, height, shortest, hurst))
+    shape, shape_error = find_height_shape(skewness)
     surface = Surface(rough.data.assign(shape=shape, shape_error=shape_error))
     material = Material(
         youngs_modulus=BALL_WORK / ball.law.adhesion_length,
         poisson_ratio=0.0,
         work_of_adhesion=BALL_WORK,
         range=BALL_RANGE,
-        law=row.law,
+        law=law,
     )
-    whole = combine_roughness(material, surface)
-    contact = find_contact(
-        BallContact(whole, material, surface, ball.radius, summits=summits, error=0.0)
+    return BallContact(
+        rough=combine_roughness(material, surface),
+        material=material,
+        surface=surface,
+        radius=ball.radius,
+        summits=np.nan,  # to be calibrated
+        error=0.0,
     )
-    low, value, high = np.divide(contact.force, contact.smooth_force)
-    return {"value": value, "low": low, "high": high}
 
 
 def judge_shares(limits, simulated):
