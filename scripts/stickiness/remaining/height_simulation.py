@@ -9,9 +9,9 @@ resolves its edges at a longer range, from which states are followed to that of 
 from __future__ import annotations
 
 import logging
-import warnings
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -21,7 +21,6 @@ from scipy.special import erfinv
 from stickiness.adhesive import solver as adhesive
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.arguments import check_length, grid
-from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.full_contact import full_contact_energy
 from stickiness.remaining.standard_heights import (
     MOST_POINTS,
@@ -30,6 +29,7 @@ from stickiness.remaining.standard_heights import (
     standardise,
 )
 from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
+from stickiness.remaining.zero_load import descend
 from stickiness.repulsive import solver as repulsive
 from stickiness.repulsive.half_space import half_space, measure_slope
 from stickiness.repulsive.solver import ConvergenceError
@@ -133,46 +133,40 @@ def find_trial_states(
     0.0884 0.27
     """
     heights = grid("heights", heights)
-    sides = check_length(length, heights.shape)
-    h_rms = float(np.std(heights))
+    cell = _Cell(heights, check_length(length, heights.shape), solid)
     # Surfaces that touch at the summit, and contact without adhesion up to full contact.
-    counted = [_count_gaps(0.0, heights.max() - heights, h_rms)]
-    counted += [_count_contact(each, heights, h_rms) for each in press(heights, sides, solid)]
-    energy = full_contact_energy(heights, 1.0, sides, solid, edges="given")
-    counted.append(_count_gaps(energy, np.zeros(heights.shape), h_rms))
+    counted = [
+        cell.count(0.0, heights.max() - heights),
+        *(cell.count_contact(each) for each in press(heights, cell.sides, solid)),
+        cell.count(cell.energy, np.zeros(heights.shape)),
+    ]
     without_adhesion = len(counted)
 
     # States at zero load, from strong to weak adhesion: the share in the deepest of each, and the
     # distance over which that acts on separation.
     simulated = []
     closed: str | NDArray = adhesive.SEPARATION
-    pixel = max(side / n for side, n in zip(sides, heights.shape, strict=True))
-    half_space_energy = full_contact_energy(heights, 1.0, sides, edges="given")
-    is_stiffer = energy > half_space_energy * STIFFER
-    for ratio in ENERGY_RATIOS:
-        adhesion_length = ratio * energy
-        half_space_range = np.sqrt(pixel * ratio * half_space_energy / COARSEST)
-        resolved_range = np.sqrt(pixel * adhesion_length / COARSEST)
-        longest_range = max(LONGEST_RANGE * h_rms, half_space_range)
+    for energy_ratio in ENERGY_RATIOS:
+        adhesion_length = energy_ratio * cell.energy
+        half_space_range = np.sqrt(cell.pixel * energy_ratio * cell.half_space_energy / COARSEST)
+        resolved_range = np.sqrt(cell.pixel * adhesion_length / COARSEST)
+        longest_range = max(LONGEST_RANGE * cell.h_rms, half_space_range)
         law = Exponential(adhesion_length, min(resolved_range, longest_range))
-        starts = (closed, adhesive.APPROACH)
-        states = list(_adhere(heights, sides, law, solid, starts, is_stiffer))
+        states = list(cell.adhere(law, (closed, adhesive.APPROACH)))
         if not states:
             continue
         closed = states[0].gap
         deepest = min(states, key=lambda state: state.energy)
-        if is_stiffer:
-            followed = list(_shorten_range(heights, sides, deepest, half_space_range, solid))
+        if cell.is_stiffer:
+            followed = list(cell.shorten_range(deepest, half_space_range))
             states += followed
             deepest = [deepest, *followed][-1]
-        counted += [_count_gaps(state.elastic_energy, state.gap, h_rms) for state in states]
+        counted += [cell.count(state.elastic_energy, state.gap) for state in states]
         share = max(-deepest.energy, 0.0) / adhesion_length
         if share < HARDLY_ANYTHING:
-            simulated.append((adhesion_length, deepest.law.range, share, h_rms))
+            simulated.append((adhesion_length, deepest.law.range, share, cell.h_rms))
             break
-        tension = np.nan
-        if pull:
-            tension = _pull_off(heights, sides, deepest, share, solid, is_stiffer)
+        tension = cell.pull_off(deepest, share) if pull else np.nan
         distance = adhesion_length * share / tension
         simulated.append((adhesion_length, deepest.law.range, share, distance))
     if not simulated:
@@ -183,70 +177,17 @@ def find_trial_states(
         gap_share=np.array([state.gap_share for state in counted]),
         gap=np.array([state.gap for state in counted]),
         has_adhesion=np.arange(len(counted)) >= without_adhesion,
-        full_contact_energy=energy,
+        full_contact_energy=cell.energy,
         simulated_length=lengths,
         simulated_range=ranges,
         simulated_share=shares,
         simulated_distance=distances,
     )
-    if not is_stiffer:
+    if not cell.is_stiffer:
         return trial_states
     # Where a state was not followed to its end, that for another work of adhesion may be deeper.
     of_deepest = trial_states.share(lengths, ranges)
     return replace(trial_states, simulated_share=np.maximum(shares, of_deepest))
-
-
-def _shorten_range(
-    heights: NDArray,
-    sides: tuple[float, float],
-    state: adhesive.Adhesion,
-    shortest: float,
-    solid: Solid,
-) -> Iterator[adhesive.Adhesion]:
-    """Follow a state of zero load to a shorter range of the attraction, as far as the grid can."""
-    while state.law.range > shortest:
-        law = Exponential(state.law.adhesion_length, max(state.law.range / 2, shortest))
-        try:
-            (state,) = _adhere(heights, sides, law, solid, (state,), is_stiffer=True)
-        except ValueError as error:
-            logging.info("range %.3g: %s", law.range, error)  # the grid would set the edges
-            return
-        yield state
-
-
-def _pull_off(
-    heights: NDArray,
-    sides: tuple[float, float],
-    state: adhesive.Adhesion,
-    share: float,
-    solid: Solid,
-    is_stiffer: bool,
-) -> float:
-    """Largest mean tension [E*] that a state of zero load withstands, within some 5 %."""
-
-    def pull(tension: float, start: adhesive.Adhesion) -> adhesive.Adhesion | None:
-        """State under a tension; None if that tears the surfaces apart."""
-        states = _adhere(heights, sides, state.law, solid, (start,), is_stiffer, -tension)
-        return next(states, None)
-
-    # Halve a tension until the surfaces withstand it.
-    tension = state.law.adhesion_length * share / state.rms_height
-    withstood = pull(tension, state)
-    while withstood is None and tension > 0:
-        tension /= 2
-        withstood = pull(tension, state)
-    # Raise it in steps, and then in shorter ones. From a state that is strained more, the surfaces
-    # may withstand a tension that tore them apart before.
-    step = FIRST_STEP
-    while step > LAST_STEP:
-        further = pull(tension * step, withstood or state)
-        if further is None:
-            step = np.sqrt(step)
-        else:
-            tension *= step
-            withstood = further
-    # Between a tension that they withstand and one that they do not.
-    return tension * step
 
 
 class _CountedState(NamedTuple):
@@ -255,14 +196,6 @@ class _CountedState(NamedTuple):
     elastic_energy: float  #: [length]
     gap_share: NDArray  #: of the nominal area, ``(bin,)``
     gap: NDArray  #: mean of every bin [length], ``(bin,)``
-
-
-def _count_gaps(elastic_energy: float, gap: NDArray, h_rms: float) -> _CountedState:
-    """Count the gaps of a state in `GAP_BINS`."""
-    index = np.searchsorted(GAP_BINS, gap.ravel() / h_rms)
-    counts = np.bincount(index, minlength=GAP_BINS.size + 1)
-    sums = np.bincount(index, weights=gap.ravel(), minlength=GAP_BINS.size + 1)
-    return _CountedState(elastic_energy, counts / gap.size, sums / np.maximum(counts, 1))
 
 
 def press(
@@ -280,44 +213,118 @@ def press(
     return repulsive.load_path(heights, sides, loads, tol=CONTACT_TOLERANCE, solid=solid)
 
 
-def _count_contact(contact: repulsive.Contact, heights: NDArray, h_rms: float) -> _CountedState:
-    """Count the gaps of a contact without adhesion."""
-    displacement = contact.gap + heights - contact.shift
-    elastic_energy = float(np.mean(contact.pressure * displacement)) / 2
-    return _count_gaps(elastic_energy, contact.gap, h_rms)
+@dataclass(frozen=True, eq=False)
+class _Cell:
+    """Periodic heights against a solid, whose states of contact are simulated."""
 
+    heights: NDArray  #: [length]
+    sides: tuple[float, float]  #: [length]
+    solid: Solid
 
-def _adhere(
-    heights: NDArray,
-    sides: tuple[float, float],
-    law: TractionLaw,
-    solid: Solid,
-    starts: tuple[str | NDArray | adhesive.Adhesion, ...],
-    is_stiffer: bool,
-    pressure: float = 0.0,
-) -> Iterator[adhesive.Adhesion]:
-    """States of contact at a load, from several starts, but for those that do not converge.
+    @cached_property
+    def h_rms(self) -> float:
+        """Rms height [length]."""
+        return float(np.std(self.heights))
 
-    Those on a solid `is_stiffer` than a half-space count when their iterations are spent, too: any
-    state bounds the energy. On the grid, single points hold them back.
-    """
-    most_iterations = FEW_ITERATIONS if is_stiffer else MOST_ITERATIONS
-    for start in starts:
-        try:
-            with warnings.catch_warnings():
-                # The grid hardly resolves the edges: the range is as short as it can be.
-                warnings.simplefilter("ignore", PlausibilityWarning)
-                yield adhesive.solve(
-                    heights,
-                    sides,
+    @cached_property
+    def energy(self) -> float:
+        """Elastic energy of full contact per nominal area over E* [length]."""
+        return full_contact_energy(self.heights, 1.0, self.sides, self.solid, edges="given")
+
+    @cached_property
+    def half_space_energy(self) -> float:
+        """That of a half-space [length]."""
+        return full_contact_energy(self.heights, 1.0, self.sides, edges="given")
+
+    @property
+    def is_stiffer(self) -> bool:
+        """Whether the solid takes more energy to conform than a half-space."""
+        return self.energy > self.half_space_energy * STIFFER
+
+    @property
+    def pixel(self) -> float:
+        """Longer side of a pixel [length]."""
+        return max(side / n for side, n in zip(self.sides, self.heights.shape, strict=True))
+
+    def count(self, elastic_energy: float, gap: NDArray) -> _CountedState:
+        """Count the gaps of a state in `GAP_BINS`."""
+        index = np.searchsorted(GAP_BINS, gap.ravel() / self.h_rms)
+        counts = np.bincount(index, minlength=GAP_BINS.size + 1)
+        sums = np.bincount(index, weights=gap.ravel(), minlength=GAP_BINS.size + 1)
+        return _CountedState(elastic_energy, counts / gap.size, sums / np.maximum(counts, 1))
+
+    def count_contact(self, contact: repulsive.Contact) -> _CountedState:
+        """Count the gaps of a contact without adhesion."""
+        displacement = contact.gap + self.heights - contact.shift
+        elastic_energy = float(np.mean(contact.pressure * displacement)) / 2
+        return self.count(elastic_energy, contact.gap)
+
+    def adhere(
+        self,
+        law: TractionLaw,
+        starts: tuple[str | NDArray | adhesive.Adhesion, ...],
+        pressure: float = 0.0,
+    ) -> Iterator[adhesive.Adhesion]:
+        """States of contact at a load, from several starts, but for those that do not converge.
+
+        Those on a solid that is stiffer than a half-space count when their iterations are spent,
+        too: any state bounds the energy. On the grid, single points hold them back.
+        """
+        for start in starts:
+            try:
+                yield descend(
+                    self.heights,
+                    self.sides,
                     law,
-                    pressure=pressure,
-                    start=start,
+                    self.solid,
+                    start,
                     tol=ADHESION_TOLERANCE,
-                    max_iterations=most_iterations,
-                    solid=solid,
+                    max_iterations=FEW_ITERATIONS if self.is_stiffer else MOST_ITERATIONS,
+                    pressure=pressure,
                 )
-        except ConvergenceError as error:
-            if is_stiffer and not isinstance(error, adhesive.PullOffError):
-                yield error.contact
-            logging.info("adhesion length %.3g: %s", law.adhesion_length, error)
+            except ConvergenceError as error:
+                if self.is_stiffer and not isinstance(error, adhesive.PullOffError):
+                    yield error.contact
+                logging.info("adhesion length %.3g: %s", law.adhesion_length, error)
+
+    def shorten_range(
+        self, state: adhesive.Adhesion, shortest: float
+    ) -> Iterator[adhesive.Adhesion]:
+        """Follow a state of zero load to a shorter range of the attraction.
+
+        The grid may end that before the shortest range [length].
+        """
+        while state.law.range > shortest:
+            law = Exponential(state.law.adhesion_length, max(state.law.range / 2, shortest))
+            try:
+                (state,) = self.adhere(law, (state,))
+            except ValueError as error:
+                logging.info("range %.3g: %s", law.range, error)  # the grid would set the edges
+                return
+            yield state
+
+    def pull_off(self, state: adhesive.Adhesion, share: float) -> float:
+        """Largest mean tension [E*] that a state of zero load withstands, within some 5 %."""
+
+        def pull(tension: float, start: adhesive.Adhesion) -> adhesive.Adhesion | None:
+            """State under a tension; None if that tears the surfaces apart."""
+            return next(self.adhere(state.law, (start,), -tension), None)
+
+        # Halve a tension until the surfaces withstand it.
+        tension = state.law.adhesion_length * share / state.rms_height
+        withstood = pull(tension, state)
+        while withstood is None and tension > 0:
+            tension /= 2
+            withstood = pull(tension, state)
+        # Raise it in steps, and then in shorter ones. From a state that is strained more, the
+        # surfaces may withstand a tension that tore them apart before.
+        step = FIRST_STEP
+        while step > LAST_STEP:
+            further = pull(tension * step, withstood or state)
+            if further is None:
+                step = np.sqrt(step)
+            else:
+                tension *= step
+                withstood = further
+        # Between a tension that they withstand and one that they do not.
+        return tension * step

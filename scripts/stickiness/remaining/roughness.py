@@ -234,7 +234,7 @@ class Roughness:
         if not np.any(np.not_equal(self.simulated, np.array(None))):
             return plain(by_theory)
         # One row per pair. Heights times a factor take the factor squared of all energies.
-        values, simulated, law, lacking, length, row_range, *rest = (
+        replaced, simulated, law, lacking, length, row_range, *other_rows = (
             np.array(column)
             for column in np.broadcast_arrays(
                 by_theory,
@@ -249,14 +249,14 @@ class Roughness:
         for name in np.unique(law):
             for heights in set(simulated.ravel()) - {None}:
                 rows = (simulated == heights) & (law == name)
-                values[rows] = getattr(heights, quantity)(
+                replaced[rows] = getattr(heights, quantity)(
                     length[rows],
                     row_range[rows],
                     str(name),
                     lacking[rows],
-                    *(x[rows] for x in rest),
+                    *(column[rows] for column in other_rows),
                 )
-        return plain(values)
+        return plain(replaced)
 
     def _bound_by_half_space(self, share, adhesion_length, range, deviation) -> NDArray:
         """Bound a share by that on a half-space.
@@ -458,70 +458,48 @@ class Roughness:
         # One row per pair: the root search runs over rows. Without a length to start from, the film
         # under a layer is taken as it is.
         surface = replace(self, film_response=None) if adhesion_length is None else self
-        start = np.nan if adhesion_length is None else adhesion_length
-        columns = (range, deviation, share, start)
+        start_length = np.nan if adhesion_length is None else adhesion_length
+        columns = (range, deviation, share, start_length)
         shape = np.broadcast_shapes(surface.shape_of_arrays, *map(np.shape, columns))
-        pairs = PairRows(
-            surface.broadcast(shape), *(np.broadcast_to(x, shape).ravel() for x in columns)
+        rough = surface.broadcast(shape)
+        ranges, deviations, wanted_shares, start_lengths = (
+            np.broadcast_to(column, shape).ravel() for column in columns
         )
 
         def find_excess(log_length: NDArray, row: NDArray) -> NDArray:
-            """Share that remains in these rows of the table, less the wanted one."""
-            pair = pairs.take(row)
+            """Share that remains in these rows, less the wanted one."""
             length = np.exp(log_length)
-            rough = pair.rough.at_modulus(pair.start_length / length)
-            return rough.share(length, pair.range, pair.deviation) - pair.wanted_share
+            rough_rows = rough.take(row).at_modulus(start_lengths[row] / length)
+            remains = rough_rows.share(length, ranges[row], deviations[row])
+            return remains - wanted_shares[row]
 
         # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
         # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
         # A film may raise the energy on the way there.
-        energy = np.asarray(pairs.rough.elastic_energy)
-        most_energy = np.asarray(pairs.rough.at_modulus(SOFTEST).elastic_energy)
+        energy = np.asarray(rough.elastic_energy)
+        most_energy = np.asarray(rough.at_modulus(SOFTEST).elastic_energy)
         if self.simulated is not None:  # whose energy may exceed that of a spectrum that is drawn
             most_energy = np.maximum(most_energy, self.simulated.whole.full_contact_energy)
         lowest = np.log(LEAST_LENGTH * energy)
-        highest = np.log(20 * most_energy / (1 - pairs.wanted_share))
+        highest = np.log(20 * most_energy / (1 - wanted_shares))
 
         # Shares need not rise with the length. The threshold must agree with the share at the
         # start: search below that if enough remains there, else above.
-        row = np.arange(energy.size)
-        log_start = np.clip(np.fmax(np.log(pairs.start_length), lowest), lowest, highest)
-        is_enough = find_excess(log_start, row) >= 0
+        every_row = np.arange(energy.size)
+        log_start = np.clip(np.fmax(np.log(start_lengths), lowest), lowest, highest)
+        is_enough = find_excess(log_start, every_row) >= 0
         bracket = (np.where(is_enough, lowest, log_start), np.where(is_enough, log_start, highest))
         root = elementwise.find_root(
-            find_excess, bracket, args=(row,), tolerances={"xatol": THRESHOLD_TOLERANCE}
+            find_excess, bracket, args=(every_row,), tolerances={"xatol": THRESHOLD_TOLERANCE}
         )
 
         # Attraction whose range is far above h_rms holds at any strength. On a skin that takes more
         # to bend than is gained, nothing holds however soft the half-space is.
-        holds_always = find_excess(bracket[0], row) >= 0
-        holds_never = find_excess(bracket[1], row) < 0
+        holds_always = find_excess(bracket[0], every_row) >= 0
+        holds_never = find_excess(bracket[1], every_row) < 0
         extremes = [LEAST_LENGTH * energy, energy / LEAST_LENGTH]
         lengths = np.select([holds_always, holds_never], extremes, np.exp(root.x))
         return plain(lengths.reshape(shape))
-
-
-@dataclass(frozen=True)
-class PairRows:
-    """Pairs as a flat table with one row each; all columns are arrays `(n,)`."""
-
-    rough: Roughness
-    range: NDArray  #: of the attraction [length]
-    #: Error of the share in units of its limits, see `Roughness.share`: -1, 0 or 1 for low limit,
-    #: value and high limit, any number for an error that is drawn
-    deviation: NDArray
-    wanted_share: NDArray
-    start_length: NDArray  #: adhesion length of the pair as given; NaN if none is
-
-    def take(self, row: NDArray) -> PairRows:
-        """Return some rows of the table."""
-        return PairRows(
-            rough=self.rough.take(row),
-            range=self.range[row],
-            deviation=self.deviation[row],
-            wanted_share=self.wanted_share[row],
-            start_length=self.start_length[row],
-        )
 
 
 def find_anisotropy_error_factor(ratio: float) -> float:

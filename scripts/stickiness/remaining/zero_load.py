@@ -81,7 +81,7 @@ def share_at_zero_load(
     stopped = []
     for start in starts:
         try:
-            energies.append(_descend(heights, sides, law, solid, start, tol).energy)
+            energies.append(descend(heights, sides, law, solid, start, tol).energy)
         except ConvergenceError as error:
             logging.info("%s: %s", law, error)
             if isinstance(error.contact, adhesive.Adhesion):
@@ -102,7 +102,7 @@ def _make_contact(
         while range_ > law.range:
             longer = replace(law, adhesion_length=stronger * law.adhesion_length, range=range_)
             try:
-                gap = _descend(heights, sides, longer, solid, gap, ROUGHLY, FEW).gap
+                gap = descend(heights, sides, longer, solid, gap, ROUGHLY, FEW).gap
             except ConvergenceError as error:
                 gap = error.contact.gap
             except ValueError as error:  # the grid would set the edges
@@ -112,16 +112,17 @@ def _make_contact(
         yield gap
 
 
-def _descend(
+def descend(
     heights: NDArray,
     sides: tuple[float, float],
     law: TractionLaw,
     solid: Solid,
-    start: str | NDArray,
+    start: str | NDArray | adhesive.Adhesion,
     tol: float,
     max_iterations: int = 3000,
+    pressure: float = 0.0,
 ) -> adhesive.Adhesion:
-    """State of zero load in which a descent from a start ends; errors as of `adhesive.solve`."""
+    """State at a load in which a descent from a start ends; errors as of `adhesive.solve`."""
     with warnings.catch_warnings():
         # The cohesive zone may be as narrow as a pixel: energies need no more.
         warnings.simplefilter("ignore", PlausibilityWarning)
@@ -129,7 +130,7 @@ def _descend(
             heights,
             sides,
             law,
-            pressure=0.0,
+            pressure=pressure,
             start=start,
             tol=tol,
             max_iterations=max_iterations,
