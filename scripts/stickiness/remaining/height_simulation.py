@@ -147,21 +147,18 @@ def find_trial_states(
     simulated = []
     closed: str | NDArray = adhesive.SEPARATION
     for energy_ratio in ENERGY_RATIOS:
-        adhesion_length = energy_ratio * cell.energy
-        half_space_range = np.sqrt(cell.pixel * energy_ratio * cell.half_space_energy / COARSEST)
-        resolved_range = np.sqrt(cell.pixel * adhesion_length / COARSEST)
-        longest_range = max(LONGEST_RANGE * cell.h_rms, half_space_range)
-        law = Exponential(adhesion_length, min(resolved_range, longest_range))
+        law = cell.choose_law(energy_ratio)
         states = list(cell.adhere(law, (closed, adhesive.APPROACH)))
         if not states:
             continue
         closed = states[0].gap
         deepest = min(states, key=lambda state: state.energy)
         if cell.is_stiffer:
-            followed = list(cell.shorten_range(deepest, half_space_range))
+            followed = list(cell.shorten_range(deepest, cell.find_shortest_range(energy_ratio)))
             states += followed
             deepest = [deepest, *followed][-1]
         counted += [cell.count(state.elastic_energy, state.gap) for state in states]
+        adhesion_length = law.adhesion_length
         share = max(-deepest.energy, 0.0) / adhesion_length
         if share < HARDLY_ANYTHING:
             simulated.append((adhesion_length, deepest.law.range, share, cell.h_rms))
@@ -245,6 +242,17 @@ class _Cell:
     def pixel(self) -> float:
         """Longer side of a pixel [length]."""
         return max(side / n for side, n in zip(self.sides, self.heights.shape, strict=True))
+
+    def find_shortest_range(self, energy_ratio: float) -> float:
+        """Shortest range [length] that the grid resolves on a half-space."""
+        return np.sqrt(self.pixel * energy_ratio * self.half_space_energy / COARSEST)
+
+    def choose_law(self, energy_ratio: float) -> Exponential:
+        """Attraction of a work over the energy of full contact, as short as the grid resolves."""
+        adhesion_length = energy_ratio * self.energy
+        resolved_range = np.sqrt(self.pixel * adhesion_length / COARSEST)
+        longest_range = max(LONGEST_RANGE * self.h_rms, self.find_shortest_range(energy_ratio))
+        return Exponential(adhesion_length, min(resolved_range, longest_range))
 
     def count(self, elastic_energy: float, gap: NDArray) -> _CountedState:
         """Count the gaps of a state in `GAP_BINS`."""

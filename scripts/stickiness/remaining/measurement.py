@@ -31,9 +31,8 @@ STEPS = 80  #: of the path between far and close, at least
 # against 160, at most 0.5, 2.2 and 5.6 % of a work, 3, 10 and 26 % of a pull-off. The last are of
 # contact edges as sharp as a grid resolves; pull-off is a single state on the way.
 STEPS_ERRORS = {"approach": 0.8, "separation": 0.8, "bound": 0.08, "pull_off": 4.0}
-RESOLVED = (
-    2.0  #: pixels in the width of the cohesive zone; with fewer the result depends on the grid
-)
+#: Pixels in the width of the cohesive zone; with fewer the result depends on the grid.
+RESOLVED = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,10 +141,10 @@ def measure(
         coarse = _follow(heights[::2, ::2], length, law, squeeze, settings)
     limits = {}
     for name, steps_error in STEPS_ERRORS.items():
-        value = getattr(fine, name)
+        on_fine = getattr(fine, name)
         # The change from half the grid, more than what this one still lacks, and the steps.
-        error = np.hypot(value - getattr(coarse, name), steps_error / steps * value)
-        limits[f"{name}_limits"] = (max(value - error, 0.0), value + error)
+        error = np.hypot(on_fine - getattr(coarse, name), steps_error / steps * on_fine)
+        limits[f"{name}_limits"] = (max(on_fine - error, 0.0), on_fine + error)
     return replace(fine, **limits)
 
 
@@ -195,17 +194,7 @@ def _follow(heights, length, law, squeeze, options, pixels_in_zone=np.nan):
         if point.state.mean_pressure >= squeeze:
             break
 
-    # Part, at three times the first distance at the latest.
-    start = replace(approach[-1].state, branch=SEPARATION)
-    mean_gaps = (start.mean_gap, farthest, 3 * farthest)
-    separation = []
-    for point in path(heights, length, law, mean_gaps, start=start, **settings):
-        separation.append(point)
-        if point.state.mean_gap >= farthest and not point.state.repulsive_area_fraction > 0:
-            break
-    else:
-        raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
-
+    separation = _part(heights, length, law, approach[-1].state, farthest, settings)
     points = (*approach, *separation)
     gap = np.array([point.state.mean_gap for point in points])
     pressure = np.array([point.state.mean_pressure for point in points])
@@ -234,6 +223,18 @@ def _follow(heights, length, law, squeeze, options, pixels_in_zone=np.nan):
         fft_pairs=sum(point.state.fft_pairs for point in points),
         points=points,
     )
+
+
+def _part(heights, length, law, state, farthest, settings):
+    """Part the surfaces from a state, at three times the farthest gap at the latest."""
+    start = replace(state, branch=SEPARATION)
+    mean_gaps = (start.mean_gap, farthest, 3 * farthest)
+    separation = []
+    for point in path(heights, length, law, mean_gaps, start=start, **settings):
+        separation.append(point)
+        if point.state.mean_gap >= farthest and not point.state.repulsive_area_fraction > 0:
+            return separation
+    raise ConvergenceError("the surfaces have not parted at the end of the path", point.state)
 
 
 def _work(gap, pressure, jumped):

@@ -16,6 +16,8 @@ from stickiness.solids import HALF_SPACE, Skin, Solid
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
+MOST_RATIO = 1e30  #: of two lengths in one unit
+
 
 @dataclass(frozen=True)
 class Prediction:
@@ -113,18 +115,7 @@ def predict(
         law=law,
         simulated=simulated,
     )
-    most_ratio = 1e30
-    if not 1 / most_ratio < range / rough.h_rms < most_ratio:
-        raise ValueError(
-            f"range = {range:.3g} is out of proportion to the rms height, {rough.h_rms:.3g}: give "
-            "both in one unit"
-        )
-    if not length <= most_ratio * rough.elastic_energy:
-        raise ValueError(
-            f"adhesion_length = {length:.3g} is more than {most_ratio:g} times the elastic energy "
-            f"of full contact over E*, {rough.elastic_energy:.3g}: give the work of adhesion over "
-            "E*, in the unit of the heights"
-        )
+    _check_proportions(rough, length, range)
     share = float(rough.share(length, range))
     least_share = float(rough.share(length, range, -1))
     most_share = float(rough.share(length, range, 1))
@@ -146,3 +137,18 @@ def predict(
         tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * maugis_range**3))),
         anisotropy_error_factor=float(rough.anisotropy_error_factor),
     )
+
+
+def _check_proportions(rough: Roughness, adhesion_length: float, range: float) -> None:
+    """Raise an error for lengths that are in another unit than the heights."""
+    if not 1 / MOST_RATIO < range / rough.h_rms < MOST_RATIO:
+        raise ValueError(
+            f"range = {range:.3g} is out of proportion to the rms height, {rough.h_rms:.3g}: give "
+            "both in one unit"
+        )
+    if not adhesion_length <= MOST_RATIO * rough.elastic_energy:
+        raise ValueError(
+            f"adhesion_length = {adhesion_length:.3g} is more than {MOST_RATIO:g} times the "
+            f"elastic energy of full contact over E*, {rough.elastic_energy:.3g}: give the work of "
+            "adhesion over E*, in the unit of the heights"
+        )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, Self
@@ -119,24 +120,16 @@ class Roughness:
 
     def take(self, rows: ArrayLike | slice) -> Self:
         """Return some rows of the arrays; a number is that of all rows."""
-        return replace(
-            self,
-            **{
-                field.name: values[rows]
-                for field in fields(self)
-                if np.ndim(values := getattr(self, field.name))
-            },
-        )
+        return self._change(lambda column: column[rows] if np.ndim(column) else column)
 
     def broadcast(self, shape: tuple[int, ...]) -> Self:
         """Return the same with every number and array in one shape, as rows ``(n,)``."""
-        return replace(
-            self,
-            **{
-                field.name: np.broadcast_to(getattr(self, field.name), shape).ravel()
-                for field in fields(self)
-            },
-        )
+        return self._change(lambda column: np.broadcast_to(column, shape).ravel())
+
+    def _change(self, change: Callable[[Any], Any]) -> Self:
+        """Return the same with every number and array changed alike."""
+        columns = {field.name: getattr(self, field.name) for field in fields(self)}
+        return replace(self, **{name: change(column) for name, column in columns.items()})
 
     @property
     def shape_of_arrays(self) -> tuple[int, ...]:
@@ -177,7 +170,7 @@ class Roughness:
         is_wide = np.isnan(self.first_touch)
         touch = find_spread("spectrum", "first_touch")
         of_many = np.interp(deviation, (-1, 0, 1), (touch.high, touch.value, touch.low))
-        energy_ratio = self._energy_ratio(shifted) * np.exp(self.shape)
+        energy_ratio = self._shaped_energy_ratio(shifted)
         compliance = np.asarray(self.relative_compliance)
         # Points of a skin are coupled, so that the limit of independent springs does not apply.
         layer_compliance = np.where(self.is_skin, 1.0, compliance)
@@ -285,6 +278,10 @@ class Roughness:
         """Work of adhesion over the elastic energy of full contact."""
         return np.asarray(adhesion_length) / self.elastic_energy
 
+    def _shaped_energy_ratio(self, adhesion_length: ArrayLike) -> NDArray:
+        """That of Gaussian heights which keep the same share."""
+        return self._energy_ratio(adhesion_length) * np.exp(self.shape)
+
     @property
     def magnification(self) -> float | NDArray:
         """Wavelength of the longest waves over that of the finest."""
@@ -336,16 +333,15 @@ class Roughness:
 
     def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Share of the nominal area that is in contact at zero load."""
-        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
-        by_theory = self._deepest_state(energy_ratio, adhesion_length, range).area
+        by_theory = self._deepest_state(adhesion_length, range).area
         return self._replace_simulated("area", by_theory, adhesion_length, range)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts: its work over the largest tension [length]."""
-        energy_ratio = self._energy_ratio(adhesion_length) * np.exp(self.shape)
-        state = self._deepest_state(energy_ratio, adhesion_length, range)
+        state = self._deepest_state(adhesion_length, range)
         acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
         tension = np.where(acts, state.tension, 1.0)
+        energy_ratio = self._shaped_energy_ratio(adhesion_length)
         distance = self.h_rms * energy_ratio * state.share / tension
         by_theory = np.where(acts, distance, np.asarray(range) + self.h_rms)
         # Heights times a factor are simulated as they were, in a unit that is so much larger.
@@ -354,9 +350,9 @@ class Roughness:
         )
         return plain(in_unit * self.height_factor)
 
-    def _deepest_state(self, energy_ratio, adhesion_length, range) -> DeepestState:
+    def _deepest_state(self, adhesion_length, range) -> DeepestState:
         return find_deepest_state(
-            energy_ratio=energy_ratio,
+            energy_ratio=self._shaped_energy_ratio(adhesion_length),
             range_ratio=range / self.h_rms,
             onset=self.onset(adhesion_length, range),
             load_scale=self.load_scale,
@@ -473,15 +469,10 @@ class Roughness:
             remains = rough_rows.share(length, ranges[row], deviations[row])
             return remains - wanted_shares[row]
 
-        # The bracket, in the logarithm of the length. Full contact keeps 1 - energy/length, which
-        # is more than the share from energy/(1 - share) on; 20 times that leaves room for limits.
-        # A film may raise the energy on the way there.
+        # The bracket, in the logarithm of the length.
         energy = np.asarray(rough.elastic_energy)
-        most_energy = np.asarray(rough.at_modulus(SOFTEST).elastic_energy)
-        if self.simulated is not None:  # whose energy may exceed that of a spectrum that is drawn
-            most_energy = np.maximum(most_energy, self.simulated.whole.full_contact_energy)
         lowest = np.log(LEAST_LENGTH * energy)
-        highest = np.log(20 * most_energy / (1 - wanted_shares))
+        highest = np.log(rough._find_most_length(wanted_shares, self.simulated))
 
         # Shares need not rise with the length. The threshold must agree with the share at the
         # start: search below that if enough remains there, else above.
@@ -500,6 +491,17 @@ class Roughness:
         extremes = [LEAST_LENGTH * energy, energy / LEAST_LENGTH]
         lengths = np.select([holds_always, holds_never], extremes, np.exp(root.x))
         return plain(lengths.reshape(shape))
+
+    def _find_most_length(self, share: NDArray, simulated: Any) -> NDArray:
+        """Adhesion length from which on every limit is above a share.
+
+        Full contact keeps 1 - energy/length, which is more than the share from energy/(1 - share)
+        on; 20 times that leaves room for limits. A film may raise the energy on the way there.
+        """
+        energy = np.asarray(self.at_modulus(SOFTEST).elastic_energy)
+        if simulated is not None:  # whose energy may exceed that of a spectrum that is drawn
+            energy = np.maximum(energy, simulated.whole.full_contact_energy)
+        return 20 * energy / (1 - share)
 
 
 def find_anisotropy_error_factor(ratio: float) -> float:

@@ -189,8 +189,8 @@ def _gain_of_tough(x: NDArray, onset: NDArray) -> NDArray:
     def integrate_twice(beyond: NDArray) -> NDArray:
         """Integral of the gain over x, up to a distance beyond a single onset."""
         beyond = np.maximum(beyond, 0.0)
-        rest = 1 - onset
-        return beyond**2 / 2 - rest * beyond - rest**2 * np.expm1(-beyond / rest)
+        width = 1 - onset
+        return beyond**2 / 2 - width * beyond - width**2 * np.expm1(-beyond / width)
 
     both = integrate_twice(x - onset + spread) - integrate_twice(x - onset - spread)
     return both / (2 * spread)
@@ -237,12 +237,12 @@ def weak_share(
     """
     x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
     columns = np.broadcast_arrays(x, e, load_scale, law, first_touch)
-    rows = [column.ravel() for column in columns]
+    flat = [column.ravel() for column in columns]
     share = np.empty(columns[0].size)
     # Blocks of 400 pairs at all mean gaps fit the cache. Sorted by range, a block has few of them.
-    range_ratios = rows[1]
+    range_ratios = flat[1]
     for block in np.array_split(np.argsort(range_ratios), share.size // 400 + 1):
-        share[block] = _gain_of(_find_weak_states(*(row[block] for row in rows)))
+        share[block] = _gain_of(_find_weak_states(*(column[block] for column in flat)))
     return plain(share.reshape(columns[0].shape))
 
 
@@ -259,9 +259,8 @@ def _gain_of(states: _WeakStates) -> NDArray:
     return np.max(-states.energy / states.energy_ratio, axis=-1, initial=0.0)
 
 
-def _find_weak_states(
-    energy_ratio, range_ratio, load_scale, law, first_touch=FIRST_TOUCH
-) -> _WeakStates:
+def _find_weak_states(energy_ratio, range_ratio, load_scale, law, first_touch) -> _WeakStates:
+    """States at mean gaps that rise, arrays ``(…, gap)``; arguments as of `weak_share`."""
     x, e = positive(energy_ratio=energy_ratio, range_ratio=range_ratio)
     x, e = np.broadcast_arrays(x, e)
     # Beyond the first touch there is no energy and no area, and attraction falls ever more slowly:
@@ -401,7 +400,7 @@ def find_deepest_state(
     energy_ratio, range_ratio, onset, load_scale=0.0, law=EXPONENTIAL
 ) -> DeepestState:
     """Share that remains, largest tension, and area of contact at zero load."""
-    states = _find_weak_states(energy_ratio, range_ratio, load_scale, law)
+    states = _find_weak_states(energy_ratio, range_ratio, load_scale, law, FIRST_TOUCH)
     weak = _gain_of(states)
     tough = np.asarray(tough_share(energy_ratio, onset))
     share = np.maximum(tough, weak)

@@ -30,7 +30,7 @@ from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.remaining.calibration import find_spread
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
@@ -107,11 +107,11 @@ class TrialStates:
         """
         nodes = self.simulated_length
         area = np.empty(adhesion_length.shape)
-        for value in np.unique(range):
-            gains = self._gains(nodes, np.full(nodes.shape, value), law)
+        for one_range in np.unique(range):
+            gains = self._gains(nodes, np.full(nodes.shape, one_range), law)
             deepest = gains.argmax(axis=1)
             touching = np.where(gains.max(axis=1) > 0, self.gap_share[deepest, 0], 0.0)
-            rows = range == value
+            rows = range == one_range
             area[rows] = np.interp(np.log(adhesion_length[rows]), np.log(nodes), touching)
         return area
 
@@ -136,9 +136,9 @@ class TrialStates:
         # that of its mean gap.
         ranges, place = np.unique(range, return_inverse=True)
         attraction = np.empty((ranges.size, self.elastic_energy.size))
-        for row, value in enumerate(ranges):
-            potential = -LAWS[law](1.0, value).potential(self.gap)
-            attraction[row] = (self.gap_share * potential).sum(axis=1)
+        for place_of_range, one_range in enumerate(ranges):
+            potential = -LAWS[law](1.0, one_range).potential(self.gap)
+            attraction[place_of_range] = (self.gap_share * potential).sum(axis=1)
         return attraction[place] - self.elastic_energy / adhesion_length[:, None]
 
     def find_high_bound(
@@ -250,19 +250,21 @@ class SimulatedHeights:
         range: NDArray,
         law: str,
         lacking: NDArray,
-        deviation: NDArray,
+        deviation: ArrayLike = 0.0,
     ) -> NDArray:
         """Logarithm of the factor on the work of adhesion, ``(n,)``; arguments as of `share`."""
         ranges, place = np.unique(range, return_inverse=True)
-        of_patch = np.array([self.find_patch_error(float(value), law) for value in ranges])
+        of_patch = np.array([self.find_patch_error(float(one_range), law) for one_range in ranges])
         # Waves that lack take their energy, and more where little remains: they part summits.
         stored = np.log1p(lacking)
         lost = 1 - self.whole.share(adhesion_length / (1 + lacking), range, law)
         beyond = np.sqrt(stored) * lost**3
         spread = find_spread("states", "unresolved")
-        of_waves = np.where(deviation < 0, spread.value - spread.low, spread.high - spread.value)
+        of_waves = np.where(
+            np.less(deviation, 0), spread.value - spread.low, spread.high - spread.value
+        )
         error = np.hypot(of_patch[place], of_waves * beyond)
-        return spread.value * beyond - stored + deviation * error
+        return spread.value * beyond - stored + np.multiply(deviation, error)
 
     def find_patch_error(self, range: float, law: str) -> float:
         """Error of ln of the work of adhesion by what the quarters of the map differ from it.
@@ -283,14 +285,12 @@ class SimulatedHeights:
 
     def area(self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray) -> NDArray:
         """Share of the nominal area in contact at zero load, ``(n,)``; arguments as of `share`."""
-        no_error = np.zeros(lacking.shape)
-        shift = self.find_shift(adhesion_length, range, law, lacking, no_error)
+        shift = self.find_shift(adhesion_length, range, law, lacking)
         return self.whole.area(adhesion_length * np.exp(shift), range, law)
 
     def distance(
         self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray
     ) -> NDArray:
         """Distance over which what remains acts, ``(n,)``; arguments as of `share`."""
-        no_error = np.zeros(lacking.shape)
-        shift = self.find_shift(adhesion_length, range, law, lacking, no_error)
+        shift = self.find_shift(adhesion_length, range, law, lacking)
         return self.whole.distance(adhesion_length * np.exp(shift), range / find_strength(law))

@@ -37,8 +37,8 @@ def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
     # Along grooves there is no slope but that of rounding.
     steepest = max(np.mean(slope**2) for slope in slopes)
     slopes = [slope for slope in slopes if np.mean(slope**2) > ROUNDING**2 * steepest]
-    parts = 2**heights.ndim
-    logs = np.zeros(parts)
+    count = 2**heights.ndim
+    logs = np.zeros(count)
     chance = 0.0
     for slope in slopes:
         square = slope**2 / np.mean(slope**2)
@@ -47,25 +47,24 @@ def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
         # The mean square of Gaussian values has the relative variance 2/n, with n the number of
         # independent ones, of which 1/n is the mean of the squared correlation. That of a sample is
         # twice as much, for its noise is as large.
-        chance += parts * np.mean(_correlate(slope) ** 2) / len(slopes) ** 2
+        chance += count * np.mean(_correlate(slope) ** 2) / len(slopes) ** 2
     return float(np.sqrt(max(float(np.var(logs, ddof=1)) - chance, 0.0)))
 
 
 def _difference(heights: NDArray, axis: int, lag: int) -> NDArray:
     """Differences of heights over a number of points along an axis."""
-    points = heights.shape[axis]
-    first, second = np.arange(points - lag), np.arange(lag, points)
-    return heights.take(second, axis) - heights.take(first, axis)
+    shifted = np.arange(lag, heights.shape[axis])
+    return heights.take(shifted, axis) - heights.take(shifted - lag, axis)
 
 
-def _halve(values: NDArray) -> list[NDArray]:
+def _halve(field: NDArray) -> list[NDArray]:
     """Parts of half the length along every axis."""
-    middles = [points // 2 for points in values.shape]
-    ends = [(slice(middle), slice(middle, None)) for middle in middles]
-    return [values[part] for part in product(*ends)]
+    middles = [points // 2 for points in field.shape]
+    halves = [(slice(middle), slice(middle, None)) for middle in middles]
+    return [field[part] for part in product(*halves)]
 
 
-def _correlate(values: NDArray) -> NDArray:
+def _correlate(field: NDArray) -> NDArray:
     """Autocorrelation, 1 at no shift."""
-    correlation = fft.ifftn(np.abs(fft.fftn(values)) ** 2).real
+    correlation = fft.ifftn(np.abs(fft.fftn(field)) ** 2).real
     return correlation / correlation.ravel()[0]

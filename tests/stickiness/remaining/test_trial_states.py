@@ -150,16 +150,16 @@ def test_states_bound_a_law_with_a_tail(simulated, energy_ratio):
 def test_a_pull_off_is_found_to_5_percent(monkeypatch, strength, gain):
     """Also where a state that is strained more withstands more, up to a `gain` as much."""
 
-    def adhere(heights, sides, law, solid, starts, is_stiffer, pressure):
+    def adhere(cell, law, starts, pressure):
         (start,) = starts
         tension = -pressure
         is_close = tension < 1.1 * start.tension and tension <= gain * strength
         holds = tension <= strength or is_close
         return iter([SimpleNamespace(tension=tension)] if holds else [])
 
-    monkeypatch.setattr(height_simulation, "_adhere", adhere)
+    monkeypatch.setattr(height_simulation._Cell, "adhere", adhere)
     state = SimpleNamespace(law=Exponential(1.0, 1.0), rms_height=1.0, tension=0.0)
-    found = height_simulation._pull_off(None, None, state, 1.0, None, is_stiffer=False)
+    found = height_simulation._Cell(None, None, None).pull_off(state, 1.0)
     assert found == pytest.approx(gain * strength, rel=0.05)
 
 
