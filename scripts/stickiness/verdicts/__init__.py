@@ -12,7 +12,7 @@ What happens to them:
 - `scenarios`: all that a surface may be, a row each, with the error of the model
 - `pair_roughness`: the roughness that a material meets on a surface, with layers and two rough
   solids
-- `judgement`: `judge`, the only place where pairs become numbers
+- `judgement`: `judge`, the only place where pairs become numbers; `pair_variables` lists these
 - `curves`, `thresholds`: what it says of other moduli, heights, rates and dwells, and of what would
   make a pair stick
 - `limits`: how all that a number may be becomes its value and its limits
@@ -26,6 +26,7 @@ __all__ = [
     "limits",
     "measured_surface",
     "pair_roughness",
+    "pair_variables",
     "parametric",
     "rough_ball",
     "rough_surface",

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.pair import Pair
 from stickiness.entries.material import Material
@@ -38,11 +38,11 @@ AXES = {
 
 
 class _Path(NamedTuple):
-    """Points along an axis, at which the share is evaluated, arrays ``(point,)``."""
+    """Points along an axis, at which the share is evaluated; numbers, or arrays ``(point,)``."""
 
-    moduli: NDArray  #: E* [Pa]; NaN where it is not known
-    heights: NDArray  #: factors on the heights
-    instant_ratios: NDArray  #: `Material.instant_ratio` there
+    moduli: ArrayLike  #: E* [Pa]; NaN where it is not known
+    instant_ratios: ArrayLike  #: `Material.instant_ratio` there
+    heights: ArrayLike = 1.0  #: factors on the heights
 
 
 def find_axes(materials: Iterable[Material], frequencies: NDArray) -> dict[str, NDArray]:
@@ -66,42 +66,32 @@ def follow_remaining(
 ) -> dict[str, NDArray]:
     """Share that remains along every one of `AXES`, ``(point, limit)``; `axes` of `find_axes`."""
     modulus = material.plane_strain_modulus
-    has_dwell = material.dwell is not None
-    dwell_moduli = np.array([_find_modulus(material, factor) for factor in axes["dwell_factor"]])
-    moduli = {
-        "modulus": axes["modulus_factor"] * modulus,
-        "roughness": np.full(axes["roughness_factor"].shape, modulus),
-        "rate": np.where(has_dwell, np.nan, find_rate_moduli(material, axes)),
-        "dwell": np.where(has_dwell, dwell_moduli, np.nan),
+    ratio = material.instant_ratio
+    rate_moduli = find_rate_moduli(material, axes)
+    dwell_moduli = np.full(axes["dwell_factor"].shape, np.nan)
+    if material.dwell is not None:
+        rate_moduli = np.full(rate_moduli.shape, np.nan)
+        dwells = material.dwell * axes["dwell_factor"]
+        dwell_moduli = np.array([float(material.plane_strain.relaxation(each)) for each in dwells])
+    paths = {
+        "modulus": _Path(axes["modulus_factor"] * modulus, ratio),
+        "roughness": _Path(modulus, ratio, heights=axes["roughness_factor"]),
+        "rate": _Path(rate_moduli, ratio),
+        "dwell": _Path(dwell_moduli, instant_ratios=ratio * modulus / dwell_moduli),
     }
-    curves = {}
-    for axis, its_moduli in moduli.items():
-        ratios = np.full(its_moduli.shape, material.instant_ratio)
-        path = _Path(
-            moduli=its_moduli,
-            heights=axes["roughness_factor"] if axis == "roughness" else np.ones(ratios.shape),
-            instant_ratios=ratios * modulus / its_moduli if axis == "dwell" else ratios,
-        )
-        curves[f"remaining_by_{axis}"] = _follow(pair, rough, path)
-    return curves
-
-
-def _find_modulus(material: Material, dwell_factor: float) -> float:
-    """E* after the dwell times a factor [Pa]; NaN beyond a table."""
-    if material.dwell is None:
-        return material.plane_strain_modulus
-    return float(material.plane_strain.relaxation(dwell_factor * material.dwell))
+    return {f"remaining_by_{axis}": _follow(pair, rough, path) for axis, path in paths.items()}
 
 
 def _follow(pair: Pair, rough: PairRoughness, path: _Path) -> NDArray:
     """Limits of the share along a path, ``(point, limit)``; NaN where the modulus is not known."""
-    curve = np.full((path.moduli.size, 3), np.nan)
-    is_known = np.isfinite(path.moduli)
+    columns = np.array(np.broadcast_arrays(*path))
+    is_known = np.isfinite(columns[0])
+    curve = np.full((is_known.size, 3), np.nan)
     if not is_known.any():
         return curve
     # Points at which nothing differs are evaluated once.
-    points, place = np.unique(np.array(path)[:, is_known], axis=1, return_inverse=True)
-    moduli, heights, ratios = points[..., None]
+    points, place = np.unique(columns[:, is_known], axis=1, return_inverse=True)
+    moduli, ratios, heights = points[..., None]
     changed = pair.scaled(heights).at_modulus(moduli)
     changed = replace(changed, rough=replace(changed.rough, instant_ratio=ratios))
     curve[is_known] = rough.limit(changed.remaining, changed)[place]

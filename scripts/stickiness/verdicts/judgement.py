@@ -20,10 +20,8 @@ from stickiness import datasets
 from stickiness.arguments import number
 from stickiness.criteria.pair import (
     DEPENDS,
-    LIMITED,
     MOST_STRAIN,
     NOT_JUDGED,
-    QUANTITIES,
     REGIMES,
     WORDS,
     Pair,
@@ -38,14 +36,24 @@ from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
 from stickiness.statistics import COVERS
 from stickiness.verdicts.curves import (
-    AXES,
     FREQUENCIES,
     find_axes,
     find_rate_moduli,
     follow_remaining,
 )
-from stickiness.verdicts.limits import HIGH, LIMIT_TEXT, LIMITS, LOW, VALUE
+from stickiness.verdicts.limits import HIGH, LIMITS, LOW, VALUE
 from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
+from stickiness.verdicts.pair_variables import (
+    BY_BOUND,
+    BY_GAUSSIAN_THEORY,
+    BY_SHAPED_THEORY,
+    BY_SIMULATION,
+    DECIDED_BY,
+    DIMENSIONS,
+    LARGER,
+    PAIR_VARIABLES,
+    PER_PAIR,
+)
 from stickiness.verdicts.parametric import ENDS
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.scenarios import Scenarios
@@ -53,33 +61,11 @@ from stickiness.verdicts.thresholds import (
     CONTACT_AREA,
     LEAST_AREA,
     MOST_AREA,
-    THRESHOLDS,
     find_thresholds,
 )
 from stickiness.verdicts.wording import describe_material
 
-#: What decides a verdict, by code: theory of the spectrum, alone or with the skewness of the
-#: heights, or contact simulated on the heights.
-DECIDED_BY = (
-    "theory for Gaussian heights",
-    "theory for the spectrum and the skewness of the heights",
-    "simulated contact without adhesion, a low bound",
-    "simulated contact with adhesion",
-)
-BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
-#: Judged for a larger contact, too, with limits.
-LARGER = ("remaining", "modulus_threshold", "plane_strain_modulus_threshold")
 LEAST_MODULUS = 1e-3  #: [Pa]; a threshold below is none: nothing is softer
-PER_PAIR = ("material", "surface")  #: dimensions of what has one value for every pair
-#: Dimensions of what has more, after those of the pair.
-DIMENSIONS = {
-    **dict.fromkeys((*LIMITED, *THRESHOLDS, "pair_a_v"), ("limit",)),
-    **{f"larger_{name}": ("limit",) for name in LARGER},
-    **dict.fromkeys((*QUANTITIES, "stiffening"), ("end",)),
-    **dict.fromkeys(("margin_by_criterion", "threshold_by_criterion"), ("end", "criterion")),
-    "disagrees": ("criterion",),
-    **{f"remaining_by_{name}": (axis.dimension, "limit") for name, axis in AXES.items()},
-}
 #: What is known of the draws of a measured surface alone.
 DRAW_STATISTICS = (
     "probability",
@@ -163,9 +149,9 @@ def judge(
                 moduli = Limited(*cell["plane_strain_modulus_threshold"][[VALUE, LOW, HIGH]])
                 # Of two rough solids only the rms height of the pair is defined.
                 known = surface.rms_height if material.surface is None else None
-                found = find_thresholds(material, rough, pair, moduli, contact_area, known)
-                for name, limited in found.items():
-                    cell[name] = [limited.low, limited.value, limited.high]
+                of_pair = find_thresholds(material, rough, pair, moduli, contact_area, known)
+                for name, threshold in of_pair.items():
+                    cell[name] = [threshold.low, threshold.value, threshold.high]
             cell |= _judge_larger(material, surface, wanted_share)
             cell["doubts"] = "\n".join(_list_doubts(material, surface, cell))
             cells.append(cell)
@@ -185,14 +171,14 @@ def _check_shares(wanted_share: float, contact_area: float) -> None:
         raise ValueError(f"contact_area must be in {limits}, got {contact_area!r}")
 
 
-def _name(argument: str, items: Mapping | Sequence, kind: type) -> dict:
+def _name(argument: str, given: Mapping | Sequence, kind: type) -> dict:
     """Materials or surfaces by name, or by number if they come in a sequence."""
     named = {}
-    if isinstance(items, Mapping | Sequence):
-        named = dict(items if isinstance(items, Mapping) else enumerate(items))
-    if not named or not all(isinstance(item, kind) for item in named.values()):
+    if isinstance(given, Mapping | Sequence):
+        named = dict(given if isinstance(given, Mapping) else enumerate(given))
+    if not named or not all(isinstance(each, kind) for each in named.values()):
         raise ValueError(
-            f"{argument} must be a list or a mapping of {kind.__name__}, got {items!r}"
+            f"{argument} must be a list or a mapping of {kind.__name__}, got {given!r}"
         )
     return named
 
@@ -201,40 +187,31 @@ def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[st
     """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
     # What has limits: a row for each surface that it may be, both ends first and then the draws.
     length_threshold = pair.remaining_threshold
-    # Where the search for the adhesion length ends, any modulus would do.
+    # Where the search for the adhesion length ends, any modulus would do. E* has no threshold
+    # where nothing is soft enough.
     holds_always = length_threshold < 1.01 * LEAST_LENGTH * pair.elastic_energy
-    in_rows = {
-        "remaining": pair.remaining,
-        "pull_off": pair.pull_off,
-        "margin": pair.adhesion_length / length_threshold,
-        "plane_strain_modulus_threshold": np.where(
-            holds_always, np.inf, pair.work_of_adhesion / length_threshold
-        ),
+    thresholds_of_rows = np.where(holds_always, np.inf, pair.work_of_adhesion / length_threshold)
+    moduli = rough.limit(thresholds_of_rows, pair)
+    moduli = np.where(moduli < LEAST_MODULUS, 0.0, moduli)
+    cell: dict[str, Any] = {
+        "remaining": rough.limit(pair.remaining, pair),
+        "pull_off": rough.limit(pair.pull_off, pair),
+        "margin": rough.limit(pair.adhesion_length / length_threshold, pair),
+        "plane_strain_modulus_threshold": moduli,
     }
-    cell: dict[str, Any] = {name: rough.limit(values, pair) for name, values in in_rows.items()}
     cell |= describe_draws(rough.scenarios, pair)
 
-    # What the criteria say at both ends, the smooth one and the rough one.
+    # What is known at both ends, the smooth one and the rough one.
     ends = rough.take_ends(pair)
     cell |= find_quantities(ends)
-
-    # Thresholds of E*, and of the modulus as it was given.
-    moduli = cell["plane_strain_modulus_threshold"]
-    moduli = np.where(moduli < LEAST_MODULUS, 0.0, moduli)
-    cell["plane_strain_modulus_threshold"] = moduli
     cell["modulus_threshold"] = moduli * material.quoted_modulus / material.plane_strain_modulus
 
-    # What every criterion says, at both ends.
-    by_criterion = {
-        name: np.broadcast_to(criterion.margin(ends), len(ENDS))
-        for name, criterion in CRITERIA.items()
-    }
-    sticky = {name: margin > 1 for name, margin in by_criterion.items()}
-    modulus_by_criterion = [criterion.modulus_threshold(ends) for criterion in CRITERIA.values()]
-    cell["margin_by_criterion"] = np.transpose(list(by_criterion.values()))
-    cell["threshold_by_criterion"] = np.transpose(
-        [np.broadcast_to(modulus, len(ENDS)) for modulus in modulus_by_criterion]
-    )
+    # What every criterion says there.
+    margins = _join_criteria([criterion.margin(ends) for criterion in CRITERIA.values()])
+    thresholds = [criterion.modulus_threshold(ends) for criterion in CRITERIA.values()]
+    sticky = dict(zip(CRITERIA, margins.T > 1, strict=True))
+    cell["margin_by_criterion"] = margins
+    cell["threshold_by_criterion"] = _join_criteria(thresholds)
     cell["stiffening"] = rough.stiffening
     cell["pair_a_v"] = [rough.a_v.low.min(), rough.a_v.value[-1], rough.a_v.high.max()]
 
@@ -245,6 +222,11 @@ def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[st
     cell["decided_by"] = _find_decider(rough, pair)
     cell["not_judged"] = rough.not_judged
     return cell
+
+
+def _join_criteria(by_criterion: Sequence[float | NDArray]) -> NDArray:
+    """What all criteria say at both ends, ``(end, criterion)``; some say the same at both."""
+    return np.transpose([np.broadcast_to(at_ends, len(ENDS)) for at_ends in by_criterion])
 
 
 def describe_draws(scenarios: Scenarios, pair: Pair) -> dict[str, float]:
@@ -279,12 +261,11 @@ def _find_errors_of_map(pair: Pair) -> NDArray:
     They cover 90 %, at the threshold of the pair; 0 where no contact was simulated.
     """
     simulated = pair.rough.simulated
-    lengths = np.atleast_1d(pair.remaining_threshold)
-    lengths = lengths[np.isfinite(lengths)]
-    if simulated is None or lengths.size == 0:
+    if simulated is None:
         return np.zeros(2)
     of_map = simulated.find_patch_error(float(pair.range), pair.rough.law)
-    length, lacking = (np.array([np.median(rows)]) for rows in (lengths, pair.rough.lacking))
+    length = np.array([np.median(pair.remaining_threshold)])
+    lacking = np.array([np.median(pair.rough.lacking)])
     low, high = (
         simulated.find_shift(length, np.array([pair.range]), pair.rough.law, lacking, deviation)
         for deviation in (-np.ones(1), np.ones(1))
@@ -331,8 +312,8 @@ def _list_doubts(material: Material, surface: Surface, cell: Mapping[str, Any]) 
     yield from find_pair_doubts(material, surface)
     remarks = list(surface.remarks)
     if surface.larger is not None and cell["larger_verdict"] == DEPENDS:
-        remarks += [text for text in surface.larger.remarks if text not in remarks]
-    yield from (text for text in remarks if text not in reasons)
+        remarks += [remark for remark in surface.larger.remarks if remark not in remarks]
+    yield from (remark for remark in remarks if remark not in reasons)
     strain = float(np.max(cell["layer_strain"]))
     if strain > MOST_STRAIN:
         yield (
@@ -362,151 +343,64 @@ def _arrange(
         }
     )
     for name in cells[0]:
-        values = _as_array([cell[name] for cell in cells])
+        of_pairs = _as_array([cell[name] for cell in cells])
         dimensions = (*PER_PAIR, *DIMENSIONS.get(name, ()))
-        dataset[name] = dimensions, values.reshape(*shape, *values.shape[1:])
-
-    # Properties of the materials, as they are judged, and of the surfaces.
-    by_material = {
-        "work_of_adhesion": [material.work_of_adhesion for material in materials.values()],
-        "material_label": [material.label for material in materials.values()],
-        "material_doubts": ["\n".join(material.doubts) for material in materials.values()],
-        "properties": [describe_material(material) for material in materials.values()],
-        "law": [material.law for material in materials.values()],
-        "range": [material.range for material in materials.values()],
-        "work_on_smooth": [int(material.work_on_smooth) for material in materials.values()],
-        "half_space": [
-            int(material.solid == HALF_SPACE and material.surface is None)
-            for material in materials.values()
-        ],
-        "quoted_modulus": [material.quoted_modulus for material in materials.values()],
-        "plane_strain_modulus": [material.plane_strain_modulus for material in materials.values()],
-        "poisson_ratio": [
-            np.nan if material.is_plane_strain else material.poisson_ratio
-            for material in materials.values()
-        ],
-        "dwell": [material.dwell or np.nan for material in materials.values()],
-        "instant_ratio": [material.instant_ratio for material in materials.values()],
-        "depends_on_rate": [int(material.depends_on_rate) for material in materials.values()],
+        dataset[name] = dimensions, of_pairs.reshape(*shape, *of_pairs.shape[1:])
+    properties = {
+        "material": [_list_properties(material) for material in materials.values()],
+        "surface": [_list_lengths(surface) for surface in surfaces.values()],
     }
-    by_surface = {
-        "rms_height": [surface.rms_height for surface in surfaces.values()],
-        "scan": [surface.scan for surface in surfaces.values()],
-        "contact": [surface.contact for surface in surfaces.values()],
-        "larger_contact": [
-            surface.larger.contact if surface.larger else np.nan for surface in surfaces.values()
-        ],
+    for dimension, columns in properties.items():
+        for name in columns[0]:
+            dataset[name] = dimension, _as_array([column[name] for column in columns])
+    return dataset
+
+
+def _list_properties(material: Material) -> dict[str, Any]:
+    """Properties of a material, as it is judged."""
+    return {
+        "work_of_adhesion": material.work_of_adhesion,
+        "material_label": material.label,
+        "material_doubts": "\n".join(material.doubts),
+        "properties": describe_material(material),
+        "law": material.law,
+        "range": material.range,
+        "work_on_smooth": material.work_on_smooth,
+        "half_space": material.solid == HALF_SPACE and material.surface is None,
+        "quoted_modulus": material.quoted_modulus,
+        "plane_strain_modulus": material.plane_strain_modulus,
+        "poisson_ratio": np.nan if material.is_plane_strain else material.poisson_ratio,
+        "dwell": material.dwell or np.nan,
+        "instant_ratio": material.instant_ratio,
+        "depends_on_rate": material.depends_on_rate,
     }
-    return dataset.assign(
-        {name: ("material", _as_array(values)) for name, values in by_material.items()}
-        | {name: ("surface", values) for name, values in by_surface.items()}
-    )
 
 
-def _as_array(values: list[Any]) -> NDArray:
+def _list_lengths(surface: Surface) -> dict[str, float]:
+    """Lengths of a surface [m]."""
+    return {
+        "rms_height": surface.rms_height,
+        "scan": surface.scan,
+        "contact": surface.contact,
+        "larger_contact": surface.larger.contact if surface.larger else np.nan,
+    }
+
+
+def _as_array(column: list[Any]) -> NDArray:
     """Array of numbers, codes or texts, of the types that files have."""
-    array = np.array(values)
+    array = np.array(column)
     return array.astype({"i": "i1", "b": "i1", "U": "O"}.get(array.dtype.kind, array.dtype))
 
 
 def _describe(dataset: xr.Dataset) -> xr.Dataset:
     """Give every variable its unit, its description, and what a missing value means."""
-    texts = {name: text for name, text in _list_texts().items() if name in dataset.variables}
-    dataset = datasets.annotate(dataset, **texts)
+    present = {name: PAIR_VARIABLES[name] for name in PAIR_VARIABLES if name in dataset.variables}
+    dataset = datasets.annotate(dataset, **present)
     dataset.verdict.attrs |= datasets.flags(WORDS)
     dataset.larger_verdict.attrs |= datasets.flags(WORDS)
     dataset.regime.attrs |= datasets.flags(REGIMES)
     dataset.decided_by.attrs |= datasets.flags(DECIDED_BY)
     return dataset
-
-
-def _list_texts() -> dict[str, tuple[str, ...]]:
-    """Unit, description and, where a value may be missing, what that means, of every variable."""
-    unmeasured = "not measured"
-    no_longer = "no waves longer than the scan are expected or known"
-    any_modulus = "not judged; infinite where any modulus would do"
-    texts: dict[str, tuple[str, ...]] = {
-        **LIMITED,
-        **{name: (*LIMITED[name], any_modulus) for name in LIMITED if "modulus" in name},
-        **QUANTITIES,
-        **THRESHOLDS,
-        "material": ("1", "material"),
-        "surface": ("1", "real surface"),
-        "end": ("1", "smooth or rough end of what is known of the surface"),
-        "criterion": ("1", "stickiness criterion"),
-        "limit": LIMIT_TEXT,
-        "frequency": ("Hz", "frequency of loading"),
-        "modulus_factor": ("1", "factor on the plane-strain modulus"),
-        "roughness_factor": ("1", "factor on the heights, at unchanged shape of the spectrum"),
-        "dwell_factor": ("1", "factor on the dwell"),
-        "probability": ("1", "share of draws that stick", unmeasured),
-        "probability_low": ("1", "share of draws that stick within linear elasticity", unmeasured),
-        "error_of_spectrum": (
-            "1",
-            "standard deviation of ln margin by the spectrum and its unresolved waves",
-            unmeasured,
-        ),
-        "error_of_map": (
-            "1",
-            "standard deviation of ln margin by how its parts differ",
-            unmeasured,
-        ),
-        "error_of_model": ("1", "standard deviation of ln margin by the model", unmeasured),
-        "margin_by_criterion": (
-            "1",
-            "threshold over actual value in the criterion's usual form; sticky above 1",
-        ),
-        "threshold_by_criterion": (
-            "Pa",
-            "plane-strain modulus below which a criterion says sticky",
-        ),
-        "pair_a_v": ("1", "a_V of the pair: its surface's spectrum, its range over h_rms"),
-        "wanted_share": ("1", "share of the work of adhesion that must remain to stick"),
-        "material_label": ("1", "name of the material for readers"),
-        "material_doubts": ("1", "doubts about the material, a line each"),
-        "properties": ("1", "properties of the material for readers"),
-        "law": ("1", "traction law"),
-        "range": ("m", "range of the attraction"),
-        "work_of_adhesion": ("J/m^2", "work of adhesion"),
-        "work_on_smooth": ("1", "1 where the work of adhesion was measured on smooth surfaces"),
-        "half_space": ("1", "1 of a material that is deep, without a skin, and smooth itself"),
-        "stiffening": ("1", "energy of full contact over that of a half-space"),
-        "modulus": ("Pa", "plane-strain storage modulus", "beyond the material's table"),
-        "plane_strain_modulus": (
-            "Pa",
-            "plane-strain modulus at 1 Hz or after the dwell, which all margins are for",
-        ),
-        "quoted_modulus": (
-            "Pa",
-            "the same as it was given: Young's, or E* without Poisson's ratio",
-        ),
-        "poisson_ratio": ("1", "Poisson's ratio", "E* is given"),
-        "dwell": ("s", "time for which contact is made", "judged at one frequency"),
-        "instant_ratio": ("1", "instantaneous modulus over that after the dwell, 1 without one"),
-        "depends_on_rate": ("1", "1 where the modulus is given as a function of the frequency"),
-        "verdict": ("1", "verdict: " + ", ".join(f"{i} {word}" for i, word in enumerate(WORDS))),
-        "decided_by": (
-            "1",
-            "decided by: " + ", ".join(f"{i} {x}" for i, x in enumerate(DECIDED_BY)),
-        ),
-        "disagrees": ("1", "1 where a criterion disagrees with what remains, at either end"),
-        "not_judged": ("1", "why a pair is not judged, a line each; empty if it is"),
-        "doubts": ("1", "why the answer is probably to another question, a line each"),
-        "rms_height": (
-            "m",
-            "rms height: as levelled, of several scans by their spectrum, or of the rough end",
-        ),
-        "scan": ("m", "side of the largest scan", unmeasured),
-        "contact": ("m", "side of the contact that is judged", unmeasured),
-        "larger_contact": ("m", "side of a larger contact that is judged, too", no_longer),
-        "larger_verdict": ("1", "verdict for the larger contact"),
-    }
-    for name in LARGER:
-        unit, text = LIMITED[name]
-        texts[f"larger_{name}"] = (unit, f"{text}, of the larger contact", no_longer)
-    for axis, (_, text, missing) in AXES.items():
-        texts[f"remaining_by_{axis}"] = ("1", f"{LIMITED['remaining'][1]}, {text}", missing)
-    return texts
 
 
 def _withhold(dataset: xr.Dataset) -> xr.Dataset:
@@ -516,10 +410,10 @@ def _withhold(dataset: xr.Dataset) -> xr.Dataset:
         return dataset
     withheld = {}
     with xr.set_options(keep_attrs=True):
-        for name, values in dataset.items():
-            if values.dtype.kind == "f" and set(PER_PAIR) <= set(values.dims):
-                reasons = filter(None, (values.attrs.get("nan_means"), "not judged"))
-                withheld[name] = values.where(judged).transpose(*values.dims)
+        for name, numbers in dataset.items():
+            if numbers.dtype.kind == "f" and set(PER_PAIR) <= set(numbers.dims):
+                reasons = filter(None, (numbers.attrs.get("nan_means"), "not judged"))
+                withheld[name] = numbers.where(judged).transpose(*numbers.dims)
                 withheld[name].attrs["nan_means"] = ", or ".join(dict.fromkeys(reasons))
         withheld["verdict"] = dataset.verdict.where(judged, NOT_JUDGED).astype("i1")
         withheld["disagrees"] = dataset.disagrees.where(judged, 0).astype("i1")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -21,8 +22,9 @@ from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts import wording
-from stickiness.verdicts.judgement import DECIDED_BY, LARGER, find_pair_doubts, judge
+from stickiness.verdicts.judgement import find_pair_doubts, judge
 from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.pair_variables import DECIDED_BY, LARGER
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
 from stickiness.verdicts.wording import MOST_STRESS
@@ -204,7 +206,6 @@ class StickinessVerdict:
         the doubts about the pair.
         """
         cell = self.cell
-        work = float(cell.work_of_adhesion)
         pull_off = read_limited(cell.pull_off)
         if not wording.is_pull_off_known(cell):
             pull_off = pull_off._replace(value=np.nan, high=np.nan)
@@ -214,35 +215,34 @@ class StickinessVerdict:
             "decided_by": self.decided_by if wording.is_judged(cell) else None,
             "law": cell.law.item(),
             **self._describe_moduli(),
-            "work_of_adhesion": {"value": work, "unit": "J/m^2"},
-            "range": {"value": float(cell.range), "unit": "m"},
-            "dwell": _quantity_of(float(cell.dwell), "s"),
+            "work_of_adhesion": _quantity_of(cell.work_of_adhesion, "J/m^2"),
+            "range": _quantity_of(cell.range, "m"),
+            "dwell": _quantity_of(cell.dwell, "s"),
             "material_properties": cell.properties.item(),
-            "rms_height": {"value": float(cell.rms_height), "unit": "m"},
+            "rms_height": _quantity_of(cell.rms_height, "m"),
             "wanted_share": self.wanted_share,
             **self._describe_remaining(""),
             "pull_off_stress": _quantity(pull_off, "Pa"),
+            "contact": _quantity_of(cell.contact, "m"),
         }
-        if not np.isnan(cell.contact):
-            contents["contact"] = {"value": self.contact, "unit": "m"}
         if self.larger is not None:
             contents["larger_contact"] = {
-                "contact": {"value": self.larger.contact, "unit": "m"},
+                "contact": _quantity_of(cell.larger_contact, "m"),
                 "verdict": self.larger.word,
                 **self._describe_remaining("larger_"),
             }
         contents["warnings"] = list(self.doubts)
-        return {name: value for name, value in contents.items() if value is not None}
+        return _leave_out_unknown(contents)
 
     def _describe_moduli(self) -> dict[str, Any]:
-        """Moduli of the material that are known."""
-        plane_strain = {"value": float(self.cell.plane_strain_modulus), "unit": "Pa"}
+        """Moduli of the material; Young's only with Poisson's ratio."""
+        plane_strain = {"plane_strain_modulus": _quantity_of(self.cell.plane_strain_modulus, "Pa")}
         if np.isnan(self.cell.poisson_ratio):
-            return {"plane_strain_modulus": plane_strain}
+            return plane_strain
         return {
-            "youngs_modulus": {"value": float(self.cell.quoted_modulus), "unit": "Pa"},
+            "youngs_modulus": _quantity_of(self.cell.quoted_modulus, "Pa"),
             "poisson_ratio": float(self.cell.poisson_ratio),
-            "plane_strain_modulus": plane_strain,
+            **plane_strain,
         }
 
     def _describe_remaining(self, contact: str) -> dict[str, Any]:
@@ -258,9 +258,9 @@ class StickinessVerdict:
             "effective_work_of_adhesion": _quantity(Limited(*(work * x for x in share)), "J/m^2"),
         }
         for name, symbol in moduli.items():
-            found = _quantity(_drop_unbounded(read_limited(self.cell[f"{contact}{name}"])), "Pa")
-            described[name] = found and {"symbol": symbol, **found}
-        return {name: value for name, value in described.items() if value is not None}
+            modulus = _quantity(_drop_unbounded(read_limited(self.cell[f"{contact}{name}"])), "Pa")
+            described[name] = modulus and {"symbol": symbol, **modulus}
+        return _leave_out_unknown(described)
 
     def __str__(self) -> str:
         cell = self.cell
@@ -340,8 +340,9 @@ def verdict(
     >>> verdict(rough, **steel, work_of_adhesion=0.1, range=3e-10).word
     'does not stick'
     """
-    pair = _read_pair(surface, material, length=length, **properties)
-    return StickinessVerdict(_judge_one(pair, wanted_share=wanted_share, thresholds=False))
+    material, surface = _read_pair(surface, material, length, properties)
+    cell = _judge_one(material, surface, wanted_share=wanted_share, thresholds=False)
+    return StickinessVerdict(cell)
 
 
 @dataclass(frozen=True)
@@ -394,8 +395,8 @@ def thresholds(
     >>> print(f"sticks below E = {answer.modulus.value / 1e6:.2f} MPa")
     sticks below E = 1.50 MPa
     """
-    pair = _read_pair(surface, material, length=length, **properties)
-    cell = _judge_one(pair, wanted_share=wanted_share, contact_area=contact_area)
+    material, surface = _read_pair(surface, material, length, properties)
+    cell = _judge_one(material, surface, wanted_share=wanted_share, contact_area=contact_area)
 
     def collect(name: str) -> Limited[float] | None:
         threshold = read_limited(cell[name])
@@ -413,21 +414,12 @@ def thresholds(
     )
 
 
-class _ReadPair(NamedTuple):
-    """A material and a surface."""
-
-    material: Material
-    surface: Surface
-
-
 def _read_pair(
     surface: Surface | Spectrum | ArrayLike,
-    /,
-    material: Material | None = None,
-    *,
-    length: float | tuple[float, float] | None = None,
-    **properties: Any,
-) -> _ReadPair:
+    material: Material | None,
+    length: float | tuple[float, float] | None,
+    properties: Mapping[str, Any],
+) -> tuple[Material, Surface]:
     """Make a `Material` and a `Surface` of the arguments of `verdict`."""
     if (material is None) == (not properties):
         raise ValueError("give either a material or its properties, such as youngs_modulus=2e5")
@@ -447,20 +439,25 @@ def _read_pair(
         surface = Surface.from_heights(surface, length)
     if isinstance(surface, Spectrum):
         surface = Surface.from_spectrum(surface)
-    return _ReadPair(material, surface)
+    return material, surface
 
 
-def _judge_one(pair: _ReadPair, **settings: Any) -> xr.Dataset:
+def _judge_one(material: Material, surface: Surface, **settings: Any) -> xr.Dataset:
     """The cell of `judge` for one pair, with a warning of every doubt about its values."""
-    dataset = judge([pair.material], [pair.surface], curves=False, **settings)
-    for doubt in find_pair_doubts(pair.material, pair.surface):
+    dataset = judge([material], [surface], curves=False, **settings)
+    for doubt in find_pair_doubts(material, surface):
         warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
     return dataset.isel(material=0, surface=0)
 
 
-def _quantity_of(value: float, unit: str) -> dict[str, Any] | None:
+def _leave_out_unknown(contents: Mapping[str, Any]) -> dict[str, Any]:
+    """The contents that are known."""
+    return {name: content for name, content in contents.items() if content is not None}
+
+
+def _quantity_of(number: xr.DataArray, unit: str) -> dict[str, Any] | None:
     """One number with its unit; None if it is not known."""
-    return {"value": value, "unit": unit} if np.isfinite(value) else None
+    return {"value": float(number), "unit": unit} if np.isfinite(number) else None
 
 
 def _drop_unbounded(moduli: Limited[float]) -> Limited[float]:
@@ -470,5 +467,5 @@ def _drop_unbounded(moduli: Limited[float]) -> Limited[float]:
 
 def _quantity(limited: Limited, unit: str) -> dict[str, Any] | None:
     """Those of value and limits that are finite, with their unit; None if none is."""
-    finite = {name: value for name, value in limited._asdict().items() if np.isfinite(value)}
+    finite = {name: number for name, number in limited._asdict().items() if np.isfinite(number)}
     return finite | {"unit": unit} if finite else None
