@@ -6,7 +6,7 @@ All kinds have the same variables, so that verdicts treat them alike, see `stick
 import logging
 
 from common.job import start
-from stickiness.verdicts.rough_surface import Surface, describe_file
+from stickiness.verdicts.rough_surface import Surface
 
 
 def main(job):
@@ -15,7 +15,8 @@ def main(job):
     surface = Surface.from_entry(entry)
     for doubt in surface.not_judged.splitlines():
         logging.warning("no verdict: %s", doubt)
-    surface.write(job.output[0], **describe_file(name, entry))
+    title = f"spectrum of the real surface {name}"
+    surface.write(job.output[0], title=title, parameters={"surface": name, **entry})
 
 
 if __name__ == "__main__":

@@ -72,3 +72,16 @@ def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float:
     if solid == HALF_SPACE or is_on_film(solid):
         return np.nan
     return spectrum.elastic_energy()
+
+
+def find_stiffening(solid: Solid, spectrum: Spectrum, lowest: float) -> float:
+    """Energy of the waves from a wave number on, over that on a half-space.
+
+    Waves beyond those of the spectrum count as its shortest.
+    """
+    waves = spectrum.averaged()
+    highest = spectrum.band[1]
+    on_half_space = waves.integrate(lambda q: q, lowest, highest)
+    if on_half_space == 0:
+        return 1 / float(solid.factor(max(lowest, highest)))
+    return waves.integrate(lambda q: q / solid.factor(q), lowest, highest) / on_half_space

@@ -21,6 +21,7 @@ from stickiness.remaining.solid_response import (
     FilmResponse,
     find_half_space_energy,
     find_relative_compliance,
+    find_stiffening,
     is_on_film,
 )
 from stickiness.remaining.thin_layers import find_flow
@@ -30,7 +31,7 @@ from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts.limits import find_limits
 from stickiness.verdicts.parametric import MOMENTS
 from stickiness.verdicts.rough_surface import Surface
-from stickiness.verdicts.scenarios import ENDS, Scenarios
+from stickiness.verdicts.scenarios import END_ROWS, Scenarios
 
 HARDLY_CHANGED = 0.02  # relative, of the energy of full contact
 TOO_DIFFERENT = (
@@ -72,7 +73,7 @@ class PairRoughness:
 
     def take_ends(self, pair: Pair) -> Pair:
         """What `meet` makes, at both ends, with what serves all criteria."""
-        return replace(pair.take(ENDS), rms_curvature=self.rms_curvature, a_v=self.a_v.value)
+        return replace(pair.take(END_ROWS), rms_curvature=self.rms_curvature, a_v=self.a_v.value)
 
 
 def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
@@ -81,7 +82,7 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
     solid = material.solid
     scenarios = combine_scenarios(material, surface)
     spectra: tuple[Spectrum, ...] = surface.spectra
-    rms_curvature = _curvature(surface)
+    rms_curvature = surface.data.rms_curvature.values
     doubts = [surface.not_judged]
 
     # A material that is rough itself adds its spectrum, independent of the other.
@@ -90,7 +91,7 @@ def combine_roughness(material: Material, surface: Surface) -> PairRoughness:
         spectra = tuple(
             combine(first, second) for first, second in zip(spectra, own.spectra, strict=True)
         )
-        rms_curvature = np.hypot(rms_curvature, _curvature(own))
+        rms_curvature = np.hypot(rms_curvature, own.data.rms_curvature.values)
 
     # A layer or a skin changes the energy of full contact, and the compliance.
     stiffening = np.ones(2)
@@ -132,11 +133,6 @@ def _doubt_smoothness(range: float, h_rms: float) -> str:
     )
 
 
-def _curvature(surface: Surface) -> NDArray:
-    """Rms Laplacian of a surface at both ends [1/m]."""
-    return surface.data.rms_curvature.values
-
-
 def _find_a_v(
     material: Material,
     surface: Surface,
@@ -151,8 +147,8 @@ def _find_a_v(
         moments = np.transpose([ends.q0, ends.h_rms, ends.rms_slope, rms_curvature])
         try:
             a_v = tuple(
-                surface_a_v(spectrum, dict(zip(("q0", *MOMENTS), values, strict=True)))
-                for spectrum, values in zip(spectra, moments, strict=True)
+                surface_a_v(spectrum, dict(zip(("q0", *MOMENTS), of_end, strict=True)))
+                for spectrum, of_end in zip(spectra, moments, strict=True)
             )
         except ValueError:  # attractive areas vanish within rounding
             doubt = TOO_DIFFERENT
@@ -172,8 +168,13 @@ def _add_surfaces(surface: Surface, own: Surface, solid: Solid) -> Scenarios:
     share = float(stored / (stored + added))
     scenarios, second = surface.scenarios.align(own.scenarios, is_same=own is surface)
     first = scenarios.roughness
+    h_rms = np.hypot(first.h_rms, second.h_rms)
+    # What the shape of the heights changes goes with their skewness. Third cumulants of independent
+    # heights add, and the skewness is that over the cube of the rms height.
+    of_first = (first.h_rms / h_rms) ** 3
+    of_second = (second.h_rms / h_rms) ** 3
     return scenarios.with_roughness(
-        h_rms=np.hypot(first.h_rms, second.h_rms),
+        h_rms=h_rms,
         rms_slope=np.hypot(first.rms_slope, second.rms_slope),
         q0=first.q0**share * second.q0 ** (1 - share),
         q1=np.maximum(first.q1, second.q1),
@@ -182,24 +183,10 @@ def _add_surfaces(surface: Surface, own: Surface, solid: Solid) -> Scenarios:
         anisotropy_error_factor=np.maximum(
             first.anisotropy_error_factor, second.anisotropy_error_factor
         ),
-        **_add_shapes(first, second),
+        shape=of_first * first.shape + of_second * second.shape,
+        shape_error=np.hypot(of_first * first.shape_error, of_second * second.shape_error),
         **_keep_simulation(first, added=second.elastic_energy / first.elastic_energy),
     )
-
-
-def _add_shapes(first: Roughness, second: Roughness) -> dict[str, NDArray]:
-    """What the shape of the heights of two solids changes, and its error.
-
-    It goes with their skewness. Third cumulants of independent heights add, and the skewness is
-    that over the cube of the rms height.
-    """
-    h_rms = np.hypot(first.h_rms, second.h_rms)
-    of_first = (first.h_rms / h_rms) ** 3
-    of_second = (second.h_rms / h_rms) ** 3
-    return {
-        "shape": of_first * first.shape + of_second * second.shape,
-        "shape_error": np.hypot(of_first * first.shape_error, of_second * second.shape_error),
-    }
 
 
 def _keep_simulation(rough: Roughness, added: ArrayLike) -> dict[str, Any]:
@@ -225,10 +212,12 @@ def _put_on_layer(
     q0 = float(np.asarray(rough.q0)[0])
     compliance = np.array([find_relative_compliance(each, solid, q0) for each in spectra])
     changes = np.append(stiffening - 1, 1 - compliance)
-    is_on_film_or_below_skin = is_on_film(solid) or isinstance(solid, Skin)
     response = None
-    if is_on_film_or_below_skin:
-        response = _find_film_response(scenarios, spectra, solid, q0)
+    if is_on_film(solid) or isinstance(solid, Skin):
+        # Of an end it is that of its spectrum, of draws that of both.
+        by_place = {0.0: spectra[:1], 1.0: spectra[1:], 0.5: spectra}
+        responses = {place: FilmResponse(each, solid, q0) for place, each in by_place.items()}
+        response = np.array([responses[place] for place in scenarios.place.tolist()])
     # A film makes the solid softer to long waves, the layer stiffer to others: energies on a
     # half-space bound neither way.
     is_bounded = np.isfinite(find_half_space_energy(spectra[0], solid))
@@ -241,18 +230,6 @@ def _put_on_layer(
         film_response=response,
         **_keep_simulation(rough, added=changes[np.abs(changes).argmax()]),
     )
-
-
-def _find_film_response(
-    scenarios: Scenarios, spectra: tuple[Spectrum, ...], solid: Solid, q0: float
-) -> NDArray:
-    """`FilmResponse` of every row: of an end that of its spectrum, of draws that of both."""
-    responses = {
-        0.0: FilmResponse(spectra[:1], solid, q0),
-        1.0: FilmResponse(spectra[1:], solid, q0),
-        0.5: FilmResponse(spectra, solid, q0),
-    }
-    return np.array([responses[place] for place in scenarios.place.tolist()])
 
 
 def _adapt_to_surface(
@@ -275,12 +252,7 @@ def _stiffen_longer(scenarios: Scenarios, surface: Surface, solid: Solid) -> Sce
 
     # The other waves are stiffened alike in all draws.
     kept = float(surface.data.q_kept)
-    others = []
-    for spectrum in surface.spectra:
-        waves = spectrum.averaged()
-        highest = spectrum.band[1]
-        energy = waves.integrate(lambda q: q, kept, highest)
-        others.append(waves.integrate(lambda q: q / solid.factor(q), kept, highest) / energy)
+    others = [find_stiffening(solid, spectrum, kept) for spectrum in surface.spectra]
     energy = surface.data.elastic_energy_draws.values - on_half_space
     of_draws = np.sqrt(np.prod(others)) * energy + on_solid
     at_ends = scenarios.ends.elastic_energy
@@ -298,7 +270,11 @@ def _simulate_on_layer(scenarios: Scenarios, surface: Surface, solid: Solid) -> 
     simulated = surface.simulate_on(solid)
     if simulated is None:
         return scenarios
-    lacking = surface.find_lacking_on(solid, simulated, surface.scenarios.roughness.lacking)
+    # Waves that the grid lacks are stiffened, too.
+    on_half_space = surface.simulated.whole.full_contact_energy
+    energy = np.asarray(surface.scenarios.roughness.lacking) * on_half_space
+    stiffening = find_stiffening(solid, surface.spectra[1], np.pi / simulated.pixel)
+    lacking = stiffening * energy / simulated.whole.full_contact_energy
     return scenarios.with_roughness(simulated=simulated, lacking=lacking)
 
 

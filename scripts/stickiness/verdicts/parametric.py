@@ -12,7 +12,7 @@ from stickiness import datasets
 from stickiness.error_budget import SOURCES, not_applicable, with_budget
 from stickiness.measured import texture
 from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import SelfAffine
+from stickiness.spectrum.kinds import SelfAffine, Tabulated
 from stickiness.verdicts.surface_variables import SURFACE_VARIABLES
 
 ENDS = ("smooth", "rough")  #: of what is known of a surface
@@ -33,7 +33,7 @@ def tabulate_ends(
     q = _choose_wave_numbers(smooth)
     # The highest line of the reference exponent that touches the spectrum.
     line = [(s.psd(q) * q ** (2 * REFERENCE_HURST + 2)).max() for s in spectra]
-    data: dict[str, Any] = {
+    tabulated: dict[str, Any] = {
         "psd": (("end", "wave_number"), [s.psd(q) for s in spectra]),
         "elastic_energy": ("end", [s.elastic_energy() for s in spectra]),
         "C0_reference_upper": ("end", line),
@@ -41,12 +41,12 @@ def tabulate_ends(
         "q0": np.sqrt(smooth.q_longest * rough.q_longest),
         "q1": smooth.q1,
     }
-    data |= {name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS}
+    tabulated |= {name: ("end", [getattr(s, name) for s in spectra]) for name in MOMENTS}
     if hurst is not None:
-        data["hurst"] = hurst
+        tabulated["hurst"] = hurst
     if smooth.anisotropy != 1:
-        data["axis_ratio"] = smooth.anisotropy
-    dataset = xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
+        tabulated["axis_ratio"] = smooth.anisotropy
+    dataset = xr.Dataset(tabulated, coords={"end": list(ENDS), "wave_number": q})
     dataset = describe_variables(dataset)
     if hurst is None:
         return dataset
@@ -54,25 +54,27 @@ def tabulate_ends(
     return with_budget(dataset, "hurst", **exact)
 
 
+def read_ends(data: xr.Dataset, highest: float) -> tuple[Spectrum, Spectrum]:
+    """Spectra of the smooth and of the rough end, up to a wave number [1/m]."""
+    inside = np.flatnonzero(data.wave_number.values <= highest * (1 + 1e-9))
+    q = data.wave_number.values[inside]
+    smooth, rough = (data.psd.sel(end=end).values[inside] for end in ENDS)
+    return Tabulated(q, smooth), Tabulated(q, rough)
+
+
 def describe_variables(dataset: xr.Dataset) -> xr.Dataset:
     """Give every variable of a surface its unit and description."""
-    of_reference_line = f"m^{2 - 2 * REFERENCE_HURST:g}"
+    of_line = f"m^{2 - 2 * REFERENCE_HURST:g}"
     hurst = float(dataset.hurst) if "hurst" in dataset else REFERENCE_HURST
     texts = SURFACE_VARIABLES | {
         "C0": (f"m^{2 - 2 * hurst:.4g}", "prefactor of C = C0 q^(-2(H+1))"),
-        "C0_reference": (
-            of_reference_line,
-            f"prefactor of the line fitted at H = {REFERENCE_HURST}",
-        ),
-        "C0_reference_upper": (
-            of_reference_line,
-            f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}",
-        ),
+        "C0_reference": (of_line, f"prefactor of the line fitted at H = {REFERENCE_HURST}"),
+        "C0_reference_upper": (of_line, f"largest C q^(2(H+1)) at H = {REFERENCE_HURST}"),
     }
     for name in MOMENTS + ("elastic_energy",):
-        unit, text = SURFACE_VARIABLES[name]
-        texts[f"{name}_draws"] = (unit, f"{text}, of every draw")
-    present = {name: text for name, text in texts.items() if name in dataset.variables}
+        unit, description = SURFACE_VARIABLES[name]
+        texts[f"{name}_draws"] = (unit, f"{description}, of every draw")
+    present = {name: texts[name] for name in texts if name in dataset.variables}
     dataset = datasets.annotate(dataset, **present)
     dataset.psd.attrs["comment"] = "h_rms^2 = 2 pi int q C dq"
     return dataset

@@ -29,7 +29,7 @@ from stickiness.remaining.roughness import Roughness, find_anisotropy_error_fact
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import SelfAffine, Tabulated
+from stickiness.spectrum.kinds import SelfAffine
 from stickiness.verdicts import parametric
 from stickiness.verdicts.longer_waves import LARGER, lengthen
 from stickiness.verdicts.parametric import ENDS, MOMENTS
@@ -37,7 +37,6 @@ from stickiness.verdicts.scenarios import Scenarios
 from stickiness.verdicts.shorter_waves import shorten, shorten_shells
 from stickiness.verdicts.simulated_surface import (
     find_lacking,
-    find_stiffening,
     read_simulated,
     simulate_on,
 )
@@ -48,15 +47,6 @@ if TYPE_CHECKING:  # scripts that open a file of a surface do not read measureme
 #: What a verdict needs of the file of a surface.
 NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
 _SAME_SHAPE = 1e-6  # relative, within which both ends have spectra of one shape
-
-
-def describe_file(name: str, entry: Mapping[str, Any]) -> dict[str, Any]:
-    """Title and parameters in the file of a real surface, for `Surface.write`.
-
-    `entry` is the entry of the configuration, as `entries.without_texts` leaves it.
-    """
-    title = f"spectrum of the real surface {name}"
-    return {"title": title, "parameters": {"surface": name, **entry}}
 
 
 @dataclass(frozen=True, eq=False)
@@ -309,15 +299,14 @@ class Surface:
 
         None if its waves are known, by a roll-off or by the size of the contact, or not judged.
         """
-        is_known = "scan" not in self.data or "q_rolloff" in self.data or self.is_larger
-        if is_known or self.not_judged:
+        if "q_rolloff" in self.data or self.not_judged:
             return None
-        return self.on_contact(LARGER * float(self.data.scan))
+        larger = self.on_contact(LARGER * self.scan)
+        return None if larger is self else larger
 
     def on_contact(self, contact: float) -> Surface:
         """The surface as a contact of a side [m] meets it, itself if its waves are that long."""
-        is_known = "scan" not in self.data or self.is_larger
-        if is_known or contact <= float(self.data.scan):
+        if self.is_larger or not contact > self.scan:  # nor if nothing was scanned
             return self
         return Surface(lengthen(self.data, contact))
 
@@ -396,28 +385,30 @@ class Surface:
         """Spectra of the smooth and of the rough end, up to q1."""
         if self.shells is not None:
             return self.shells, self.shells
-        inside = np.flatnonzero(self.data.wave_number <= float(self.data.q1) * (1 + 1e-9))
-        q = self.data.wave_number.values[inside]
-        smooth, rough = (self.data.psd.sel(end=end).values[inside] for end in ENDS)
-        return Tabulated(q, smooth), Tabulated(q, rough)
+        return parametric.read_ends(self.data, highest=float(self.data.q1))
 
     @cached_property
     def scenarios(self) -> Scenarios:
         """All that the surface may be, as a half-space meets it."""
+        data = self.data
         energy = self.rows("elastic_energy")
-        slope = self.data.rms_slope.sel(end=list(ENDS)).values
+        slope = data.rms_slope.sel(end=list(ENDS)).values
+        longest_waves = self.contact * float(data.q0) / (2 * np.pi)
         roughness = Roughness(
             h_rms=self.rows("h_rms"),
-            q0=self._fill(self.data.get("q0_draws"), np.full(2, float(self.data.q0))),
-            q1=np.full(energy.shape, float(self.data.q1)),
+            q0=self.rows("q0"),
+            q1=np.full(energy.shape, float(data.q1)),
             elastic_energy=energy,
             half_space_energy=energy,
-            anisotropy_error_factor=self._anisotropy_error_factor,
-            waves=self._waves,
+            anisotropy_error_factor=find_anisotropy_error_factor(
+                float(data.get("axis_ratio", 1.0))
+            ),
+            # A surface that is described has very many.
+            waves=np.float64(np.inf if np.isnan(self.contact) else longest_waves),
             # Slopes of the draws are not kept; those of both ends hardly differ.
             rms_slope=np.append(slope, np.full(self.draw_count, slope.mean())),
-            shape=self._find_shape("shape"),
-            shape_error=self._find_shape("shape_error"),
+            shape=np.float64(data.get("shape", 0.0)),
+            shape_error=np.float64(data.get("shape_error", 0.0)),
             simulated=self.simulated,
             lacking=self._find_lacking(),
         )
@@ -427,11 +418,9 @@ class Surface:
 
     def rows(self, name: str) -> NDArray:
         """A variable at both ends, and of every draw of a measured surface."""
-        at_ends = self.data[name].sel(end=list(ENDS)).values
-        return self._fill(self.data.get(f"{name}_draws"), at_ends)
-
-    def _fill(self, of_draws: xr.DataArray | None, at_ends: NDArray) -> NDArray:
-        """Numbers at both ends and of all draws, if there are draws."""
+        stored = self.data[name]  # along the ends, or one number for both
+        at_ends = stored.sel(end=list(ENDS)).values if stored.ndim else np.full(2, float(stored))
+        of_draws = self.data.get(f"{name}_draws")
         return at_ends if of_draws is None else np.append(at_ends, of_draws.values)
 
     @cached_property
@@ -450,39 +439,12 @@ class Surface:
             self._simulated_on[solid] = simulate_on(self.data, solid)
         return self._simulated_on[solid]
 
-    def find_lacking_on(
-        self, solid: Solid, simulated: SimulatedHeights, on_half_space: ArrayLike
-    ) -> NDArray:
-        """Energy of waves not simulated over that of the others, on a solid.
-
-        `on_half_space` is the same ratio on a half-space.
-        """
-        assert self.simulated is not None
-        energy = np.asarray(on_half_space) * self.simulated.whole.full_contact_energy
-        stiffening = find_stiffening(solid, self.spectra[1], simulated.pixel)
-        return stiffening * energy / simulated.whole.full_contact_energy
-
     def _find_lacking(self) -> NDArray:
         """Energy of waves that are not simulated over that of the others, in every row."""
         if self.simulated is None:
             return np.zeros(2 + self.draw_count)
         longer = self.rows("longer_energy") if "longer_energy" in self.data else 0.0
         return find_lacking(self.simulated, unheld=self.rows("unheld_energy"), longer=longer)
-
-    def _find_shape(self, name: str) -> np.float64:
-        """What the shape of the heights changes, or its error; zero where no heights are."""
-        return np.float64(self.data.get(name, 0.0))
-
-    @property
-    def _waves(self) -> np.float64:
-        """Longest waves along a side of the contact; infinite of a surface that is described."""
-        if np.isnan(self.contact):
-            return np.float64(np.inf)
-        return np.float64(self.contact * float(self.data.q0) / (2 * np.pi))
-
-    @property
-    def _anisotropy_error_factor(self) -> float:
-        return find_anisotropy_error_factor(float(self.data.get("axis_ratio", 1.0)))
 
     @cached_property
     def a_v(self) -> tuple[SurfaceAv, SurfaceAv]:
@@ -506,18 +468,16 @@ class Surface:
         It is that of the rough end if the fitted law goes on to 0.3 nm; 0 of a surface that was not
         measured.
         """
-        return (
-            float(self.data["unresolved_energy"].max()) if "unresolved_energy" in self.data else 0.0
-        )
+        return float(np.max(self.data.get("unresolved_energy", 0.0)))
 
     @property
     def doubts(self) -> tuple[str, ...]:
         """Sentences about improbable heights and slopes, and unresolved waves that decide."""
         if self.not_judged:  # of which they would follow
             return ()
-        doubts = [
-            *find_doubts(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
-        ]
+        doubts = list(
+            find_doubts(h_rms=float(self.data.h_rms[-1]), rms_slope=float(self.data.rms_slope[-1]))
+        )
         if self.unresolved_energy > MOST_UNRESOLVED:
             doubts.append(
                 "waves that the instrument does not resolve decide: if the fitted law goes on to "
@@ -529,10 +489,15 @@ class Surface:
 
 def _describe_shells(spectrum: Spectrum) -> xr.Dataset:
     """Moments of the spectrum of a periodic cell; its density only tells that both ends agree."""
-    data: dict[str, Any] = {name: ("end", [getattr(spectrum, name)] * 2) for name in MOMENTS}
-    data["elastic_energy"] = ("end", [spectrum.elastic_energy()] * 2)
-    data["psd"] = (("end", "wave_number"), np.ones((2, spectrum.q.size)))
-    data["q0"] = spectrum.q_longest
-    data["q1"] = spectrum.q1
-    data["axis_ratio"] = spectrum.anisotropy
-    return xr.Dataset(data, coords={"end": list(ENDS), "wave_number": spectrum.q})
+    moments = {name: ("end", [getattr(spectrum, name)] * 2) for name in MOMENTS}
+    return xr.Dataset(
+        {
+            **moments,
+            "elastic_energy": ("end", [spectrum.elastic_energy()] * 2),
+            "psd": (("end", "wave_number"), np.ones((2, spectrum.q.size))),
+            "q0": spectrum.q_longest,
+            "q1": spectrum.q1,
+            "axis_ratio": spectrum.anisotropy,
+        },
+        coords={"end": list(ENDS), "wave_number": spectrum.q},
+    )

@@ -23,14 +23,13 @@ from numpy.typing import NDArray
 from stickiness.remaining.roughness import Roughness
 from stickiness.statistics import COVERS
 
-ENDS = [0, 1]  #: rows of the smooth and the rough end
-SMOOTH = 0  #: row of the smooth end
+END_ROWS = [0, 1]  #: the smooth and the rough end
 _SEED = 2  # of the errors of the model
 _SHUFFLE_SEED = 3  # of the order in which draws of a second surface meet those of the first
 # Rows of a surface that is known between its ends: which end, and the error of the model. The
 # weights of the limits are so large that 5 and 95 % quantiles are the least and the greatest, and
 # so small that the median is the value of the rough end.
-_END_ROWS = np.array([0, 1, 0, 1, 0, 1])
+_WHICH_END = np.array([0, 1, 0, 1, 0, 1])
 _END_DEVIATIONS = np.array([0.0, 0.0, -1.0, -1.0, 1.0, 1.0])
 _END_WEIGHTS = np.array([0.0, 76.0, 6.0, 6.0, 6.0, 6.0])
 
@@ -49,19 +48,19 @@ class Scenarios:
     def between_ends(cls, ends: Roughness) -> Scenarios:
         """All that a surface may be whose `ends` ``(2,)`` are known alone."""
         return cls(
-            roughness=ends.take(_END_ROWS),
+            roughness=ends.take(_WHICH_END),
             weights=_END_WEIGHTS,
             deviation=_END_DEVIATIONS,
-            place=_END_ROWS.astype(float),
+            place=_WHICH_END.astype(float),
         )
 
     @classmethod
     def of_draws(cls, roughness: Roughness) -> Scenarios:
         """All that a measured surface may be: `roughness` of both ends and of its draws."""
         (rows,) = roughness.shape_of_arrays
-        count = rows - len(ENDS)
+        count = rows - len(END_ROWS)
         errors = np.random.default_rng(_SEED).normal(size=count) / COVERS
-        of_ends = np.zeros(len(ENDS))
+        of_ends = np.zeros(len(END_ROWS))
         return cls(
             roughness=roughness,
             weights=np.append(of_ends, np.ones(count)),
@@ -77,12 +76,12 @@ class Scenarios:
     @property
     def ends(self) -> Roughness:
         """Roughness of the smooth and the rough end, ``(2,)``."""
-        return self.roughness.take(ENDS)
+        return self.roughness.take(END_ROWS)
 
     @property
     def draws(self) -> Roughness | None:
         """Roughness of the draws; None of a surface that was not measured."""
-        return self.roughness.take(slice(len(ENDS), None)) if self.is_drawn else None
+        return self.roughness.take(slice(len(END_ROWS), None)) if self.is_drawn else None
 
     def between(self, at_ends: Sequence[float] | NDArray) -> NDArray:
         """A positive number of every row, by the numbers at both ends: of draws the geometric mean.
@@ -104,14 +103,14 @@ class Scenarios:
         `is_same`. Otherwise only ends meet ends.
         """
         if not self.is_drawn:
-            return self, second.ends.take(_END_ROWS)
+            return self, second.ends.take(_WHICH_END)
         ends = second.ends
         if second.is_drawn:
-            count = self.place.size - len(ENDS)
-            order = np.resize(np.arange(len(ENDS), second.place.size), count)
+            count = self.place.size - len(END_ROWS)
+            order = np.resize(np.arange(len(END_ROWS), second.place.size), count)
             if not is_same:
                 order = np.random.default_rng(_SHUFFLE_SEED).permutation(order)
-            return self, second.roughness.take(np.append(ENDS, order))
+            return self, second.roughness.take(np.append(END_ROWS, order))
         if np.ptp(ends.h_rms) == np.ptp(ends.elastic_energy) == 0:
-            return self, ends.take(np.full(self.place.size, SMOOTH))
-        return Scenarios.between_ends(self.ends), ends.take(_END_ROWS)
+            return self, ends.take(np.zeros(self.place.size, dtype=int))  # alike
+        return Scenarios.between_ends(self.ends), ends.take(_WHICH_END)

@@ -10,14 +10,16 @@ the share that they have in both ends, and those beyond by the law that every dr
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from stickiness.spectrum.direction import expm1_over
 from stickiness.spectrum.interface import Spectrum
-from stickiness.spectrum.kinds import Shells, Tabulated
-from stickiness.verdicts.parametric import END_QUANTILES, ENDS
+from stickiness.spectrum.kinds import Shells
+from stickiness.verdicts.parametric import END_QUANTILES, read_ends
 
 LEAST = 1e-12  #: share of a variance that is left where no wave is: such a surface is smooth
 #: Variables by the power of q in their variance.
@@ -40,25 +42,19 @@ def shorten(data: xr.Dataset, q: float) -> xr.Dataset:
         The same variables for the waves that are left, and their `lost_curvature`: the rms mean
         curvature of those taken out [1/m], at both ends and of every draw.
     """
-    resolved = _find_resolved(data)
-    of_draws = _shorten_draws(data, resolved, q) if "draw" in data.dims else {}
+    resolved = read_ends(data, highest=float(data.get("q_cutoff", data.q1)))
     changed: dict[str, object] = {}
-    kept_energy = 1.0
-    for name, order in ORDERS.items():
-        if of_draws:
-            at_ends = np.quantile(of_draws[name], END_QUANTILES)
-        else:
-            kept = np.array([_find_kept(spectrum, q, order) for spectrum in resolved])
-            at_ends = data[name].values * (kept if order == 1 else np.sqrt(kept))
-        changed[name] = ("end", at_ends)
-        if name == "elastic_energy":
-            kept_energy = float(np.mean(at_ends / data[name].values))
-    lost = np.array([_find_lost_curvature(spectrum, q) for spectrum in resolved])
-    if of_draws:
-        lost = np.quantile(of_draws["lost_curvature"], END_QUANTILES)
+    last = q1 = float(data.q1)
+    if "draw" in data.dims:
+        of_draws = _shorten_draws(data, resolved, q)
+        at_ends = {name: np.quantile(drawn, END_QUANTILES) for name, drawn in of_draws.items()}
         changed["q0_draws"] = ("draw", np.maximum(data.q0_draws.values, q))
-        changed |= {f"{name}_draws": ("draw", values) for name, values in of_draws.items()}
-    changed["lost_curvature"] = ("end", lost)
+        changed |= {f"{name}_draws": ("draw", drawn) for name, drawn in of_draws.items()}
+        last = float(np.median(data.beyond_end_draws.values))
+    else:
+        at_ends = _shorten_ends(data, resolved, q)
+    changed |= {name: ("end", moment) for name, moment in at_ends.items()}
+    kept_energy = float(np.mean(at_ends["elastic_energy"] / data.elastic_energy.values))
 
     # The shape of the heights is mostly that of the waves that hold their energy.
     if "shape" in data:
@@ -68,20 +64,10 @@ def shorten(data: xr.Dataset, q: float) -> xr.Dataset:
         changed["shape_error"] = np.hypot(float(data.shape_error), lost_shape)
     # States simulated on the heights have all waves.
     data = data.drop_vars("trial_energy", errors="ignore")
-    q1 = float(data.q1)
     if q >= q1:
-        ends = data["beyond_end_draws"].values if of_draws else q1
-        q1 = max(q1, float(np.median(ends)))
+        q1 = max(q1, last)
     changed |= {"q0": max(float(data.q0), q), "q1": q1}
     return _cut_spectrum(data, q).assign(changed)
-
-
-def _find_resolved(data: xr.Dataset) -> list[Spectrum]:
-    """Spectra of both ends, as far as the instrument resolves them."""
-    top = float(data.get("q_cutoff", data.q1)) * (1 + 1e-9)
-    inside = np.flatnonzero(data.wave_number.values <= top)
-    q = data.wave_number.values[inside]
-    return [Tabulated(q, data.psd.sel(end=end).values[inside]) for end in ENDS]
 
 
 def _find_kept(spectrum: Spectrum, q: float, order: int) -> float:
@@ -99,7 +85,17 @@ def _find_lost_curvature(spectrum: Spectrum, q: float) -> float:
     return float(np.sqrt(spectrum.variance_below(np.clip(q, low, high), 4))) / 2
 
 
-def _shorten_draws(data: xr.Dataset, resolved: list[Spectrum], q: float) -> dict[str, NDArray]:
+def _shorten_ends(data: xr.Dataset, resolved: Sequence[Spectrum], q: float) -> dict[str, NDArray]:
+    """Moments of both ends from q on, and the curvature that is lost."""
+    moments = {}
+    for name, order in ORDERS.items():
+        kept = np.array([_find_kept(spectrum, q, order) for spectrum in resolved])
+        moments[name] = data[name].values * (kept if order == 1 else np.sqrt(kept))
+    moments["lost_curvature"] = np.array([_find_lost_curvature(each, q) for each in resolved])
+    return moments
+
+
+def _shorten_draws(data: xr.Dataset, resolved: Sequence[Spectrum], q: float) -> dict[str, NDArray]:
     """Moments of every draw from q on, and the curvature that is lost."""
     energy = data.elastic_energy_draws.values
     of_scan = energy
@@ -144,8 +140,8 @@ def _cut_spectrum(data: xr.Dataset, q: float) -> xr.Dataset:
     place = np.log(q / known[first]) / np.log(known[second] / known[first])
     ends = data.psd.transpose("end", "wave_number").values[:, [first, second]]
     at_q = ends[:, 0] ** (1 - place) * ends[:, 1] ** place
-    rest = data.psd.transpose("end", "wave_number").sel(wave_number=kept).values
-    psd = np.concatenate([at_q[:, None], rest], axis=1)
+    beyond = data.psd.transpose("end", "wave_number").sel(wave_number=kept).values
+    psd = np.concatenate([at_q[:, None], beyond], axis=1)
     return (
         data.drop_dims("wave_number")
         .assign(psd=(("end", "wave_number"), psd))

@@ -22,7 +22,6 @@ from stickiness.remaining.standard_heights import (
 )
 from stickiness.remaining.trial_states import DEFAULT_SHARE, SimulatedHeights, TrialStates
 from stickiness.solids import HALF_SPACE, Solid
-from stickiness.spectrum.interface import Spectrum
 from stickiness.traction_laws import EXPONENTIAL
 from stickiness.verdicts.measured_surface import Measurement
 
@@ -115,15 +114,8 @@ def _tabulate_standard(standard: StandardHeights) -> xr.Dataset:
 def _read_standard(data: xr.Dataset) -> StandardHeights:
     """Read what `_tabulate_standard` made."""
     heights = [data.standard_heights.values, *data.standard_quarters.values]
-    whole, *quarters = (
-        StandardMap(part_heights, tuple(sides), float(height_unit))
-        for part_heights, sides, height_unit in zip(
-            heights,
-            data.standard_sides.values.tolist(),
-            data.standard_height_unit.values,
-            strict=True,
-        )
-    )
+    sides = map(tuple, data.standard_sides.values.tolist())
+    whole, *quarters = map(StandardMap, heights, sides, data.standard_height_unit.values.tolist())
     return StandardHeights(
         whole=whole,
         quarters=tuple(quarters),
@@ -140,8 +132,8 @@ def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
         {"resolved_energy": simulated.resolved_energy, "simulated_pixel": simulated.pixel}
     )
     for field, (name, dimensions) in STATE_VARIABLES.items():
-        values = _stack([getattr(part, field) for part in parts])
-        dataset[name] = dimensions, values.astype("i1") if values.dtype == bool else values
+        stacked = _stack([getattr(part, field) for part in parts])
+        dataset[name] = dimensions, stacked.astype("i1") if stacked.dtype == bool else stacked
         dataset[name].encoding = {"zlib": True}
     return dataset
 
@@ -160,12 +152,12 @@ def _has_long_waves(heights: Topography, spectrum: MeasuredSpectrum) -> bool:
     return energy[rings.q < 0.7 * longest].sum() <= MOST_LONGER * energy.sum()
 
 
-def _stack(values: list) -> NDArray:
-    """One array of the values of all parts; the last state fills up those of a shorter part."""
-    most = max(np.shape(value)[:1] for value in values)
-    if not most:
-        return np.array(values)
-    return np.stack([value[np.minimum(np.arange(most[0]), len(value) - 1)] for value in values])
+def _stack(of_parts: list) -> NDArray:
+    """One array of the numbers of all parts; the last state fills up those of a shorter part."""
+    if np.ndim(of_parts[0]) == 0:
+        return np.array(of_parts)
+    states = np.arange(max(len(of_part) for of_part in of_parts))
+    return np.stack([of_part[np.minimum(states, len(of_part) - 1)] for of_part in of_parts])
 
 
 def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
@@ -213,12 +205,13 @@ def find_simulated_shape(data: xr.Dataset) -> HeightShape | None:
         q1=np.pi / simulated.pixel,
         elastic_energy=float(states.full_contact_energy),
     )
-    expected = float(np.log(rough.threshold(simulated_range)))
-    found = states.find_threshold(simulated_range, EXPONENTIAL, DEFAULT_SHARE)
-    if np.isnan(found):
+    by_theory = float(np.log(rough.threshold(simulated_range)))
+    by_states = states.find_threshold(simulated_range, EXPONENTIAL, DEFAULT_SHARE)
+    if np.isnan(by_states):
         return None
+    change = by_theory - by_states
     chance = find_spread("one wave", "ln_work").high
-    return keep_beyond_chance(HeightShape(expected - found, 0.0), expected - found, chance)
+    return keep_beyond_chance(HeightShape(change, 0.0), change, chance)
 
 
 def find_lacking(
@@ -231,17 +224,3 @@ def find_lacking(
     """
     energy = (1 + np.asarray(unheld)) * (1 + np.asarray(longer)) * simulated.resolved_energy
     return np.maximum(energy / simulated.whole.full_contact_energy - 1, 0.0)
-
-
-def find_stiffening(solid: Solid, spectrum: Spectrum, pixel: float) -> float:
-    """Energy of the waves that a grid does not resolve, over that on a half-space.
-
-    Waves beyond those of the spectrum count as its shortest.
-    """
-    shortest = np.pi / pixel
-    highest = spectrum.band[1]
-    on_half_space = spectrum.averaged().integrate(lambda q: q, shortest, highest)
-    if on_half_space == 0:
-        return 1 / float(solid.factor(max(shortest, highest)))
-    on_solid = spectrum.averaged().integrate(lambda q: q / solid.factor(q), shortest, highest)
-    return on_solid / on_half_space

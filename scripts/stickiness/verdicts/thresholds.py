@@ -22,7 +22,7 @@ from stickiness.solids import Layer, Skin, Solid
 from stickiness.solids.moduli import Modulus
 from stickiness.verdicts.limits import VALUE
 from stickiness.verdicts.pair_roughness import PairRoughness
-from stickiness.verdicts.scenarios import ENDS
+from stickiness.verdicts.scenarios import END_ROWS
 
 CONTACT_AREA = 0.05  #: share of the nominal area
 LEAST_AREA = 0.005  #: least and largest share of the nominal area that may be asked for
@@ -74,19 +74,13 @@ def find_thresholds(
     """
     if rough.not_judged:
         return dict.fromkeys(THRESHOLDS, UNKNOWN)
+    has_rates = material.depends_on_rate and material.dwell is None
     return {
         "rms_height_threshold": find_rms_height(pair, rough, rms_height),
         "thickness_threshold": find_thickness(pair, rough, material.solid),
-        "rate_threshold": _find_rate_of(material, moduli),
+        "rate_threshold": find_rate(material.plane_strain, moduli) if has_rates else UNKNOWN,
         "contact_pressure": find_pressure(pair, rough, material.solid, contact_area),
     }
-
-
-def _find_rate_of(material: Material, moduli: Limited[float]) -> Limited[float]:
-    """Frequency below which a material sticks; NaN of an elastic solid, and after a dwell."""
-    if not material.depends_on_rate or material.dwell is not None:
-        return UNKNOWN
-    return find_rate(material.plane_strain, moduli)
 
 
 def find_rms_height(
@@ -94,20 +88,21 @@ def find_rms_height(
 ) -> Limited[float]:
     """Find the rms height [m] below which the wanted share remains; see `find_thresholds`."""
     # Of draws it is that between both ends.
-    h_rms = float(rough.limit(rough.scenarios.between(np.asarray(pair.h_rms)[ENDS]), pair)[VALUE])
+    of_rows = rough.scenarios.between(np.asarray(pair.h_rms)[END_ROWS])
+    h_rms = float(rough.limit(of_rows, pair)[VALUE])
 
     def remain(height: NDArray) -> NDArray:
         scaled = pair.scaled(height[:, None] / h_rms)
         return rough.limit(scaled.remaining, scaled)
 
-    found = find_threshold(
+    highest = find_threshold(
         remain,
         start=pair.range / RANGES[-1],
         stop=ROUGHEST * h_rms,
         wanted=pair.wanted_share,
     )
     scale = 1.0 if rms_height is None else rms_height / h_rms
-    return Limited(*(scale * height for height in found))
+    return Limited(*(scale * height for height in highest))
 
 
 def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited[float]:
@@ -119,14 +114,8 @@ def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited[fl
     def remain(thickness: NDArray) -> NDArray:
         # The layer as it is comes first: all else is in proportion to what the pair has with it.
         layers = [solid, *(replace(solid, thickness=each) for each in thickness)]
-        energy = np.array(
-            [
-                rough.scenarios.between(
-                    [spectrum.elastic_energy(layer) for spectrum in rough.spectra]
-                )
-                for layer in layers
-            ]
-        )
+        at_ends = [[each.elastic_energy(layer) for each in rough.spectra] for layer in layers]
+        energy = np.array([rough.scenarios.between(energies) for energies in at_ends])
         softness = np.array([layer.factor(before.q0) for layer in layers])
         changed = replace(
             pair,
@@ -208,8 +197,8 @@ def _find_crossings(
     """
     from scipy.optimize import elementwise  # not loaded with `scipy.optimize`
 
-    def find_excess(value: NDArray, limit: NDArray) -> NDArray:
-        return remain(value)[np.arange(value.size), limit] - wanted
+    def find_excess(x: NDArray, limit: NDArray) -> NDArray:
+        return remain(x)[np.arange(x.size), limit] - wanted
 
     root = elementwise.find_root(
         find_excess, bracket, args=(limits,), tolerances={"xrtol": _PRECISION}
@@ -229,7 +218,7 @@ def find_pressure(
 
     It is that of both ends: draws do not keep their spectra.
     """
-    q0 = float(np.mean(np.asarray(pair.q0)[ENDS]))
+    q0 = float(np.mean(np.asarray(pair.q0)[END_ROWS]))
     error = min(AREA_ERROR * float(np.mean(pair.rough.anisotropy_error_factor)), MOST_AREA_ERROR)
     if isinstance(solid, Skin):
         error = max(error, AREA_ERROR_SKIN)

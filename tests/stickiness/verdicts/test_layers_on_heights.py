@@ -8,11 +8,11 @@ import pytest
 from stickiness import Material, Surface, judge, surface
 from stickiness.measured.levelling import detrend
 from stickiness.remaining.height_simulation import simulate_heights
+from stickiness.remaining.solid_response import find_stiffening
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.judgement import BY_SHAPED_THEORY, BY_SIMULATION
 from stickiness.verdicts.pair_roughness import combine_roughness
-from stickiness.verdicts.simulated_surface import find_stiffening
 
 Q0 = 6e4  # [1/m]
 SIDE = 8 * np.pi / Q0  # [m]
@@ -74,9 +74,9 @@ def test_unresolved_waves_are_as_stiff_as_on_the_layer():
     """Waves far longer than the layer is thick cost (3/2)/k^3 times what they do alone."""
     rough = SelfAffine(hurst=0.8, q0=1.0, q1=1.001, h_rms=1.0)
     thin = Layer(1e-2, 0.5)
-    stiffening = find_stiffening(thin, rough, pixel=4.0)
+    stiffening = find_stiffening(thin, rough, lowest=np.pi / 4.0)
     assert stiffening == pytest.approx(1.5 / 1e-2**3, rel=5e-3)
-    assert find_stiffening(Layer(100.0, 0.5), rough, pixel=4.0) == pytest.approx(1.0)
+    assert find_stiffening(Layer(100.0, 0.5), rough, lowest=np.pi / 4.0) == pytest.approx(1.0)
 
 
 def test_states_on_a_layer_bound_its_energy(wall):
