@@ -36,7 +36,7 @@ from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import LAWS, TractionLaw, find_strength
 from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
 from stickiness.verdicts.rough_surface import Surface
-from stickiness.verdicts.wording import LEAST_SHOWN, tell_material_moment
+from stickiness.verdicts.wording import LEAST_SHOWN, tell_moment
 
 # A tapered rim is flat: it sticks better than the surface.
 PERIODISATION: periodic.Periodisation = "smooth"
@@ -137,7 +137,7 @@ def picture_contact(surface: Surface, material: Material) -> Picture:
         logging.info("not simulated: %s", reason)
         pull_off = xr.Dataset(attrs={"left_out": str(reason)})
         contact = pull_off.copy() if contact is None else contact
-    pull_off = pull_off.assign_attrs(material=material.label, moment=tell_material_moment(material))
+    pull_off = pull_off.assign_attrs(material=material.label, moment=tell_moment(material))
     return Picture(contact, pull_off)
 
 
@@ -187,6 +187,11 @@ class PeriodicHeights:
     shortest_wavelength: float  # m
     change: float  # rms change by which the heights became periodic, over their rms
 
+    @property
+    def h_rms(self) -> float:
+        """Rms height [m]."""
+        return float(np.std(self.heights))
+
     def centres(self, step: int = 1) -> dict[str, NDArray]:
         """Centres of blocks of `step` by `step` pixels along both sides [m], by axis."""
         counts = (n // step for n in self.heights.shape)
@@ -210,7 +215,6 @@ def prepare(measured: MeasuredMap, points: int) -> PeriodicHeights:
 
 def press(rough: PeriodicHeights, q0: float, q_cutoff: float) -> xr.Dataset:
     """Contact and gap of `PeriodicHeights` without adhesion, at every load, as a dataset."""
-    h_rms = float(np.std(rough.heights))
     slope = measure_slope(rough.heights, rough.sides)
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches.
     loads = slope * erfinv(AREAS) / np.sqrt(2)
@@ -218,46 +222,53 @@ def press(rough: PeriodicHeights, q0: float, q_cutoff: float) -> xr.Dataset:
     coarse = list(
         solver.load_path(rough.heights[::2, ::2], rough.sides, loads, tol=CONTACT_TOLERANCE)
     )
-    data = xr.Dataset()
-    fields = {"contact": [state.gap == 0 for state in fine], "gap": [state.gap for state in fine]}
-    fields["contact_pressure"] = [state.pressure for state in fine]
-    for name, states in fields.items():
-        data[name] = ("pressure", "x", "y"), np.array([halve(x) for x in states], np.float32)
+    contact = xr.Dataset()
+    fields = {
+        "contact": [state.gap == 0 for state in fine],
+        "gap": [state.gap for state in fine],
+        "contact_pressure": [state.pressure for state in fine],
+    }
+    for name, of_states in fields.items():
+        halved = np.array([halve(field) for field in of_states], np.float32)
+        contact[name] = ("pressure", "x", "y"), halved
     measures = {"area_fraction": find_area, "mean_gap": lambda state: state.mean_gap}
     for name, measure in measures.items():
-        values, coarser = (np.array([measure(state) for state in grid]) for grid in (fine, coarse))
-        data[name] = "pressure", values
-        data[f"{name}_discretisation_error"] = "pressure", find_error(values, coarser)
+        on_fine = np.array([measure(state) for state in fine])
+        on_coarse = np.array([measure(state) for state in coarse])
+        contact[name] = "pressure", on_fine
+        contact[f"{name}_discretisation_error"] = "pressure", find_error(on_fine, on_coarse)
     for name in ("residual", "iterations"):
-        data[name] = "pressure", [getattr(state, name) for state in fine]
-    data = data.assign(
+        contact[name] = "pressure", [getattr(state, name) for state in fine]
+    contact = contact.assign(
         heights=(("x", "y"), np.float32(halve(rough.heights))),
         mean_pressure=("pressure", loads),
         q0=q0,
-        h_rms=h_rms,
+        h_rms=rough.h_rms,
         rms_slope=slope,
         shortest_wavelength=rough.shortest_wavelength,
         cutoff_wavelength=2 * np.pi / q_cutoff,
         change=rough.change,
     )
-    data = data.assign_coords({"pressure": loads / (q0 * h_rms), **rough.centres(2)})
+    contact = contact.assign_coords(
+        {"pressure": loads / (q0 * rough.h_rms), **rough.centres(2)}
+    ).assign_attrs(left_out="", measurement="")
     for name in (*fields, "heights"):
-        data[name].encoding = {"zlib": True}
+        contact[name].encoding = {"zlib": True}
     texts = {
         "residual": ("1", "complementarity residual over h_rms"),
         "iterations": ("1", "conjugate gradient iterations"),
     }
-    data = data.assign_attrs(left_out="", measurement="")
-    return _describe(data, CONTACT_TOLERANCE, **texts)
+    return _describe(contact, CONTACT_TOLERANCE, **texts)
 
 
-def _describe(data: xr.Dataset, tolerance: float, **texts: tuple[str, str]) -> xr.Dataset:
+def _describe(states: xr.Dataset, tolerance: float, **texts: tuple[str, str]) -> xr.Dataset:
     """Describe the variables, and say of every state whether it is solved to the tolerance."""
-    data["converged"] = (data.residual <= tolerance).astype("i1")
+    states["converged"] = (states.residual <= tolerance).astype("i1")
     converged = f"1 where the residual is at most {tolerance:g}, 0 where there is no state"
-    texts["converged"] = ("1", converged)
-    known = {name: text for name, text in (TEXTS | texts).items() if name in data.variables}
-    return datasets.annotate(data, **known)
+    texts |= TEXTS | {"converged": ("1", converged)}
+    return datasets.annotate(
+        states, **{name: texts[name] for name in texts if name in states.variables}
+    )
 
 
 def find_area(contact: Contact) -> float:
@@ -281,23 +292,17 @@ def separate(
     material: Material,
     q0: float,
     q1: float,
-    squeeze: float = SQUEEZE,
     simulated: SimulatedHeights | None = None,
 ) -> xr.Dataset:
     """States of approach, squeeze and separation of `PeriodicHeights`.
 
-    `q0` and `q1` [1/m] are the ends of the spectrum judged; `squeeze` is over E* q0 h_rms;
-    `simulated` are the states on which the verdict rests, if any.
+    `q0` and `q1` [1/m] are the ends of the spectrum judged; `simulated` are the states on which the
+    verdict rests, if any.
     """
-    h_rms = float(np.std(rough.heights))
     modulus = material.plane_strain_modulus
-    adhesion_length = material.work_of_adhesion / modulus
-    simulated_range = find_resolved_range(rough, material, adhesion_length)
-    predicted = predict_resolved(
-        rough, material, adhesion_length, simulated_range, q0, simulated=simulated
-    )
-    law = LAWS[material.law](adhesion_length, simulated_range)
-    squeeze_pressure = squeeze * q0 * h_rms
+    law = find_resolved_law(rough, material)
+    predicted = predict_resolved(rough, material, law, q0, simulated)
+    squeeze_pressure = SQUEEZE * q0 * rough.h_rms
     measured = simulate(rough, law, material.solid, squeeze_pressure)
     gaps = np.array([point.state.gap for point in measured.points])
     zones = np.select([gaps <= 0, gaps <= law.range], [TOUCHING, ATTRACTED], OPEN).astype("u1")
@@ -314,11 +319,11 @@ def separate(
             "jumps": measured.jumps,
             "modulus": modulus,
             "work_of_adhesion": material.work_of_adhesion,
-            "range": simulated_range,
+            "range": law.range,
             "material_range": material.range,
-            "zone_width": q0 * law.maugis_range**2 / adhesion_length,
+            "zone_width": q0 * law.maugis_range**2 / law.adhesion_length,
             "energy_ratio": predicted.energy_ratio,
-            "h_rms": h_rms,
+            "h_rms": rough.h_rms,
             "shortest_wavelength": rough.shortest_wavelength,
             "judged_wavelength": 2 * np.pi / q1,
             "squeeze_pressure": squeeze_pressure * modulus,
@@ -335,47 +340,43 @@ def separate(
     return add_quoted(dataset, measured, predicted, modulus)
 
 
-def find_resolved_range(
-    rough: PeriodicHeights, material: Material, adhesion_length: float
-) -> float:
-    """Range of the attraction [m]: the material's, or the shortest that the grid resolves."""
+def find_resolved_law(rough: PeriodicHeights, material: Material) -> TractionLaw:
+    """Attraction at the material's range, or the shortest that the grid resolves."""
+    adhesion_length = material.work_of_adhesion / material.plane_strain_modulus
     pixel = rough.sides[0] / rough.heights.shape[0]
     strength = float(find_strength(material.law))
     # The cohesive zone, range^2/(adhesion length), spans enough pixels.
     shortest = strength * np.sqrt(PIXELS_IN_ZONE * pixel * adhesion_length)
     simulated_range = max(material.range, shortest)
-    h_rms = float(np.std(rough.heights))
-    if simulated_range > h_rms:
+    if simulated_range > rough.h_rms:
         raise LeftOutError(
             f"the shortest range that the grid resolves, {amount(simulated_range, 'm', 2)}, is "
-            f"longer than the rms height, {amount(h_rms, 'm', 2)}"
+            f"longer than the rms height, {amount(rough.h_rms, 'm', 2)}"
         )
-    return simulated_range
+    return LAWS[material.law](adhesion_length, simulated_range)
 
 
 def predict_resolved(
     rough: PeriodicHeights,
     material: Material,
-    adhesion_length: float,
-    simulated_range: float,
+    law: TractionLaw,
     q0: float,
-    simulated: SimulatedHeights | None = None,
+    simulated: SimulatedHeights | None,
 ) -> Prediction:
     """What the model predicts for the heights and the range that are simulated."""
-    spectrum = periodic.shells(rough.heights, rough.sides)
     predicted = remaining.predict(
-        spectrum,
-        adhesion_length,
-        simulated_range,
+        periodic.shells(rough.heights, rough.sides),
+        law.adhesion_length,
+        law.range,
         q0,
-        material.solid,
-        material.law,
+        solid=material.solid,
+        law=material.law,
         simulated=simulated,
     )
     if predicted.separation_limits[1] < LEAST_SHOWN:
         raise LeftOutError(
             f"the model predicts that less than {percent(LEAST_SHOWN)} of the work of adhesion "
-            f"remains, even at a range of {amount(simulated_range, 'm', 2)}, the shortest that the "
+            f"remains, even at a range of {amount(law.range, 'm', 2)}, the shortest that the "
             "grid resolves"
         )
     return predicted

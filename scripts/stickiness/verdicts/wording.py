@@ -92,9 +92,9 @@ def tell_modulus(cell: xr.Dataset) -> str:
     return f"{name_modulus(cell)} = {amount(float(cell.quoted_modulus), 'Pa')}"
 
 
-def tell_threshold(cell: xr.Dataset, name: str = "modulus_threshold") -> str:
+def tell_threshold(cell: xr.Dataset) -> str:
     """Modulus below which a pair sticks, with its limits; "any" or "none" where no number is."""
-    value, low, high = read_limited(cell[name])
+    value, low, high = read_limited(cell.modulus_threshold)
     symbol = name_modulus(cell)
     if low > MOST_STRESS:
         return "any"
@@ -155,22 +155,13 @@ def tell_dwell(cell: xr.Dataset) -> str:
     )
 
 
-def tell_moment(cell: xr.Dataset) -> str:
-    """Rate at which, or dwell after which, a pair is judged; empty of an elastic solid."""
-    return _tell_moment(bool(cell.depends_on_rate), float(cell.dwell))
-
-
-def tell_material_moment(material: Material) -> str:
-    """The same of a material."""
-    return _tell_moment(material.depends_on_rate, material.dwell or np.nan)
-
-
-def _tell_moment(depends_on_rate: bool, dwell: float) -> str:
-    if not depends_on_rate:
+def tell_moment(judged: xr.Dataset | Material) -> str:
+    """Rate at which, or dwell after which, a pair or a material is judged; empty if elastic."""
+    if not judged.depends_on_rate:
         return ""
-    if np.isnan(dwell):
+    if judged.dwell is None or np.isnan(judged.dwell):
         return f"at {amount(REFERENCE_FREQUENCY, 'Hz')}"
-    return f"after {duration(dwell)} of dwell"
+    return f"after {duration(float(judged.dwell))} of dwell"
 
 
 def tell_rates(cell: xr.Dataset) -> str:
@@ -228,8 +219,8 @@ def tell_widest(cell: xr.Dataset) -> str:
 
 def tell_doubt(doubt: str) -> str:
     """A doubt as readers see it: names of quantities without underscores."""
-    name, equals, rest = doubt.partition(" = ")
-    return f"{name.replace('_', ' ')}{equals}{rest}" if name in LIMITS else doubt
+    quantity, _, _ = doubt.partition(" = ")
+    return doubt.replace(quantity, quantity.replace("_", " "), 1) if quantity in LIMITS else doubt
 
 
 def tell_verdict(cell: xr.Dataset) -> str:
@@ -244,33 +235,35 @@ def is_judged(cell: xr.Dataset) -> bool:
 
 def describe_material(material: Material) -> str:
     """Properties of a material for readers: modulus, layer, skin and roughness."""
-    parts = [_describe_modulus(material)]
+    properties = [_describe_modulus(material)]
     if material.poisson_ratio is not None and not material.is_plane_strain:
-        parts.append(f"ν = {number(material.poisson_ratio)}")
+        properties.append(f"ν = {number(material.poisson_ratio)}")
     solid = material.solid
     if isinstance(solid, Layer):
         slips = ", free to slip" if solid.backing == "slip" else ""
-        backing = _describe_backing(material, solid)
-        parts.append(f"{amount(solid.thickness, 'm')} thick{slips} {backing}")
+        backing = "on a rigid base"
+        if isinstance(solid.backing, Film):
+            modulus = solid.backing.modulus_ratio * material.quoted_modulus
+            film = f"{amount(solid.backing.thickness, 'm')} and {amount(modulus, 'Pa')}"
+            backing = f"on a film of {film}"
+        properties.append(f"{amount(solid.thickness, 'm')} thick{slips} {backing}")
     if isinstance(solid, Skin):
         modulus = solid.modulus_ratio * material.quoted_modulus
         thickness = amount(solid.thickness, "m")
-        parts.append(f"under a skin of {thickness} and {amount(modulus, 'Pa')}")
+        properties.append(f"under a skin of {thickness} and {amount(modulus, 'Pa')}")
     if material.surface is not None:
-        parts.append(f"rough itself, {amount(material.surface.rms_height, 'm')} rms")
-    return ", ".join(parts)
+        properties.append(f"rough itself, {amount(material.surface.rms_height, 'm')} rms")
+    return ", ".join(properties)
 
 
 def _describe_modulus(material: Material) -> str:
     """Modulus of a material as it was given: a number, a series or a table."""
     modulus = material.stated_modulus
     if isinstance(modulus, Table):
+        table = list(zip(modulus.frequencies, modulus.moduli, strict=True))
         ends = [
             f"{amount(float(stiffness), 'Pa')} at {amount(float(frequency), 'Hz')}"
-            for frequency, stiffness in (
-                (modulus.frequencies[0], modulus.moduli[0]),
-                (modulus.frequencies[-1], modulus.moduli[-1]),
-            )
+            for frequency, stiffness in (table[0], table[-1])
         ]
         return f"E′ = {' … '.join(ends)}"
     if isinstance(modulus, Prony):
@@ -279,12 +272,3 @@ def _describe_modulus(material: Material) -> str:
         return f"E = {amount(modulus.equilibrium, 'Pa')} at rest, {terms}"
     symbol = "E*" if material.is_plane_strain else "E"
     return f"{symbol} = {amount(float(modulus), 'Pa')}"
-
-
-def _describe_backing(material: Material, layer: Layer) -> str:
-    """What a layer lies on."""
-    if isinstance(layer.backing, Film):
-        film = layer.backing
-        modulus = film.modulus_ratio * material.quoted_modulus
-        return f"on a film of {amount(film.thickness, 'm')} and {amount(modulus, 'Pa')}"
-    return "on a rigid base"

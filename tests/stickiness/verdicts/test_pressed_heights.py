@@ -51,7 +51,7 @@ def separate(material=GEL, h_rms=2e-6):
     h = surface.synthesise(s, n=64, length=2 * np.pi, seed=2)
     heights = Topography(h, SIDE / 64, SIDE / 64, "here")
     rough = pressed_heights.prepare(MeasuredMap(heights, Q1), 64)
-    return pressed_heights.separate(rough, material, q0=Q0, q1=Q1, squeeze=0.1)
+    return pressed_heights.separate(rough, material, q0=Q0, q1=Q1)
 
 
 @pytest.fixture(scope="module")
