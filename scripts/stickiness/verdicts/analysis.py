@@ -42,7 +42,6 @@ PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
 READING_POINTS = 100  #: along a side of the picture of the heights as read
 FEWEST_STEPS = 2  #: of the grid, over which a slope is taken: half of the shortest wave fitted
 LEFT_OUT = "left out of the spectrum"
-IGNORED = "judged all the same (plausibility: ignore)"
 
 
 def analyse(
@@ -83,17 +82,18 @@ def analyse(
     # Doubts: heights that no instrument measures, of which most other doubts follow; no fit, or a
     # fit that no surface has.
     is_end_told = extend_to is not None
-    doubts = [*doubt_fit(fit, is_end_told)] if is_fitted else unfitted.copy()
-    if doubts:
-        doubts = _find_patterns(heights) or doubts
-    doubts = [*(doubt for each in heights for doubt in each.doubts), *doubts]
+    doubts = [doubt for each in heights for doubt in each.doubts]
+    about_fit = list(doubt_fit(fit, is_end_told)) if is_fitted else unfitted
+    if about_fit:
+        doubts += _find_patterns(heights) or about_fit
+    not_judged = [] if ignore_doubts else doubts
+
     # Without a fit there is no law that goes on.
     q_extended = 2 * np.pi / extend_to if is_end_told and is_fitted else None
     end_of_grid = np.pi / max(heights[0].steps)
     if q_extended is not None and q_extended <= end_of_grid * (1 + 1e-9):
         # Whoever tells that the waves end within the grid says that the heights hold all of them.
         spectrum = replace(spectrum, held=Cutoff(end_of_grid, "as given (extend_to)"))
-    not_judged = [] if ignore_doubts else doubts
 
     # Spectra that agree with the measured one, with waves that the instrument does not resolve.
     draws = stitching.draw(
@@ -104,18 +104,7 @@ def analyse(
         continue_to=2 * np.pi / stitching.SHORTEST_WAVE,
         steepest=LIMITS["rms_slope"].usual,
     )
-    dataset = xr.merge(
-        [
-            _tabulate_spectrum(spectrum, draws.continuation, q_extended),
-            _thin_picture(heights[0]),
-            _thin_reading(heights[0]),
-            _describe_fit(spectrum, q_extended),
-            _describe_heights(measurements, spectrum),
-            _tabulate_draws(draws),
-        ]
-    )
-    if isinstance(spectrum, stitching.Stitched):
-        dataset = dataset.merge(_compare_measurements(spectrum))
+    dataset = _tabulate(heights, spectrum, draws, q_extended)
 
     # Contact on the heights themselves.
     simulated = None if not_judged else simulate_surface(measurements, spectrum)
@@ -124,21 +113,51 @@ def analyse(
     if contact is not None:
         dataset = lengthen(dataset, contact)
     dataset = _add_budgets(describe_variables(dataset), fit)
-    remarks = [f"{LEFT_OUT}: {doubt}" for doubt in unfitted if is_fitted]
-    remarks += [f"{IGNORED}: {doubt}" for doubt in doubts if not not_judged]
-    remarks += [remark for each in heights for remark in each.remarks]
-    if q_extended is None and not doubts:
-        remarks += _remark_on_exponent(fit)
-    # What a larger contact adds.
-    remarks += dataset.attrs.get("remarks", "").splitlines()
+    ignored = doubts if ignore_doubts else []
+    remarks = [
+        *(f"{LEFT_OUT}: {doubt}" for doubt in unfitted if is_fitted),
+        *(f"judged all the same (plausibility: ignore): {doubt}" for doubt in ignored),
+        *(remark for each in heights for remark in each.remarks),
+        *([] if doubts or q_extended is not None else _remark_on_exponent(fit)),
+        *dataset.attrs.get("remarks", "").splitlines(),  # of a larger contact
+    ]
     return dataset.assign_attrs(
         remarks="\n".join(remarks),
         cutoff=spectrum.cutoff.reason,
-        files="; ".join(each.source for each in heights),
-        contradictions="\n".join(text for each in heights for text in each.contradictions),
-        choices="\n".join(f"{h.source} | {', '.join(h.others)}" for h in heights if h.others),
+        **_describe_files(heights),
         not_judged="\n".join(not_judged),
     )
+
+
+def _tabulate(
+    heights: Sequence[Topography | Profile],
+    spectrum: MeasuredSpectrum,
+    draws: stitching.Draws,
+    q_extended: float | None,
+) -> xr.Dataset:
+    """Variables of the spectrum, its draws and the heights."""
+    return xr.merge(
+        [
+            _tabulate_spectrum(spectrum, draws.continuation, q_extended),
+            _thin_picture(heights[0]),
+            _thin_reading(heights[0]),
+            _describe_fit(spectrum, q_extended),
+            _describe_heights(heights, spectrum),
+            _tabulate_draws(draws),
+            _compare_measurements(spectrum),
+        ]
+    )
+
+
+def _describe_files(heights: Sequence[Topography | Profile]) -> dict[str, str]:
+    """Which files hold the heights, where the user contradicts them, and what else they hold."""
+    return {
+        "files": "; ".join(each.source for each in heights),
+        "contradictions": "\n".join(line for each in heights for line in each.contradictions),
+        "choices": "\n".join(
+            f"{each.source} | {', '.join(each.others)}" for each in heights if each.others
+        ),
+    }
 
 
 def _remark_on_exponent(fit: SelfAffineFit) -> list[str]:
@@ -187,13 +206,15 @@ def _tabulate_spectrum(
         ]
         error = np.append(error[inside], continued.std(axis=0))
     fitted = (q >= fit.q_min * (1 - 1e-9)) & (q <= fit.q_max * (1 + 1e-9))
-    data = {
-        "psd": (("end", "wave_number"), psd),
-        "psd_standard_error": ("wave_number", error),
-        "psd_fit": ("wave_number", fit.psd(q)),
-        "fitted": ("wave_number", fitted.astype("i1")),
-    }
-    return xr.Dataset(data, coords={"end": list(ENDS), "wave_number": q})
+    return xr.Dataset(
+        {
+            "psd": (("end", "wave_number"), psd),
+            "psd_standard_error": ("wave_number", error),
+            "psd_fit": ("wave_number", fit.psd(q)),
+            "fitted": ("wave_number", fitted.astype("i1")),
+        },
+        coords={"end": list(ENDS), "wave_number": q},
+    )
 
 
 def _thin_picture(heights: Topography | Profile) -> xr.DataArray:
@@ -256,10 +277,9 @@ def _find_kept(spectrum: MeasuredSpectrum) -> float:
 
 
 def _describe_heights(
-    measurements: Sequence[Measurement], spectrum: MeasuredSpectrum
+    every: Sequence[Topography | Profile], spectrum: MeasuredSpectrum
 ) -> xr.Dataset:
     """Parameters of the first heights, the shape of the highest, and what is missing of all."""
-    every = [measurement.heights for measurement in measurements]
     first = every[0]
     # The largest rms height is that of the longest waves, whose shape decides.
     highest = max(every, key=lambda heights: heights.h_rms)
@@ -287,7 +307,7 @@ def _describe_heights(
 
 def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
     """Both ends of every moment, and the draws themselves for what depends on several moments."""
-    data = {
+    tabulated = {
         "unresolved_energy": ("end", np.quantile(draws.unresolved, END_QUANTILES)),
         "q0_draws": ("draw", draws.q0),
         "beyond_energy": ("end", np.quantile(draws.beyond, END_QUANTILES)),
@@ -301,27 +321,29 @@ def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
         "long_variance_draws": ("draw", draws.long_variance),
         "long_energy_draws": ("draw", draws.long_energy),
     }
-    for name, values in draws.moments.items():
-        data[name] = ("end", draws.quantiles(name, END_QUANTILES))
-        data[f"{name}_draws"] = ("draw", values)
-    return xr.Dataset(data, coords={"draw": np.arange(DRAWS)})
+    for name, of_draws in draws.moments.items():
+        tabulated[name] = ("end", draws.quantiles(name, END_QUANTILES))
+        tabulated[f"{name}_draws"] = ("draw", of_draws)
+    return xr.Dataset(tabulated, coords={"draw": np.arange(DRAWS)})
 
 
-def _compare_measurements(spectrum: stitching.Stitched) -> xr.Dataset:
-    """Spectrum of every measurement, and how far they differ."""
+def _compare_measurements(spectrum: MeasuredSpectrum) -> xr.Dataset:
+    """Spectrum of every measurement, and how far they differ; nothing of one measurement."""
+    if not isinstance(spectrum, stitching.Stitched):
+        return xr.Dataset()
     places = {
         "measurement": np.arange(len(spectrum.levels)),
         "wave_number_measured": spectrum.rings.q,
     }
-    data = {
+    compared = {
         "psd_measurement": (tuple(places), spectrum.levels),
         "offset": ("measurement", spectrum.offsets),
         "is_used": ("measurement", spectrum.shares.any(axis=1).astype("i1")),
         "scatter": spectrum.scatter,
     }
     if spectrum.gaps:
-        data["gap"] = (("gap_between", "side"), [gap.inside for gap in spectrum.gaps])
-    return xr.Dataset(data, coords=places)
+        compared["gap"] = (("gap_between", "side"), [gap.inside for gap in spectrum.gaps])
+    return xr.Dataset(compared, coords=places)
 
 
 def _add_budgets(dataset: xr.Dataset, fit: SelfAffineFit) -> xr.Dataset:
@@ -330,9 +352,9 @@ def _add_budgets(dataset: xr.Dataset, fit: SelfAffineFit) -> xr.Dataset:
     errors = {"hurst": fit.hurst_se, "C0_reference": reference_error}
     if fit.q_rolloff is not None:
         errors["q_rolloff"] = fit.q_rolloff_se
-    parts = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
-    parts["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
+    sources = dict.fromkeys(SOURCES, not_applicable("of the band that was fitted"))
+    sources["model"] = not_applicable("the law is what is quoted; its misfit stands beside")
     for name, error in errors.items():
-        parts["sampling"] = ErrorComponent(COVERS * error, "of the spectrum measured")
-        dataset = with_budget(dataset, name, **parts)
+        sources["sampling"] = ErrorComponent(COVERS * error, "of the spectrum measured")
+        dataset = with_budget(dataset, name, **sources)
     return dataset

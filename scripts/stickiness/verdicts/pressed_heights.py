@@ -408,12 +408,14 @@ def add_quoted(
 ) -> xr.Dataset:
     """Add works and pull-off with their limits, simulated and by the model."""
     sources = (("", "", measured), ("predicted_", ", by the model", predicted))
-    for name, text in QUOTED.items():
-        scale, unit = (modulus, "Pa") if name == "pull_off" else (1.0, "1")
+    for name, description in QUOTED.items():
+        is_stress = name == "pull_off"
+        scale = modulus if is_stress else 1.0
+        unit = "Pa" if is_stress else "1"
         for prefix, by_whom, source in sources:
             low, high = getattr(source, f"{name}_limits")
             limited = np.array([low, getattr(source, name), high])
             dataset[f"{prefix}{name}"] = "limit", scale * limited
-            datasets.annotate(dataset, **{f"{prefix}{name}": (unit, text + by_whom)})
+            datasets.annotate(dataset, **{f"{prefix}{name}": (unit, description + by_whom)})
     dataset = dataset.assign_coords(limit=list(LIMITS))
     return datasets.annotate(dataset, limit=LIMIT_TEXT)
