@@ -101,7 +101,8 @@ def combinations(adhesion, pixel, full):
 def states(grids, length, adhesion, chosen, loosest=LOOSEST):
     """Solve the adhesive states on grids from coarse to fine, NaN where none is chosen.
 
-    Returns a dataset for each grid, which also holds the DMT sum.
+    Returns a dataset for each grid, which also holds the DMT sum. Grids have to resolve the edges
+    of contact, as `combinations` sees to: else the coarser grid starts states too close to contact.
     """
     pressures = axes(adhesion)[0]
     tolerance = min(adhesion_sets.TIGHTEST, loosest)

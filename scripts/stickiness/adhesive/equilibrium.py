@@ -18,6 +18,7 @@ from stickiness.repulsive import solver
 from stickiness.repulsive.active_set import PREDICTION, Problem
 from stickiness.repulsive.convolution import count_points
 from stickiness.repulsive.half_space import coarsen, interpolate, sample
+from stickiness.solids import Film, Skin
 
 _FEW_ITERATIONS = 8  # iterations below which convergence says little about stability
 _MAX_PROBES = 30
@@ -142,14 +143,20 @@ def _surely_stable(problem, state):
     """Whether elasticity surely holds open points more than the law softens, at a mean gap.
 
     In any mode, the work of softening over that of elasticity is at most the largest displacement
-    under a pressure that equals the softening (Schur's test). The preconditioner gives it, but for
-    its shift, which stiffens long waves.
+    under a pressure that equals the softening (Schur's test), if no pressure lifts any point. The
+    preconditioner gives that displacement, but for its shift, which stiffens long waves.
     """
     if problem.mean_gap is None:
         return False
     smoother = problem.smoother
     softest = min(smoother.shift, np.pi / max(problem.sides))
-    give = smoother.apply(_softening(problem, state).astype(np.float32))
+    softening = _softening(problem, state)
+    if float(softening.max()) < softest:
+        return True
+    # Around what presses on a skin, or on a layer on a film, the surface may rise.
+    if isinstance(problem.solid, Skin) or isinstance(getattr(problem.solid, "backing", None), Film):
+        return False
+    give = smoother.apply(softening.astype(np.float32))
     return float(give.max()) * (1 + smoother.shift / softest) < 1
 
 

@@ -65,7 +65,7 @@ _ENERGY = np.exp(-_DECAY)
 # The inverse of -ln F, from full contact on.
 _FINE_GAPS = np.geomspace(_GAPS[0], _GAPS[-1], 500)
 _FINE_LOG_DECAY = np.log(decay_energy(_FINE_GAPS)[0])
-# Search for the steepest rise of a tough contact's energy: by 1000 random contacts within 0.1 %.
+# Search for the steepest rise of a tough contact's energy: by random contacts within 0.15 %.
 _TRIALS = 12
 _ZOOMS = 5
 

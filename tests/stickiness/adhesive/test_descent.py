@@ -14,6 +14,13 @@ from stickiness.solids import HALF_SPACE
 
 pytestmark = pytest.mark.processors
 
+SOLIDS = (
+    HALF_SPACE,
+    solids.Layer(thickness=0.1, poisson=0.45),
+    solids.Layer(0.01, 0.5, solids.Film(10.0, 0.3, 0.02)),
+    solids.Skin(0.01, 1e-3, 0.5, 0.5),
+)
+
 
 @pytest.mark.parametrize("shape", [(64, 48), (63, 48), (2, 64)])
 def test_the_preconditioner_nearly_inverts_the_stiffness(shape):
@@ -33,21 +40,26 @@ def test_the_preconditioner_nearly_inverts_the_stiffness(shape):
 
 
 @pytest.mark.parametrize("shape", [(12, 12), (24, 6), (6, 24), (9, 12)])
-@pytest.mark.parametrize("solid", [HALF_SPACE, solids.Layer(thickness=0.1, poisson=0.45)])
+@pytest.mark.parametrize("solid", SOLIDS)
 def test_what_counts_as_surely_stable_is_stable(shape, solid):
     """Against the eigenvalues of the energy's curvature, from weak adhesion to strong."""
     random = np.random.default_rng(4)
     sides = (1.0, shape[1] / shape[0])
     judged = []
-    for strength in np.geomspace(0.1, 300, 150):
+    softest = Smoother(shape, sides, solid).shift
+    for strength in softest * np.geomspace(0.03, 100, 150):
         law = adhesive.Exponential(adhesion_length=strength, range=1.0)
         problem = Problem(np.zeros(shape), sides, law, 1.0, solid=solid, mean_gap=1.0)
-        # Half of the cell, along its longer side, is near; or a random part touches.
-        gap = np.maximum(random.normal(0.5, 1.0, shape), 0.0)
-        if random.random() < 0.5:
-            place = np.indices(shape)[np.argmax(shape)]
-            gap = np.where(place < max(shape) / 2, 0.1, 4.0)
-        state = problem.state(gap)
+        # A random part touches; or half of the cell, along its longer side, is near, or a pixel.
+        pixel = np.full(shape, 4.0)
+        pixel[1, 1] = 0.1
+        place = np.indices(shape)[np.argmax(shape)]
+        gaps = (
+            np.maximum(random.normal(0.5, 1.0, shape), 0.0),
+            np.where(place < max(shape) / 2, 0.1, 4.0),
+            pixel,
+        )
+        state = problem.state(gaps[random.integers(3)])
         # Curvature of the energy for changes of open gaps that keep their mean.
         points = np.eye(state.gap.size).reshape(-1, *shape)
         curvature = np.array([problem.exact.stiffness(point).ravel() for point in points])
@@ -59,8 +71,8 @@ def test_what_counts_as_surely_stable_is_stable(shape, solid):
         surely = equilibrium._surely_stable(problem, state)
         assert stable or not surely
         judged.append((surely, stable))
-    # At least a third of the stable states are known to be.
-    assert sum(stable for _, stable in judged) <= 3 * sum(surely for surely, _ in judged)
+    # At least a quarter of the stable states are known to be.
+    assert sum(stable for _, stable in judged) <= 4 * sum(surely for surely, _ in judged)
     assert not all(stable for _, stable in judged)
 
 
