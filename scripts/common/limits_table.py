@@ -6,6 +6,21 @@ OF_TOPOGRAPHY = ("set", "role", "family", "hurst", "points", "waves", "shortest"
 SHARES = {"3": 0.03, "10": 0.1, "30": 0.3, "60": 0.6}  # of thresholds, by the ends of their names
 OF_QUARTERS = ("10", "30")  # thresholds that are kept of the quarters of a patch
 JUDGED = ("10", "30")  # thresholds that are judged for a larger contact
+#: Kinds of predictions as pages and figures name them.
+NAMES = {
+    "spectrum": "spectrum",
+    "two waves": "cell 2 × 2",
+    "one wave": "cell 1 × 1",
+    "skewness": "with skewness",
+    "layer": "layer",
+    "film": "layer on a film",
+    "thin": "thin layer",
+    "skin": "skin",
+    "patch": "map",
+    "larger": "larger contact",
+    "larger non-Gaussian": "larger, not Gaussian",
+    "ball": "ball",
+}
 #: Columns of the tables by their kind.
 COLUMNS = {
     "solids": (

@@ -1,6 +1,7 @@
 """Limits of what remains: how far simulations lie from predictions, by kind of prediction."""
 
 from dataclasses import replace
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context
 from itertools import chain
 from typing import NamedTuple
 
@@ -8,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from common import limits_table
 from common.conventions import annotate
 from common.job import start
 from common.model_surfaces import make_heights
@@ -101,10 +103,19 @@ def main(job):
 
 
 def describe(comparison, spread, quantity=None):
-    """Row of the table; `spread` is value, low, high."""
+    """Row of the table; `spread` is value, low, high, which are rounded to four digits.
+
+    Limits are rounded outwards: the row that sets a limit would else lie beyond it.
+    """
+    rounded = [
+        float(Context(prec=4, rounding=rounding).create_decimal(repr(float(each))))
+        for each, rounding in zip(
+            spread, (ROUND_HALF_EVEN, ROUND_FLOOR, ROUND_CEILING), strict=True
+        )
+    ]
     counts = [int((comparison.rows.role == role).sum()) for role in ROLES]
     quantity = quantity or comparison.quantity
-    return (comparison.kind, quantity, *spread, *counts, comparison.source)
+    return (comparison.kind, quantity, *rounded, *counts, comparison.source)
 
 
 def describe_fit(fit):
@@ -201,7 +212,7 @@ def fit_balls(balls):
     good = np.array(SUMMITS)[slopes <= NEARLY_LEAST * slopes.min()]
     best = SUMMITS[slopes.argmin()]
     fit = fit_forces(resolved, best)
-    hard = replace(fit.comparison, rows=balls[balls.tabor < HARD])
+    hard = fit.comparison.where(fit.comparison.rows.tabor < HARD)
     row = describe(hard, (best, good.min(), good.max()), "summits")
     return fit._replace(others=(row,))
 
@@ -312,7 +323,16 @@ def summarise(fits, heights, solids):
             judged = ("", "", "")
             if comparison.kind in of_kinds:
                 judged = judge_role(of_kinds[comparison.kind], role)
-            lines.append((comparison.kind, role, str(chosen.sum()), inside, factor, *judged))
+            lines.append(
+                (
+                    limits_table.NAMES[comparison.kind],
+                    role,
+                    str(chosen.sum()),
+                    inside,
+                    factor,
+                    *judged,
+                )
+            )
     columns = ("by", "rows", "number", "inside", "high/low w", "mean width of S")
     return table((*columns, "decided", "false"), lines)
 

@@ -3,24 +3,11 @@
 import numpy as np
 
 from common.job import start
+from common.limits_table import NAMES
 from stickiness import datasets
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLUE, GREY, RED
 
-LABELS = {
-    "spectrum": "spectrum",
-    "two waves": "cell 2 × 2",
-    "one wave": "cell 1 × 1",
-    "skewness": "with skewness",
-    "layer": "layer",
-    "film": "layer on a film",
-    "thin": "thin layer",
-    "skin": "skin",
-    "patch": "map",
-    "larger": "larger contact",
-    "larger non-Gaussian": "not Gaussian",
-    "ball": r"ball: $\sqrt{\ln(F_0/F)}$",
-}
 LEAST = 0.01  # error of ln w that is shown, of those that are smaller
 HIGHEST = 8  # above all errors
 SPREAD = 0.28  # half the width of a column of points
@@ -39,7 +26,7 @@ def main(job):
 def draw_kinds(ax, unseen):
     """Errors of all kinds of predictions, above and below their limits."""
     rng = np.random.default_rng(1)
-    for place, kind in enumerate(LABELS):
+    for place, kind in enumerate(NAMES):
         rows = unseen[unseen.kind == kind]
         is_inside = rows.needed <= rows.limit
         drawn = rows.sample(min(MOST, len(rows)), random_state=1)
@@ -49,11 +36,11 @@ def draw_kinds(ax, unseen):
         ax.bar(place, high - low, 0.8, bottom=low, color=GREY, alpha=0.35, linewidth=0)
         ax.plot([place - 0.4, place + 0.4], [middle, middle], color="black")
         ax.text(place, HIGHEST, f"{100 * is_inside.mean():.0f}", ha="center", fontsize=7)
-    ax.text(len(LABELS) - 0.4, HIGHEST, " % inside", ha="left", fontsize=7)
-    limits = {"ylim": (LEAST / 1.3, 2 * HIGHEST), "xlim": (-0.7, len(LABELS) + 2.1)}
+    ax.text(len(NAMES) - 0.4, HIGHEST, " % inside", ha="left", fontsize=7)
+    limits = {"ylim": (LEAST / 1.3, 2 * HIGHEST), "xlim": (-0.7, len(NAMES) + 2.1)}
     ax.set(yscale="log", ylabel=ERROR, **limits)
     look = {"fontsize": 7, "rotation": 40, "ha": "right", "rotation_mode": "anchor"}
-    ax.set_xticks(range(len(LABELS)), LABELS.values(), **look)
+    ax.set_xticks(range(len(NAMES)), NAMES.values(), **look)
 
 
 def draw_patches(ax, rows):
