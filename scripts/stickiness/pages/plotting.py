@@ -128,7 +128,14 @@ def find_rings(surface):
     measured = (q <= cutoff) | (float(surface.q1) <= cutoff)
     for low, high in surface.gap.values if "gap" in surface else ():
         measured &= (q <= low) | (q >= high)
+    if is_larger(surface):  # waves longer than those of the fit are assumed
+        measured &= q >= q[surface.fitted.values == 1].min()
     return measured
+
+
+def is_larger(surface):
+    """Whether a measured surface is judged for a contact that is larger than its scan."""
+    return "contact" in surface and bool(surface.contact > surface.scan * (1 + 1e-9))
 
 
 def name_measurements(surface):

@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from stickiness.formatting import amount, number, quantity_with_error, with_error
-from stickiness.pages import contact_figure, interactive, surface_figures
+from stickiness.pages import contact_figure, interactive, plotting, surface_figures
 from stickiness.pages.rendering import TEMPLATES, embed_png, write_page
 from stickiness.pages.rows import describe_pair, describe_surface, explain
 from stickiness.statistics import COVERS
@@ -84,6 +84,7 @@ def write_surface_page(
         surface=surface,
         made=entry,
         sizes=describe_surface(surface),
+        is_larger=plotting.is_larger(surface),
         covers=COVERS,
         panels=panels,
         reading=reading,
