@@ -73,6 +73,8 @@ def answer() -> None:
             fail(f"{path}: {kind}; give a file" if path.exists() else f"{path}: no such file")
     if not options.no_page:
         check_output(options.output)
+    elif "--output" in {word.partition("=")[0] for word in arguments}:
+        fail("--output names the folder of the page: leave out --no-page, or --output")
     materials = read_materials(options)
     radius = None if options.radius is None else read_radius(options.radius, materials)
     surface, entry = analyse(options)

@@ -273,6 +273,7 @@ def test_another_tape_replaces_the_page(folder, first):
             ["wall#1.npy", *TAPE, "--thickness", "50 um", "--radius", "1 mm"],
             "--radius: the force of a ball needs an infinitely deep material",
         ),
+        (["wall#1.npy", *TAPE, "--output", "a", "--no-page"], "--output names the folder of the"),
         (["wall#1.npy", *TAPE, "--max-missing", "-.2"], "--max-missing -0.2: "),
         (
             ["wall#1.npy", *TAPE, "--max-missing", "10 %"],

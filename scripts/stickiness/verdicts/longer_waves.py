@@ -23,7 +23,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.formatting import amount
+from stickiness.formatting import amount, number
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_shape import HeightShape
 from stickiness.statistics import COVERS
@@ -154,8 +154,8 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
     scan = float(data.scan)
     if not contact >= scan * (1 - 1e-9):
         raise ValueError(
-            f"contact must be at least the side of the scan, {amount(scan, 'm')}, got "
-            f"{amount(contact, 'm')}: crop the heights to a smaller contact"
+            f"give contact as at least the side of the scan, {amount(scan, 'm')}, not as "
+            f"{amount(contact, 'm')}; for a smaller contact, crop the heights"
         )
     if contact <= scan * (1 + 1e-9):
         return data
@@ -213,12 +213,14 @@ def _explain_error(data: xr.Dataset, ratio: float, error: float) -> str:
     """Say why a scan tells little of a contact `ratio` times as large; empty unless it does."""
     if error <= find_spread("one wave", "ln_work").high:
         return ""
+    factor = number(np.exp(error), 2)
+    skewness = number(float(data.skewness), 2)
+    unevenness = number(np.exp(float(data.unevenness)), 2)
     return (
-        f"the heights are unlike Gaussian ones of even roughness (skewness "
-        f"{float(data.skewness):.2g}, scatter of the mean square slope among the quarters of the "
-        f"scan by a factor of {np.exp(float(data.unevenness)):.2g} more than of Gaussian heights "
-        f"in the mean), so that a contact {ratio:.2g} times as large as the scan may differ from "
-        f"it by a factor of {np.exp(error):.2g} in the work of adhesion"
+        f"this scan may not stand for a contact {number(ratio, 2)} times as large, which may need "
+        f"{factor} times more or less work of adhesion: the heights are unlike Gaussian ones of "
+        f"even roughness (skewness {skewness}; the mean square slope of the quarters differs by a "
+        f"factor of {unevenness} more than by chance)"
     )
 
 

@@ -144,7 +144,7 @@ def test_longer_waves_meet_a_layer_draw_by_draw():
 
 
 def test_a_contact_smaller_than_the_scan_is_an_error(patch):
-    with pytest.raises(ValueError, match="contact must be at least the side of the scan, 250 µm"):
+    with pytest.raises(ValueError, match="give contact as at least the side of the scan, 250 µm"):
         take_patch(seed=1, parts=4, contact=SIDE / 5)
 
 
