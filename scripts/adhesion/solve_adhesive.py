@@ -123,8 +123,8 @@ def states(grids, length, adhesion, chosen, loosest=LOOSEST):
 def states_at_load(heights, length, adhesion, contact, chosen, loosest, coarser):
     """Solve the states at the mean gap of one contact without adhesion.
 
-    Returns a dataset, and for each point that is solved the change of the gap by adhesion. That of
-    a grid half as fine, `coarser`, is where strong adhesion starts.
+    Returns a dataset, and the change of the gap by strong adhesion at every point that is solved.
+    That of a grid half as fine, `coarser`, is where strong adhesion starts.
     """
     _, lengths, ranges = axes(adhesion)
     units = [scaled_law(adhesion, adhesion["law"], 1.0, range_) for range_ in ranges.values]
@@ -140,7 +140,7 @@ def states_at_load(heights, length, adhesion, contact, chosen, loosest, coarser)
     weaker = {k: [(0.0, contact.gap)] for k in range(ranges.size)}
     for j, k in np.argwhere(solvable).tolist():
         law = scaled_law(adhesion, adhesion["law"], lengths.values[j], ranges.values[k])
-        if strong[j, k] and (j, k) in coarser:
+        if (j, k) in coarser:
             start = contact.gap + half_space.interpolate(coarser[j, k], heights.shape)
         else:
             start = extrapolate(weaker[k], law.adhesion_length)
@@ -149,7 +149,8 @@ def states_at_load(heights, length, adhesion, contact, chosen, loosest, coarser)
         for name in STATE:
             values[name][j, k] = getattr(state, adhesion_sets.ATTRIBUTES.get(name, name))
         weaker[k] = [weaker[k][-1], (law.adhesion_length, state.gap)]
-        closing[j, k] = state.gap - contact.gap
+        if strong[j, k]:
+            closing[j, k] = (state.gap - contact.gap).astype(np.float32)
     alone = {
         "area_alone": contact.area_fraction,
         "mean_gap": contact.mean_gap,
