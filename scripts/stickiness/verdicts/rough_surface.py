@@ -30,6 +30,7 @@ from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.solids import Solid
 from stickiness.spectrum.interface import Spectrum
 from stickiness.spectrum.kinds import SelfAffine
+from stickiness.units import Quantity
 from stickiness.verdicts import parametric
 from stickiness.verdicts.longer_waves import LARGER, lengthen
 from stickiness.verdicts.parametric import ENDS, MOMENTS
@@ -115,7 +116,7 @@ class Surface:
 
     @classmethod
     def from_heights(
-        cls, heights: ArrayLike, length: float | tuple[float, float], **options: Any
+        cls, heights: ArrayLike, length: float | str | tuple[float | str, ...], **options: Any
     ) -> Surface:
         """Analyse a map of heights.
 
@@ -123,8 +124,8 @@ class Surface:
         ----------
         heights : (nx, ny) array
             Heights [m], NaN or masked where nothing was measured; the first axis runs along x.
-        length : float or pair of floats
-            Side of the map, or its sides along x and y [m].
+        length : float or str, or a pair of them
+            Side of the map, or its sides along x and y: numbers in m or texts with a unit.
         **options
             Keys of a measured surface that do not tell how its file is read, see
             docs/configuration.md, such as `detrend`, `missing`, `resolution`, `extend_to` and
@@ -145,14 +146,14 @@ class Surface:
             raise ValueError(
                 f"length must be both sides of heights of the shape {heights.shape}, got {length!r}"
             )
-        sides = check_length(length, heights.shape)
+        sides = check_length(_in_metres(length), heights.shape)
         steps = tuple(a / n for a, n in zip(sides, heights.shape, strict=True))
         doubts = [doubt for each in dict.fromkeys(sides) for doubt in find_doubts(length=each)]
         doubts += doubt_pixels("heights", heights.shape, steps)
         return cls._from_array(heights, steps, options, doubts)
 
     @classmethod
-    def from_profile(cls, heights: ArrayLike, length: float, **options: Any) -> Surface:
+    def from_profile(cls, heights: ArrayLike, length: float | str, **options: Any) -> Surface:
         """Analyse a line profile of even steps.
 
         We assume that the surface is isotropic, and convert the spectrum of the profile.
@@ -161,8 +162,8 @@ class Surface:
         ----------
         heights : (n,) array
             Heights [m], NaN or masked where nothing was measured.
-        length : float
-            Length of the profile [m].
+        length : float or str
+            Length of the profile: a number in m or a text with a unit.
         **options
             As of `from_heights`.
         """
@@ -171,7 +172,7 @@ class Surface:
             raise ValueError(f"a profile must be an (n,) array, got the shape {heights.shape}")
         if heights.size < 16:
             raise ValueError(f"a profile must have at least 16 points, got {heights.size}")
-        length = side("length", length)
+        length = side("length", _in_metres(length))
         doubts = find_doubts(length=length)
         return cls._from_array(heights, length / heights.size, options, doubts)
 
@@ -501,3 +502,15 @@ def _describe_shells(spectrum: Spectrum) -> xr.Dataset:
         },
         coords={"end": list(ENDS), "wave_number": spectrum.q},
     )
+
+
+def _in_metres(length: Any) -> Any:
+    """Length, or each of several, where it is a text with a unit; else as it is."""
+    if isinstance(length, list | tuple):
+        return tuple(map(_in_metres, length))
+    if not isinstance(length, str):
+        return length
+    try:
+        return float(Quantity.read(length, "m"))
+    except ValueError as error:
+        raise ValueError(f"length {error}") from None

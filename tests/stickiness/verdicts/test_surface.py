@@ -54,6 +54,8 @@ def measured():
             "is in kg",
         ),
         (lambda: Surface.from_heights(np.ones((8, 8)), SIDE, channel=1), "channel: the key is unk"),
+        (lambda: Surface.from_heights(np.ones((8, 8)), "1"), "length '1' has no unit"),
+        (lambda: Surface.from_profile(np.ones(20), "1,5 mm"), "length '1,5 mm' holds a comma"),
         (
             lambda: Surface.from_heights(np.ones((8, 8)), SIDE, window="box"),
             "window must be one of",
