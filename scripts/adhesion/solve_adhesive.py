@@ -112,8 +112,15 @@ def states(grids, length, adhesion, chosen, loosest=LOOSEST):
         solved = []
         closing = {}
         for heights, contact in zip(grids, contacts, strict=True):
+            # The coarser grid starts the finer one.
             of_load, closing = states_at_load(
-                heights, length, adhesion, contact, chosen_here, loosest, closing
+                heights=heights,
+                length=length,
+                adhesion=adhesion,
+                contact=contact,
+                chosen=chosen_here,
+                loosest=loosest,
+                coarser=closing,
             )
             solved.append(of_load)
         by_load.append(solved)

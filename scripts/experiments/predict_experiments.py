@@ -5,7 +5,7 @@ middle, and all corners. Corners matter where two unknown inputs move a predicti
 """
 
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 from itertools import product
 
 import numpy as np
@@ -155,13 +155,19 @@ class Observation:
         """Pull-off of the sphere, low limit, value and high limit; None between flats."""
         if "radius" not in self.inputs:
             return None
-        radius = self.inputs["radius"][:, None]
-        given = (radius, pair.adhesion_length, pair.range)
+        pull_off = partial(
+            sphere.pull_off,
+            radius=self.inputs["radius"][:, None],
+            adhesion_length=pair.adhesion_length,
+            range=pair.range,
+        )
         summits = find_spread("ball", "summits").value
+        zone = pull_off(rough=sphere.narrow(pair.rough, waves=1.0, summits=summits)).zone_radius
+        # The longest waves across the zone.
+        waves = np.asarray(zone) * pair.q0 / np.pi
+        rough = sphere.narrow(pair.rough, waves=waves, summits=summits)
         error = find_spread("ball", "ln_force").high
-        zone = sphere.pull_off(sphere.narrow(pair.rough, 1.0, summits), *given).zone_radius
-        rough = sphere.narrow(pair.rough, np.asarray(zone) * pair.q0 / np.pi, summits)
-        return [sphere.pull_off(rough, *given, sign, error=error) for sign in SIGNS]
+        return [pull_off(rough=rough, deviation=sign, error=error) for sign in SIGNS]
 
 
 @dataclass(frozen=True)

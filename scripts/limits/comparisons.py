@@ -121,7 +121,9 @@ class ShareByTheory(Comparison):
     def needed(self) -> NDArray:
         """Least half-width in ln w, up to the largest tried, with which limits hold the share."""
         share = model(self.rows).share
-        low, high = (predict(share, self.rows, sign, error=HALF_WIDTHS) for sign in (-1, 1))
+        low, high = (
+            predict(share, self.rows, deviation=sign, error=HALF_WIDTHS) for sign in (-1, 1)
+        )
         simulated = self.simulated[:, None]
         holds = (low - ROUNDING <= simulated) & (simulated <= high + ROUNDING)
         return np.where(holds.any(axis=1), HALF_WIDTHS[holds.argmax(axis=1)], HALF_WIDTHS[-1])
@@ -151,15 +153,16 @@ def add_roles(heights):
     return heights.assign(role=np.where(is_fitted, "fitted", "unseen")).dropna(subset="simulated")
 
 
-def predict(quantity, rows, *deviation, **given):
+def predict(quantity, rows, **given):
     """Predict a number of every row, in a column, by a method of `Roughness`."""
     lengths = rows.adhesion_length.to_numpy()[:, None]
-    return quantity(lengths, rows.range.to_numpy()[:, None], *deviation, **given)
+    return quantity(lengths, rows.range.to_numpy()[:, None], **given)
 
 
 def find_limits(quantity, rows):
     """Value and limits of rows by a method of `Roughness`."""
-    return Limited(*(predict(quantity, rows, deviation)[:, 0] for deviation in (0, -1, 1)))
+    value, low, high = (predict(quantity, rows, deviation=sign)[:, 0] for sign in (0, -1, 1))
+    return Limited(value, low, high)
 
 
 def model(rows):
@@ -265,8 +268,8 @@ def of_unresolved(unresolved, shares):
         part = unresolved.dropna(subset=[f"thinned_{ending}", f"full_{ending}"])
         part = part[part.lacking > LEAST_LACKING]
         unit = -np.sqrt(np.log1p(part.lacking)) * (1 - share) ** 3
-        thresholds = {"value": part[f"thinned_{ending}"], "simulated": part[f"full_{ending}"]}
-        parts.append(part.assign(unit=unit, **thresholds))
+        simulated = part[f"full_{ending}"]
+        parts.append(part.assign(simulated=simulated, value=part[f"thinned_{ending}"], unit=unit))
     return Comparison("unresolved.csv", "states", "unresolved", pd.concat(parts))
 
 
@@ -294,8 +297,13 @@ def of_patches(patches, least):
     value = rows.threshold_10
     quarters = rows[[f"q{number}_10" for number in (1, 2, 3, 4)]]
     distance = np.sqrt((quarters.sub(value, axis=0) ** 2).mean(axis=1))
-    limited = {"value": value, "low": value - least, "high": value + least}
-    rows = rows.assign(simulated=rows.whole_threshold_10, unit=distance, **limited)
+    rows = rows.assign(
+        simulated=rows.whole_threshold_10,
+        value=value,
+        low=value - least,
+        high=value + least,
+        unit=distance,
+    )
     return Comparison("patches.csv", "patch", "ln_work", rows)
 
 

@@ -37,8 +37,8 @@ def draw_kinds(ax, unseen):
         ax.plot([place - 0.4, place + 0.4], [middle, middle], color="black")
         ax.text(place, HIGHEST, f"{100 * is_inside.mean():.0f}", ha="center", fontsize=7)
     ax.text(len(NAMES) - 0.4, HIGHEST, " % inside", ha="left", fontsize=7)
-    limits = {"ylim": (LEAST / 1.3, 2 * HIGHEST), "xlim": (-0.7, len(NAMES) + 2.1)}
-    ax.set(yscale="log", ylabel=ERROR, **limits)
+    ax.set(yscale="log", ylim=(LEAST / 1.3, 2 * HIGHEST), ylabel=ERROR)
+    ax.set_xlim(-0.7, len(NAMES) + 2.1)
     look = {"fontsize": 7, "rotation": 40, "ha": "right", "rotation_mode": "anchor"}
     ax.set_xticks(range(len(NAMES)), NAMES.values(), **look)
 
