@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stickiness import Material, Surface, judge, verdict
+from stickiness.pages import plotting
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.statistics import COVERS
@@ -141,6 +142,17 @@ def test_longer_waves_meet_a_layer_draw_by_draw():
         low, high = np.quantile(drawn, (0.05, 0.95))
         inside.append(low <= energy <= high)
     assert np.mean(inside) >= 0.75
+
+
+def test_waves_that_are_assumed_are_not_shown_as_measured(patch):
+    larger = take_patch(seed=1, parts=4, contact=SIDE)[1].data
+    assert plotting.is_larger(larger)
+    assert not plotting.is_larger(patch.data)
+    measured = larger.wave_number[plotting.find_rings(larger)]
+    scan = float(larger.scan)
+    assert float(larger.wave_number.min()) < 2 * np.pi / (2 * scan)
+    assert float(measured.min()) > 0.7 * 2 * np.pi / scan
+    assert plotting.find_rings(patch.data)[0]
 
 
 def test_a_contact_smaller_than_the_scan_is_an_error(patch):
