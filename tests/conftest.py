@@ -51,6 +51,15 @@ if not _WRITABLE:
     atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
 
 
+def pytest_addoption(parser):
+    parser.addoption("--fix", action="store_true", help="write tables of what numbers were anew")
+
+
+def pytest_configure(config):
+    if config.getoption("fix") and config.getoption("numprocesses", None):
+        raise pytest.UsageError("--fix writes a table from one process: leave out -n, or give -n0")
+
+
 # Where CI runs, on Linux, all can be installed that a test needs, but for these.
 _MAY_BE_SKIPPED = ("Slurm", "SLURM_PROOF", "Tamaas 2.9.0 misplaces")
 _IN_CI = bool(os.environ.get("CI")) and sys.platform == "linux"
