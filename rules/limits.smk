@@ -1,10 +1,13 @@
 # Simulations behind the limits of verdicts: on other solids, on patches of surfaces, at ranges
 # shorter than a grid resolves, their pull-offs, with waves that it lacks, on surfaces larger than a
-# scan, and of balls. Limits are calibrated on the committed tables.
+# scan, on solids and surfaces whose finest waves a map lacks, and of balls. Limits are calibrated on
+# the committed tables.
 
 SIMULATED_SETS = {
     kind: LIMIT_CAMPAIGN[kind]["sets"]
-    for kind in ("solids", "patches", "ranges", "pull_offs", "unresolved", "larger", "balls")
+    for kind in (
+        *("solids", "patches", "ranges", "pull_offs", "unresolved", "larger", "coated", "balls"),
+    )
 }
 
 

@@ -273,8 +273,8 @@ def find_roughness(range_times_q0, shortest, share, sign):
 
     def excess(log_h):
         h = np.exp(log_h)
-        rough = Roughness(h_rms=h, q0=range_times_q0, elastic_energy=unit * h**2, q1=q1)
-        return float(np.log(rough.threshold(1.0, share, sign) / CRYSTAL))
+        rough = Roughness(h_rms=h, q0=range_times_q0, elastic_energy=unit * h**2, q1=q1, eta=sign)
+        return float(np.log(rough.threshold(1.0, share) / CRYSTAL))
 
     return float(np.exp(brentq(excess, np.log(2.0), np.log(1e9))))
 
@@ -307,8 +307,8 @@ def sticky_asphalt(asphalt):
 def find_modulus(surface, share, sign):
     """Modulus [MPa] below which a share of the paper's example remains on a surface."""
     names = ("h_rms", "q0", "elastic_energy", "q1")
-    rough = Roughness(**{name: float(surface[name]) for name in names})
-    return float(WORK_OF_ADHESION / rough.threshold(RANGE, share, sign) / 1e6)
+    rough = Roughness(**{name: float(surface[name]) for name in names}, eta=sign)
+    return float(WORK_OF_ADHESION / rough.threshold(RANGE, share) / 1e6)
 
 
 @claim(21)

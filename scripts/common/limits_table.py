@@ -6,21 +6,6 @@ OF_TOPOGRAPHY = ("set", "role", "family", "hurst", "points", "waves", "shortest"
 SHARES = {"3": 0.03, "10": 0.1, "30": 0.3, "60": 0.6}  # of thresholds, by the ends of their names
 OF_QUARTERS = ("10", "30")  # thresholds that are kept of the quarters of a patch
 JUDGED = ("10", "30")  # thresholds that are judged for a larger contact
-#: Kinds of predictions as pages and figures name them.
-NAMES = {
-    "spectrum": "spectrum",
-    "two waves": "cell 2 × 2",
-    "one wave": "cell 1 × 1",
-    "skewness": "with skewness",
-    "layer": "layer",
-    "film": "layer on a film",
-    "thin": "thin layer",
-    "skin": "skin",
-    "patch": "map",
-    "larger": "larger contact",
-    "larger non-Gaussian": "larger, not Gaussian",
-    "ball": "ball",
-}
 #: Columns of the tables by their kind.
 COLUMNS = {
     "solids": (
@@ -66,6 +51,15 @@ COLUMNS = {
         *(f"{limit}_{share}" for share in JUDGED for limit in ("value", "low", "high")),
         *("whole_skewness", "whole_full_contact_energy", "range"),
         *(f"whole_threshold_{share}" for share in SHARES),
+    ),
+    "coated": (
+        *OF_TOPOGRAPHY,
+        *("stride", "solid", "thickness", "poisson", "backing"),
+        *("skin_modulus_ratio", "skin_poisson"),
+        *("energy_ratio", "pixels_in_zone", "adhesion_length", "range"),
+        *("full_contact_energy", "half_space_energy"),
+        *("map_full_contact_energy", "map_half_space_energy", "simulated"),
+        *("is_judged", "is_simulated", "unresolved", "value", "low", "high"),
     ),
     "balls": (
         *("set", "role", "tabor", "law", "hurst", "skewness", "shortest", "side", "points"),
@@ -113,6 +107,18 @@ share of the energy in longer waves. whole_threshold_3 … whole_threshold_60: l
 length at which 3 % … 60 % of w remains on the surface, simulated. value_10 … high_30: the same with
 its limits, predicted, without what a scan does not tell of a larger contact; none where so much
 remains at any.""",
+    "coated": """\
+Adhesion that remains at zero load below skins and on layers, simulated on surfaces whose finest
+waves a map lacks. waves, shortest, points: of the surface, longest along a side, shortest in
+pixels. stride: the map has every so many-th point, and no waves shorter than four of its pixels.
+full_contact_energy: of the surface on the solid; half_space_energy: on a half-space; map_…: of
+its map. energy_ratio: work of adhesion over full_contact_energy.
+pixels_in_zone: width of the cohesive zone that sets the range, for that ratio on a half-space.
+simulated: on the surface, deepest state of all starts; none where that did not converge.
+is_judged: 0 where a map has no verdict. is_simulated: 1 where states simulated on the map decide.
+unresolved: share of the energy in waves that the map lacks, as drawn. value, low, high: of ln of
+the adhesion length that keeps the simulated share, by a verdict on the map with the end of the
+waves told, without the error of skins on maps; none where next to nothing remains.""",
     "balls": """\
 Pull-off forces of balls from rough heights, over those of smooth balls. tabor: 0 of rigid solids,
 whose tractions are summed; others by boundary elements. waves: longest ones across the zone of a

@@ -5,8 +5,6 @@ magnification, once over the magnification at fixed h_rms and longest wavelength
 the influence of the finest waves on each criterion.
 """
 
-from dataclasses import replace
-
 import numpy as np
 import xarray as xr
 
@@ -14,13 +12,12 @@ from common.conventions import logarithmic_grid
 from stickiness import datasets
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
+from stickiness.remaining.errors import find_limits
 from stickiness.remaining.roughness import Roughness
 from stickiness.spectrum.kinds import SelfAffine
-from stickiness.verdicts.limits import LIMIT_TEXT
+from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
 
 COMPARED = [criterion for criterion in CRITERIA.values() if criterion.has_length]
-# Errors of the model by limits of the threshold, which is low where the share is high.
-DEVIATIONS = {"low": 1.0, "value": 0.0, "high": -1.0}
 TEXT = "adhesion length over range above which the criterion calls the surface sticky"
 COMPARED_VARIABLES = {
     "h_rms_over_range": ("1", "rms height over range"),
@@ -59,16 +56,17 @@ def compare(settings, load, table, constant):
     variables = {}
     for name, pair in pairs.items():
         thresholds = [each.adhesion_length_threshold(pair) for each in COMPARED]
-        remaining = [replace(pair, deviation=d).remaining_threshold for d in DEVIATIONS.values()]
+        # The threshold is low where the share is high.
+        value, high, low = find_limits(pair, lambda deviating: deviating.remaining_threshold)
         variables[f"against_{name}"] = ("criterion", axes[name]), thresholds
-        variables[f"remaining_against_{name}"] = ("limit", axes[name]), remaining
+        variables[f"remaining_against_{name}"] = ("limit", axes[name]), [low, value, high]
     return xr.Dataset(
         variables,
         coords={
             "h_rms_over_range": heights,
             "magnification": zetas,
             "criterion": [each.name for each in COMPARED],
-            "limit": list(DEVIATIONS),
+            "limit": list(LIMITS),
         },
     )
 

@@ -191,7 +191,10 @@ def find_rule():
     lengths = {
         "rule": (
             ("limit", "share", "hurst"),
-            [[rough.threshold(SHORT, share, sign) for share in SHARES] for sign in SIGNS.values()],
+            [
+                [rough.deviating(sign).threshold(SHORT, share) for share in SHARES]
+                for sign in SIGNS.values()
+            ],
         ),
         "rule_full_contact": ("hurst", energy),
         "rule_bearing_area": BAM_REPULSION / criteria.bearing_area(1, 1, 1, SHORT).margin,

@@ -4,7 +4,7 @@ Everything that is not known is swept: each input between its plausible ends, th
 middle, and all corners. Corners matter where two unknown inputs move a prediction the same way.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache, partial
 from itertools import product
 
@@ -23,15 +23,14 @@ from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.pages.rendering import write_page
-from stickiness.remaining import sphere
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining import errors, sphere
+from stickiness.remaining.errors import APPROACH, BALL, SUMMITS
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.traction_laws import find_strength
 
 MIDDLE = 0  # index of the combination with every input in the middle
-SIGNS = (-1, 0, 1)  # low limit, value, high limit
 ROUGHNESS = np.geomspace(1e-11, 1e-3, 121)  # rms heights [m] along which adhesion is followed
 # Margins are nearly powers of the rms height: between points as far apart as these they are read
 # off to better than 1 %.
@@ -161,13 +160,12 @@ class Observation:
             adhesion_length=pair.adhesion_length,
             range=pair.range,
         )
-        summits = find_spread("ball", "summits").value
+        summits = SUMMITS.spread.value
         zone = pull_off(rough=sphere.narrow(pair.rough, waves=1.0, summits=summits)).zone_radius
         # The longest waves across the zone.
         waves = np.asarray(zone) * pair.q0 / np.pi
         rough = sphere.narrow(pair.rough, waves=waves, summits=summits)
-        error = find_spread("ball", "ln_force").high
-        return [pull_off(rough=rough, deviation=sign, error=error) for sign in SIGNS]
+        return limit(rough, lambda each: pull_off(rough=each, error=BALL.spread.high))
 
 
 @dataclass(frozen=True)
@@ -314,14 +312,14 @@ def predict_quantity(observation, pair, spheres):
     if spheres and quantity in of_spheres:
         predicted = np.array([getattr(pull_off, of_spheres[quantity]) for pull_off in spheres])
     elif quantity == "relative_pull_off":
-        stress = np.array([pair.rough.tension(length, range_, sign) for sign in SIGNS])
+        stress = np.array(limit(pair.rough, lambda each: each.tension(length, range_)))
         predicted = np.minimum(stress * range_ / length / find_strength(observation.law), 1.0)
     elif quantity == "work_of_separation":
-        predicted = np.array([pair.rough.separation(length, range_, sign) for sign in SIGNS])
+        predicted = np.array(limit(pair.rough, lambda each: each.separation(length, range_)))
     else:
         predicted = predict_remaining(pair)
         if quantity == "work_of_approach":
-            predicted[0] *= np.exp(find_spread("spectrum", "ln_approach").low)
+            predicted[0] *= np.exp(APPROACH.spread.low)
     if quantity.startswith("work_of"):
         predicted = predicted * pair.work_of_adhesion
     return predicted
@@ -329,7 +327,13 @@ def predict_quantity(observation, pair, spheres):
 
 def predict_remaining(pair):
     """Share of the work of adhesion that remains, (sign, combination, 1)."""
-    return np.array([replace(pair, deviation=sign).remaining for sign in SIGNS])
+    return np.array(limit(pair, lambda each: each.remaining))
+
+
+def limit(model, evaluate):
+    """Low limit, value and high limit of what is evaluated of a model."""
+    value, low, high = errors.find_limits(model, evaluate)
+    return [low, value, high]
 
 
 def find_fall(heights, values, level):

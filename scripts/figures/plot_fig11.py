@@ -16,7 +16,7 @@ from stickiness.pages.plotting import (
     make_dot,
     make_key,
 )
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import APPROACH, SEPARATION
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.roughness import SHORT_RANGE, Roughness
 
@@ -40,12 +40,13 @@ def draw_shares(ax, table):
     tough = table[table.wide & ~table.weak & (table.pressed < TOUCH)]
     narrowest = tough.groupby(["set", "seed", "energy_ratio"]).zone.transform("min")
     tough = tough[tough.zone == narrowest]
-    rough = Roughness(1.0, 1.0, elastic_energy=0.55, rms_slope=2.5)  # amid those simulated
+    # Amid those simulated.
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.55, rms_slope=2.5)
     ratios = np.geomspace(0.2, 3, 200)  # w/U_full
     length = ratios * rough.elastic_energy
     zone = 0.1  # q0 range^2/l_a, of the lines of panel A
     range_ = np.sqrt(zone * length)
-    low, share, high = [rough.share(length, range_, sign) for sign in (-1, 0, 1)]
+    share, low, high = rough.limit_share(length, range_)
     plotting.draw_band(ax, ratios, low, high, GREY, alpha=0.25)
     ax.plot(ratios, share, color=BLACK, linewidth=1.8, label="this theory")
     ax.plot(ratios, rough.share(length, SHORT_RANGE), "--", color=BLACK, label="range → 0")
@@ -106,8 +107,8 @@ def draw_hysteresis(ax, table):
             look = {"color": colour, "mfc": colour if pressed else "white", "markersize": 3.5}
             for name, marker in WORKS.items():
                 ax.plot(here.zone * (0.94 + 0.06 * i), here[name] / here.bound, marker, **look)
-    late = find_spread("spectrum", "ln_approach").low
-    jumps = find_spread("spectrum", "ln_separation").high
+    late = APPROACH.spread.low
+    jumps = SEPARATION.spread.high
     for limit in np.exp([late, jumps]):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
@@ -125,7 +126,7 @@ def draw_weak(ax, table):
     rows = table[table.weak]
     rows = rows[rows["set"] == rows["set"].iloc[0]]
     energy, slope = rows[["full_contact_energy", "rms_slope"]].iloc[0]
-    rough = Roughness(1.0, 1.0, energy, rms_slope=slope)
+    rough = Roughness(h_rms=1.0, q0=1.0, elastic_energy=energy, rms_slope=slope)
     ranges = np.geomspace(0.05, 5, 100)  # over h_rms
     for colour, ratio in plotting.shade(sorted(rows.energy_ratio.unique())):
         ax.plot(ranges, rough.share(ratio * energy, ranges), color=colour, label=f"{ratio:g}")

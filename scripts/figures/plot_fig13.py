@@ -7,7 +7,7 @@ from common.job import start
 from figures.theory_curves import name_cell
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLUE, GREY, RED, make_dot
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import APPROACH, SEPARATION
 from stickiness.remaining.roughness import FINEST_SIMULATED, Roughness
 from stickiness.remaining.share import SHARP
 from stickiness.spectrum import SelfAffine
@@ -37,7 +37,7 @@ def draw_ladder(ax, table, ratio):
     last = FINEST_SIMULATED * 2 * SHARP  # as by `share.find_narrowest_wave`
     ax.axvspan(last, magnifications[-1], color=GREY, alpha=0.12, linewidth=0)
     for hurst, colour in COLOURS.items():
-        low, value, high = predict(hurst, magnifications, ratio)
+        value, low, high = predict(hurst, magnifications, ratio)
         plotting.draw_band(ax, magnifications, low, high, colour, alpha=0.18)
         ax.plot(magnifications, value, color=colour)
         rows = table[(table.hurst == hurst) & (table.energy_ratio == ratio)]
@@ -57,7 +57,7 @@ def draw_ladder(ax, table, ratio):
 
 
 def predict(hurst, magnifications, ratio):
-    """Low limit, value and high limit for a zone of `SHARP` times the finest waves."""
+    """Value and limits for a zone of `SHARP` times the finest waves."""
     spectra = [SelfAffine(hurst=hurst, q0=1.0, q1=zeta, h_rms=1.0) for zeta in magnifications]
     energy = np.array([spectrum.elastic_energy() for spectrum in spectra])
     rough = Roughness(
@@ -68,7 +68,8 @@ def predict(hurst, magnifications, ratio):
         rms_slope=np.array([spectrum.rms_slope for spectrum in spectra]),
     )
     length = ratio * energy
-    return [rough.share(length, np.sqrt(SHARP / magnifications * length), s) for s in (-1, 0, 1)]
+    range_ = np.sqrt(SHARP / magnifications * length)
+    return rough.limit_share(length, range_)
 
 
 def average_ladder(rows):
@@ -84,8 +85,8 @@ def draw_works(ax, table):
             colour = COLOURS[min(COLOURS, key=lambda hurst: abs(hurst - row.hurst))]
             look = {"color": colour, "mfc": colour if row.window > 1 else "white", "markersize": 4}
             ax.plot(row.magnification, getattr(row, name) / row.bound, marker, **look)
-    late = find_spread("spectrum", "ln_approach").low
-    jumps = find_spread("spectrum", "ln_separation").high
+    late = APPROACH.spread.low
+    jumps = SEPARATION.spread.high
     for limit in np.exp([late, jumps]):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)

@@ -9,7 +9,6 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from common import limits_table
 from common.conventions import annotate
 from common.job import start
 from common.model_surfaces import make_heights
@@ -17,6 +16,7 @@ from limits import comparisons
 from stickiness import __version__, datasets
 from stickiness.formatting import number, percent, table
 from stickiness.limited import Limited
+from stickiness.remaining import errors
 from stickiness.remaining.share import FIRST_TOUCH
 
 COVERAGE = 0.9
@@ -71,8 +71,10 @@ class Fit(NamedTuple):
 def main(job):
     tables = comparisons.read_tables(job.input)
     heights = tables["heights"]
+    coated = comparisons.of_coated(tables["coated"])
     fits = [
         *fit_shares(heights, tables["remaining"], tables["solids"]),
+        fit_slope(coated, base=coated.half_width),
         fit_patches(tables["patches"]),
         *fit_larger(tables["larger"]),
         fit_balls(tables["balls"]),
@@ -93,16 +95,16 @@ def main(job):
     ):
         with datasets.whole_file(output) as path:
             path.write_text(content, encoding="utf-8")
-    errors = pd.concat([list_errors(fit) for fit in fits], ignore_index=True)
+    of_rows = pd.concat([list_errors(fit) for fit in fits], ignore_index=True)
     datasets.write(
-        annotate(errors.rename_axis("row").to_xarray(), **ERROR_VARIABLES),
+        annotate(of_rows.rename_axis("row").to_xarray(), **ERROR_VARIABLES),
         job.output.dataset,
         title="errors of what is predicted to remain, beside the limits made of them",
         parameters={"coverage": COVERAGE},
     )
 
 
-def describe(comparison, spread, quantity=None):
+def describe(comparison, spread, law=None):
     """Row of the table; `spread` is value, low, high, which are rounded to four digits.
 
     Limits are rounded outwards: the row that sets a limit would else lie beyond it.
@@ -114,8 +116,8 @@ def describe(comparison, spread, quantity=None):
         )
     ]
     counts = [int((comparison.rows.role == role).sum()) for role in ROLES]
-    quantity = quantity or comparison.quantity
-    return (comparison.kind, quantity, *rounded, *counts, comparison.source)
+    law = law or comparison.law
+    return (law.kind, law.quantity, *rounded, *counts, law.source)
 
 
 def describe_fit(fit):
@@ -127,7 +129,7 @@ def list_errors(fit):
     """Errors of all rows, as `ERROR_VARIABLES` says."""
     return pd.DataFrame(
         {
-            "kind": fit.comparison.kind,
+            "kind": fit.comparison.law.kind,
             "role": fit.comparison.rows.role.to_numpy(),
             "needed": fit.comparison.needed,
             "limit": fit.limit,
@@ -166,7 +168,7 @@ def fit_shares(heights, remaining, solids):
     cells = [
         comparisons.of_heights(comparisons.find_gaussian(heights, window=4)),
         comparisons.of_heights(comparisons.find_gaussian(heights, window=2)),
-        comparisons.of_heights(one_wave, source="remaining.csv"),
+        comparisons.of_heights(one_wave),
     ]
     of_cells = [fit_slope(cell, base=0.0) for cell in cells]
     others = [
@@ -186,7 +188,7 @@ def fit_patches(patches):
         for least in LEAST_ERRORS
     }
     best = min(fits, key=lambda least: np.median(fits[least].limit))
-    row = describe(fits[best].comparison, symmetric(best), "least")
+    row = describe(fits[best].comparison, symmetric(best), errors.PATCH_LEAST)
     return fits[best]._replace(others=(row,))
 
 
@@ -213,7 +215,7 @@ def fit_balls(balls):
     best = SUMMITS[slopes.argmin()]
     fit = fit_forces(resolved, best)
     hard = fit.comparison.where(fit.comparison.rows.tabor < HARD)
-    row = describe(hard, (best, good.min(), good.max()), "summits")
+    row = describe(hard, (best, good.min(), good.max()), errors.SUMMITS)
     return fit._replace(others=(row,))
 
 
@@ -276,7 +278,7 @@ def calibrate_pull_offs(pull_offs):
     """
     shortening, fitted = fit_pull_offs(pull_offs)
     shorter = fitted.where(fitted.rows.range_ratio < 1)
-    yield describe(shorter, shortening, "shortening")
+    yield describe(shorter, shortening, errors.SHORTENING)
     # The median is that of the exponent.
     yield describe(shorter, find_middle(shorter)._replace(value=0.0))
 
@@ -286,21 +288,16 @@ def fit_pull_offs(pull_offs):
     unshortened = comparisons.of_pull_offs(pull_offs, exponent=0.0)
     shorter = unshortened.where(unshortened.rows.range_ratio < 1)
     # In the unit of -ln of the ratio of ranges, errors are exponents.
-    exponents = shorter.rows.assign(unit=-np.log(shorter.rows.range_ratio))
+    exponents = shorter.rows.assign(unit=errors.SHORTENING.unit(shorter.rows.range_ratio))
     shortening = find_middle(replace(shorter, rows=exponents))
     return shortening, comparisons.of_pull_offs(pull_offs, shortening.value)
 
 
 def find_share_error(rows):
-    """Error of shares by states, absolute, with which limits hold every simulated share.
-
-    Limits of a share S are S e/(S + e) apart from it, for an error e.
-    """
+    """Error of shares by states with which limits hold every simulated share."""
     share = rows.states.to_numpy()
     missed = np.maximum(np.abs(share - rows.simulated.to_numpy()) - comparisons.ROUNDING, 0.0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        needed = share * missed / (share - missed)
-    return np.select([missed == 0, missed < share], [0.0, needed], np.inf)
+    return errors.find_needed_error(share, missed)
 
 
 def summarise(fits, heights, solids):
@@ -313,7 +310,7 @@ def summarise(fits, heights, solids):
         comparisons.of_skewed(heights),
         *comparisons.of_solids(solids),
     ]
-    of_kinds = {share.kind: share for share in shares}
+    of_kinds = {share.law.kind: share for share in shares}
     lines = []
     for comparison, _, limit, _ in fits:
         for role in comparison.rows.role.unique():
@@ -321,11 +318,11 @@ def summarise(fits, heights, solids):
             inside = percent(np.mean((comparison.needed <= limit)[chosen]))
             factor = number(np.exp(2 * np.median(limit[chosen])), 3)
             judged = ("", "", "")
-            if comparison.kind in of_kinds:
-                judged = judge_role(of_kinds[comparison.kind], role)
+            if comparison.law.kind in of_kinds:
+                judged = judge_role(of_kinds[comparison.law.kind], role)
             lines.append(
                 (
-                    limits_table.NAMES[comparison.kind],
+                    comparison.law.label,
                     role,
                     str(chosen.sum()),
                     inside,
@@ -348,9 +345,9 @@ def summarise_pull_offs(pull_offs):
     """Coverage and errors of pull-offs by states, by the range, as a table in Markdown."""
     _, fitted = fit_pull_offs(pull_offs)
     _, low, high = find_middle(fitted.where(fitted.rows.range_ratio < 1))
-    errors = fitted.rows.assign(error=fitted.error)
+    of_rows = fitted.rows.assign(error=fitted.error)
     lines = []
-    for (role, ratio), part in errors.groupby(["role", "range_ratio"], sort=False):
+    for (role, ratio), part in of_rows.groupby(["role", "range_ratio"], sort=False):
         inside = percent(part.error.between(low, high).mean())
         median = number(float(np.exp(part.error.median())), 3)
         lines.append((role, number(ratio, 2), str(len(part)), inside, median))

@@ -4,7 +4,7 @@ Limits are calibrated on these comparisons, and the page of validation says how 
 """
 
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from pathlib import Path
 from typing import Self
 
@@ -17,19 +17,20 @@ from common.conventions import Q0
 from limits.measure_balls import make_ball
 from stickiness.entries.material import Material
 from stickiness.limited import Limited
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining import errors
+from stickiness.remaining.errors import ErrorLaw
 from stickiness.remaining.height_shape import find_height_shape
-from stickiness.remaining.roughness import CELLS, PULL_OFF_KNOWN, Roughness
+from stickiness.remaining.roughness import PULL_OFF_KNOWN, Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
-from stickiness.verdicts.longer_waves import find_unlikeness, weigh_larger
-from stickiness.verdicts.pair_roughness import combine_roughness
+from stickiness.verdicts.longer_waves import find_unlikeness
+from stickiness.verdicts.meeting import meet
 from stickiness.verdicts.rough_ball import BallContact, find_contact
 from stickiness.verdicts.rough_surface import Surface
 
 #: Fields of `Roughness` of which rows may tell, but for the elastic energy.
 MODELLED = (
     *("q1", "rms_slope", "waves", "shape", "shape_error"),
-    *("relative_compliance", "flow", "half_space_energy", "is_skin"),
+    *("relative_compliance", "flow", "half_space_energy", "solid", "unresolved"),
 )
 #: Half-widths of limits that are tried, in ln w.
 HALF_WIDTHS = np.linspace(0.0, 3.0, 601)
@@ -48,13 +49,11 @@ ROUNDING = 1e-4  # of shares: tolerance of simulations, rounding of tables
 class Comparison:
     """Predictions of one kind beside simulations.
 
-    The rows have their `role`, what was `simulated`, and the `value` predicted, with its limits
-    `low` and `high` if it has some without the error that is calibrated. That one is in a `unit`.
+    The rows have their `role`, what was `simulated`, and the `value` predicted. `low` and `high`
+    are limits from other, known errors. `unit` is what the calibrated error is proportional to.
     """
 
-    source: str  # committed table
-    kind: str  # of prediction, as of `find_spread`
-    quantity: str  # whose error is calibrated, as of `find_spread`
+    law: ErrorLaw  # whose size is calibrated
     rows: pd.DataFrame
 
     def where(self, chosen) -> Self:
@@ -110,7 +109,7 @@ class Comparison:
     @property
     def limits(self) -> Limited[NDArray]:
         """Value and limits with the error as it is calibrated."""
-        return self.limit(find_spread(self.kind, self.quantity))
+        return self.limit(self.law.spread)
 
 
 @dataclass(frozen=True)
@@ -120,9 +119,9 @@ class ShareByTheory(Comparison):
     @cached_property
     def needed(self) -> NDArray:
         """Least half-width in ln w, up to the largest tried, with which limits hold the share."""
-        share = model(self.rows).share
         low, high = (
-            predict(share, self.rows, deviation=sign, error=HALF_WIDTHS) for sign in (-1, 1)
+            predict(model(self.rows).deviating(eta).share_by_theory, self.rows, error=HALF_WIDTHS)
+            for eta in (-1.0, 1.0)
         )
         simulated = self.simulated[:, None]
         holds = (low - ROUNDING <= simulated) & (simulated <= high + ROUNDING)
@@ -131,7 +130,7 @@ class ShareByTheory(Comparison):
     @property
     def limits(self) -> Limited[NDArray]:
         """Value and limits as the library gives them, with all errors."""
-        return find_limits(model(self.rows).share, self.rows)
+        return find_limits(Roughness.share, self.rows)
 
 
 def read_tables(paths) -> dict[str, pd.DataFrame]:
@@ -159,10 +158,13 @@ def predict(quantity, rows, **given):
     return quantity(lengths, rows.range.to_numpy()[:, None], **given)
 
 
-def find_limits(quantity, rows):
-    """Value and limits of rows by a method of `Roughness`."""
-    value, low, high = (predict(quantity, rows, deviation=sign)[:, 0] for sign in (0, -1, 1))
-    return Limited(value, low, high)
+def find_limits(quantity, rows, **given):
+    """Value and limits of rows by a function of `Roughness`, and what else is given to it."""
+
+    def evaluate(rough):
+        return predict(partial(quantity, rough), rows, **given)[:, 0]
+
+    return errors.find_limits(model(rows), evaluate)
 
 
 def model(rows):
@@ -182,10 +184,10 @@ def find_gaussian(heights, window):
     return heights[(heights.kind == heights_table.GAUSSIAN) & (heights.window == window)]
 
 
-def of_heights(rows, source="heights.csv"):
+def of_heights(rows):
     """Shares by the spectrum alone, on heights in cells of one size."""
     (window,) = rows.window.unique()
-    return ShareByTheory(source, CELLS[window], "ln_work", add_waves(rows))
+    return ShareByTheory(errors.CELLS[window], add_waves(rows))
 
 
 def of_weak(heights):
@@ -193,38 +195,26 @@ def of_weak(heights):
     rows = find_gaussian(heights, window=4)
     rows = rows[rows.theory < NEXT_TO_NOTHING]
     onset = predict(model(add_waves(rows)).onset, rows)[:, 0]
-    fading = np.minimum(rows.energy_ratio / onset, 1.0) ** 2
-    rows = rows.assign(value=rows.theory, unit=fading)
-    return Comparison("heights.csv", "spectrum", "share", rows)
+    unit = errors.WEAK.unit(rows.energy_ratio / onset)
+    return Comparison(errors.WEAK, rows.assign(value=rows.theory, unit=unit))
 
 
 def of_skewed(heights):
     """Shares by the spectrum and the skewness, whose error goes with the ln of its factor."""
     rows = heights[(heights.kind != heights_table.GAUSSIAN) & (heights.window == 4)]
     shape, error = np.transpose([find_height_shape(skewness) for skewness in rows.skewness])
-    rows = add_waves(rows).assign(shape=shape, shape_error=error, unit=np.abs(shape))
-    return ShareByTheory("heights.csv", "skewness", "ln_work", rows)
+    unit = errors.SKEWNESS.unit(shape)
+    rows = add_waves(rows).assign(shape=shape, shape_error=error, unit=unit)
+    return ShareByTheory(errors.SKEWNESS, rows)
 
 
 def of_solids(solids):
-    """Shares by the spectrum on every kind of solids.
-
-    The error goes with the distance from a half-space, as `Roughness` takes it.
-    """
-    for kind, rows in solids.dropna(subset="simulated").groupby("kind"):
-        compliance_lost = np.maximum(1 - rows.relative_compliance, 0.0)
-        weights = {
-            "film": np.ones(len(rows)),
-            "layer": compliance_lost * (1 - rows.flow),
-            "thin": rows.flow,
-            "skin": compliance_lost,
-        }
-        rows = rows.assign(
-            half_space_energy=rows.half_space_energy.where(rows.kind != "film"),
-            is_skin=rows.kind == "skin",
-            unit=weights[kind],
-        )
-        yield ShareByTheory("solids.csv", kind, "ln_work", rows)
+    """Shares by the spectrum on every kind of solids."""
+    for law in sorted(errors.SOLIDS, key=lambda law: law.kind):
+        rows = solids[solids.kind == law.kind].dropna(subset="simulated")
+        if len(rows):
+            rows = rows.assign(solid="layer" if law.kind == "thin" else law.kind)
+            yield ShareByTheory(law, rows.assign(unit=law.unit(model(rows))[:, 0]))
 
 
 def of_paths(remaining):
@@ -234,28 +224,27 @@ def of_paths(remaining):
     # The theory's distance over which the work acts, beside the simulated one.
     distance = predict(model(add_waves(rows)).distance, rows)[:, 0]
     quantities = {
-        "ln_tension": (rows.pull_off, rows.adhesion_length * rows.bound / distance),
-        "ln_approach": (rows.approach, rows.bound),
-        "ln_separation": (rows.separation, rows.bound),
+        errors.TENSION: (rows.pull_off, rows.adhesion_length * rows.bound / distance),
+        errors.APPROACH: (rows.approach, rows.bound),
+        errors.SEPARATION: (rows.separation, rows.bound),
     }
-    for quantity, (simulated, predicted) in quantities.items():
+    for law, (simulated, predicted) in quantities.items():
         rows = rows.assign(simulated=np.log(simulated), value=np.log(predicted))
-        yield Comparison("remaining.csv", "spectrum", quantity, rows)
+        yield Comparison(law, rows)
 
 
 def of_states(heights):
     """Shares by states simulated on the same heights, with limits of another place."""
     rows = heights.assign(value=heights.states, low=heights.states_low, high=heights.states_high)
-    return Comparison("heights.csv", "states", "share", rows)
+    return Comparison(errors.STATES, rows)
 
 
 def of_ranges(ranges):
     """Shares at short ranges, above the bound by the states; up to the chord there is room."""
     rows = ranges.dropna(subset="simulated")
     room = np.maximum(rows.chord - rows.bound, 0.0)
-    rise = rows.energy_ratio * np.maximum(1 - rows.range_ratio, 0.0) ** 2
-    rows = rows.assign(value=rows.bound, unit=room * rise)
-    return Comparison("ranges.csv", "states", "place", rows)
+    unit = room * errors.PLACE.unit(rows.energy_ratio, rows.range_ratio)
+    return Comparison(errors.PLACE, rows.assign(value=rows.bound, unit=unit))
 
 
 def of_unresolved(unresolved, shares):
@@ -267,10 +256,11 @@ def of_unresolved(unresolved, shares):
     for ending, share in shares.items():
         part = unresolved.dropna(subset=[f"thinned_{ending}", f"full_{ending}"])
         part = part[part.lacking > LEAST_LACKING]
-        unit = -np.sqrt(np.log1p(part.lacking)) * (1 - share) ** 3
+        # Rows are in ln of the work that is needed, of which less is left for the rest.
+        unit = -errors.UNRESOLVED.unit(part.lacking, 1 - share)
         simulated = part[f"full_{ending}"]
         parts.append(part.assign(simulated=simulated, value=part[f"thinned_{ending}"], unit=unit))
-    return Comparison("unresolved.csv", "states", "unresolved", pd.concat(parts))
+    return Comparison(errors.UNRESOLVED, pd.concat(parts))
 
 
 def of_pull_offs(pull_offs, exponent):
@@ -284,7 +274,7 @@ def of_pull_offs(pull_offs, exponent):
     distance = rows.distance * rows.range_ratio**exponent
     predicted = np.log(rows.adhesion_length * rows.share / distance)
     rows = rows.assign(simulated=np.log(rows.pull_off), value=predicted)
-    return Comparison("pull_offs.csv", "states", "ln_tension", rows)
+    return Comparison(errors.STATES_TENSION, rows)
 
 
 def of_patches(patches, least):
@@ -302,9 +292,9 @@ def of_patches(patches, least):
         value=value,
         low=value - least,
         high=value + least,
-        unit=distance,
+        unit=errors.PATCH.unit(distance),
     )
-    return Comparison("patches.csv", "patch", "ln_work", rows)
+    return Comparison(errors.PATCH, rows)
 
 
 def of_larger(larger):
@@ -315,17 +305,27 @@ def of_larger(larger):
         value=rows.value_10,
         low=rows.low_10,
         high=rows.high_10,
-        unit=weigh_larger(rows.parts),
+        unit=errors.LARGER.unit(rows.parts),
         unlike=find_unlikeness(rows.unevenness, rows["shape"]),
     )
-    return Comparison("larger.csv", "larger", "ln_work", rows)
+    return Comparison(errors.LARGER, rows)
 
 
 def of_unlike(scans, of_gaussian):
     """The same with the error of Gaussian heights, and what others add as they are unlike these."""
     limited = scans.limit(of_gaussian)._asdict()
-    rows = scans.rows.assign(**limited, unit=scans.rows.unit * scans.rows.unlike)
-    return replace(scans, kind="larger non-Gaussian", rows=rows)
+    unit = errors.UNLIKE.unit(scans.rows.parts, scans.rows.unlike)
+    return replace(scans, law=errors.UNLIKE, rows=scans.rows.assign(**limited, unit=unit))
+
+
+def of_coated(coated, is_skin=True):
+    """Works of adhesion that keep a share below skins, or on thin layers, by verdicts on maps.
+
+    Maps lack the finest waves, to which skins are stiff.
+    """
+    rows = coated[coated.skin_modulus_ratio.notna() == is_skin].dropna(subset="value")
+    rows = rows.assign(simulated=np.log(rows.adhesion_length), solid="skin" if is_skin else "layer")
+    return Comparison(errors.COATED, rows.assign(unit=errors.COATED.unit(model(rows))[:, 0]))
 
 
 def of_balls(balls, summits):
@@ -339,9 +339,7 @@ def of_balls(balls, summits):
     ).sort_index()
     logarithms = np.log(rows[["simulated", *Limited._fields]])
     lost = np.maximum(-logarithms.value, LEAST_LOST)
-    return Comparison(
-        "balls.csv", "ball", "ln_force", rows.assign(**logarithms, unit=np.sqrt(lost))
-    )
+    return Comparison(errors.BALL, rows.assign(**logarithms, unit=errors.BALL.unit(lost)))
 
 
 def predict_force(ball, summits):
@@ -370,7 +368,7 @@ def touch_ball(law, tabor, hurst, skewness, shortest, waves, height):
         law=law,
     )
     return BallContact(
-        rough=combine_roughness(material, surface),
+        meeting=meet(material, surface, DEFAULT_SHARE),
         material=material,
         surface=surface,
         radius=ball.radius,

@@ -58,7 +58,8 @@ def judge_patch(patch, side, contact, shortest, range_, thresholds):
     if surface.not_judged:
         logging.info("not judged: %s", surface.not_judged)
         return {"skewness": skewness, "is_judged": 0, "is_simulated": 0}
-    longer = float(np.median(surface.data.get("longer_energy_draws", 0.0)))
+    added = surface.family.energy() / scanned.family.energy() - 1
+    longer = float(np.median(np.maximum(added, 0.0)))
     row = {
         "skewness": skewness,
         "is_judged": 1,

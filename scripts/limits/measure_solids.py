@@ -9,10 +9,10 @@ from common.job import start
 from common.model_surfaces import cell_size, make_heights
 from limits.measuring import write_rows
 from stickiness import surface
-from stickiness.remaining.solid_response import find_relative_compliance
-from stickiness.remaining.thin_layers import find_flow
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.solids import Film, Layer, Skin
+from stickiness.spectrum import SpectrumFamily
 from stickiness.traction_laws import LAWS
 
 TOLERANCE = 3e-3  # of thin layers; the energy of a state is off by the square of it
@@ -45,13 +45,14 @@ def measure(setting, seed, campaign):
     pixel = length / setting["points"]
     solid = make_solid(setting)
     spectrum = surface.realised_spectrum(heights, length)
+    rough = Roughness.of(SpectrumFamily.of(spectrum), solid, q0=np.array([Q0])).take(0)
     of_surface = {
-        "full_contact_energy": spectrum.elastic_energy(solid),
-        "half_space_energy": spectrum.elastic_energy(),
-        "rms_slope": spectrum.rms_slope,
+        "full_contact_energy": rough.elastic_energy,
+        "half_space_energy": rough.half_space_energy,
+        "rms_slope": rough.rms_slope,
         "q1": spectrum.q1,
-        "relative_compliance": find_relative_compliance(spectrum, solid, Q0),
-        "flow": find_flow(solid, Q0),
+        "relative_compliance": rough.relative_compliance,
+        "flow": rough.flow,
     }
     widths = campaign["pixels_in_zone"][setting["kind"]]
     # As numbers of numpy, whose powers differ from Python's in the last bit.

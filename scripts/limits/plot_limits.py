@@ -3,10 +3,10 @@
 import numpy as np
 
 from common.job import start
-from common.limits_table import NAMES
 from stickiness import datasets
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLUE, GREY, RED
+from stickiness.remaining.errors import SHOWN
 
 LEAST = 0.01  # error of ln w that is shown, of those that are smaller
 HIGHEST = 8  # above all errors
@@ -26,8 +26,8 @@ def main(job):
 def draw_kinds(ax, unseen):
     """Errors of all kinds of predictions, above and below their limits."""
     rng = np.random.default_rng(1)
-    for place, kind in enumerate(NAMES):
-        rows = unseen[unseen.kind == kind]
+    for place, law in enumerate(SHOWN):
+        rows = unseen[unseen.kind == law.kind]
         is_inside = rows.needed <= rows.limit
         drawn = rows.sample(min(MOST, len(rows)), random_state=1)
         x = place + rng.uniform(-SPREAD, SPREAD, len(drawn))
@@ -36,11 +36,11 @@ def draw_kinds(ax, unseen):
         ax.bar(place, high - low, 0.8, bottom=low, color=GREY, alpha=0.35, linewidth=0)
         ax.plot([place - 0.4, place + 0.4], [middle, middle], color="black")
         ax.text(place, HIGHEST, f"{100 * is_inside.mean():.0f}", ha="center", fontsize=7)
-    ax.text(len(NAMES) - 0.4, HIGHEST, " % inside", ha="left", fontsize=7)
+    ax.text(len(SHOWN) - 0.4, HIGHEST, " % inside", ha="left", fontsize=7)
     ax.set(yscale="log", ylim=(LEAST / 1.3, 2 * HIGHEST), ylabel=ERROR)
-    ax.set_xlim(-0.7, len(NAMES) + 2.1)
+    ax.set_xlim(-0.7, len(SHOWN) + 2.1)
     look = {"fontsize": 7, "rotation": 40, "ha": "right", "rotation_mode": "anchor"}
-    ax.set_xticks(range(len(NAMES)), NAMES.values(), **look)
+    ax.set_xticks(range(len(SHOWN)), [law.label for law in SHOWN], **look)
 
 
 def draw_patches(ax, rows):

@@ -18,7 +18,8 @@ from stickiness.accuracy import error_models
 from stickiness.formatting import number, percent, table
 from stickiness.limited import Limited
 from stickiness.pages.rendering import make_environment
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import APPROACH, LARGER, PATCH_LEAST, find_states_error
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 
 PROJECT = Path(__file__).parents[2]
@@ -91,12 +92,11 @@ def compare_shapes(heights):
 def compare_solids(solids):
     """Shares on layers, films, skins and thin incompressible layers."""
     for comparison in comparisons.of_solids(solids):
-        yield Compared.of(comparison.kind, "spectrum", comparison)
+        yield Compared.of(comparison.law.kind, "spectrum", comparison)
 
 
 def compare_short_ranges(ranges):
     """Shares at ranges below a tenth of that of the states and above, between both bounds."""
-    error = find_spread("states", "share").high
     is_short = ranges.range_ratio < MOST_RATIO
     for name, chosen in (("shorter", is_short), ("hardly shorter", ~is_short)):
         comparison = comparisons.of_ranges(ranges[chosen])
@@ -104,20 +104,25 @@ def compare_short_ranges(ranges):
         between = Limited(*(np.minimum(share, most) for share in comparison.limits))
         predicted = Limited(
             value=between.value,
-            low=between.low - error * between.low / (between.low + error),
-            high=between.high + error * between.high / (between.high + error),
+            low=between.low - find_states_error(between.low),
+            high=between.high + find_states_error(between.high),
         )
         name = f"range {name} than that of the states"
         yield Compared(name, "simulated states", predicted, comparison.simulated)
 
 
 def compare_thresholds(tables):
-    """Thresholds of patches, of thinned grids and of scans, the last by family."""
-    patches = comparisons.of_patches(tables["patches"], find_spread("patch", "least").high)
+    """Thresholds of patches, of thinned grids, of coated maps, and of scans by family."""
+    patches = comparisons.of_patches(tables["patches"], PATCH_LEAST.spread.high)
     yield Compared.of("patch for its surface", "simulated states", patches)
     thinned = comparisons.of_unresolved(tables["unresolved"], {"10": DEFAULT_SHARE})
     yield Compared.of("thinned map for the whole", "simulated states", thinned)
-    of_gaussian = find_spread("larger", "ln_work")
+    for name, by, is_skin in (
+        ("skin on a map", "spectrum of the map", True),
+        ("thin layer on a map", "simulated states", False),
+    ):
+        yield Compared.of(name, by, comparisons.of_coated(tables["coated"], is_skin))
+    of_gaussian = LARGER.spread
     for family, rows in tables["larger"].groupby("family"):
         name = f"scan for a larger contact, {family.replace('_', ' ')}"
         scans = comparisons.of_unlike(comparisons.of_larger(rows), of_gaussian)
@@ -126,15 +131,15 @@ def compare_thresholds(tables):
 
 def compare_works(remaining):
     """Energies, works and pull-offs of paths, by cells, in logarithms."""
-    late = np.exp(find_spread("spectrum", "ln_approach").low)
+    late = np.exp(APPROACH.spread.low)
     labels = {"bound": "share", "pull_off": "pull-off"}
     for window, rows in remaining[remaining.bound > comparisons.LEAST_SHARE].groupby("window"):
         for name in ("bound", "approach", "separation", "pull_off"):
             known = rows.dropna(subset=name)
-            rough = comparisons.model(comparisons.add_waves(known))
-            pull = partial(rough.tension, pressed=known.pressed.to_numpy()[:, None])
-            methods = {"separation": rough.separation, "pull_off": pull}
-            predicted = comparisons.find_limits(methods.get(name, rough.share), known)
+            pull = partial(Roughness.tension, pressed=known.pressed.to_numpy()[:, None])
+            methods = {"separation": Roughness.separation, "pull_off": pull}
+            method = methods.get(name, Roughness.share)
+            predicted = comparisons.find_limits(method, comparisons.add_waves(known))
             if name == "approach":
                 predicted = predicted._replace(low=predicted.low * late)
             with np.errstate(divide="ignore"):

@@ -5,9 +5,8 @@ from dataclasses import replace
 from common.job import start
 from stickiness import datasets
 from stickiness.entries.material import Material
-from stickiness.verdicts.measured_surface import read_measurements
-from stickiness.verdicts.pressed_heights import picture_contact
-from stickiness.verdicts.rough_surface import Surface
+from stickiness.pages.pressed_heights import picture_contact
+from stickiness.verdicts.rough_surface import Surface, read_measurements
 
 
 def main(job):

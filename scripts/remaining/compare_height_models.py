@@ -120,13 +120,14 @@ def find_shortest_range(adhesion_length, pixel):
 
 def list_limits(model, lengths, ranges):
     """Share by a `Roughness`: its low limit, its value and its high limit."""
-    return [model.share(lengths, ranges, sign) for sign in (-1, 0, 1)]
+    value, low, high = model.limit_share(lengths, ranges)
+    return [low, value, high]
 
 
 def simulate(heights, length, rough):
     """`Roughness` by states simulated on the heights."""
     simulated = height_simulation.simulate_heights(heights, (length, length))
-    lacking = float(find_lacking(simulated, unheld=0.0))
+    lacking = float(find_lacking(simulated))
     return replace(rough, simulated=simulated, lacking=lacking)
 
 

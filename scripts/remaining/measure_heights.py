@@ -18,7 +18,7 @@ from stickiness.remaining.height_simulation import CONTACT_AREAS, simulate_heigh
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
 from stickiness.verdicts.simulated_surface import find_lacking, tabulate_simulated
-from stickiness.verdicts.surface_variables import SURFACE_VARIABLES
+from stickiness.verdicts.surface_data import SURFACE_VARIABLES
 
 TRANSFORMS = {
     "squared": np.square,
@@ -129,7 +129,7 @@ def simulate(heights, length, setting):
     simulated = simulate_heights(heights, (length, length), most_points=setting["points"] // 2)
     dataset = tabulate_simulated(simulated)
     dataset["seconds_states"] = time.process_time() - began
-    dataset["lacking"] = float(find_lacking(simulated, unheld=0.0))
+    dataset["lacking"] = float(find_lacking(simulated))
     return dataset
 
 

@@ -98,8 +98,8 @@ def list_models(data, law):
 
 
 def predict(model, length, range_):
-    """Share that remains, and its low and high limit."""
-    return [float(model.share(length, range_, sign)) for sign in (0, -1, 1)]
+    """Share that remains, with its limits."""
+    return list(map(float, model.limit_share(length, range_)))
 
 
 def summarise(frame):

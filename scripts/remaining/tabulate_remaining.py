@@ -56,7 +56,7 @@ def list_rows(path):
         ratio = float(point.energy)
         length = float(point.adhesion_length)
         range_ = float(point["range"])
-        low, share, high = [float(rough.share(length, range_, sign)) for sign in (-1, 0, 1)]
+        share, low, high = map(float, rough.limit_share(length, range_))
         yield {
             "set": Path(path).parent.name,
             **{name: setting[name] for name in identity},

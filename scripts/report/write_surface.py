@@ -3,8 +3,8 @@
 from common import provided
 from common.job import start
 from stickiness import datasets
+from stickiness.pages.pressed_heights import Picture
 from stickiness.pages.surface_page import write_surface_page
-from stickiness.verdicts.pressed_heights import Picture
 
 
 def main(job):

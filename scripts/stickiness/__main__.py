@@ -359,9 +359,9 @@ def make_page(
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # no word where it cannot keep fonts
     from stickiness import datasets
     from stickiness.entries import without_texts
+    from stickiness.pages.pressed_heights import picture_contact
     from stickiness.pages.surface_page import write_surface_page
     from stickiness.solids import HALF_SPACE
-    from stickiness.verdicts.pressed_heights import picture_contact
 
     # The first deep material is pulled off, or else the first.
     pulled = min(materials.values(), key=lambda material: material.solid != HALF_SPACE)

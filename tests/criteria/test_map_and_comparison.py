@@ -59,7 +59,7 @@ def test_the_rule_of_thumb_is_where_the_share_remains():
         rough = Roughness(h_rms=3.0, q0=0.5, elastic_energy=energy, q1=spectrum.q1)
         for name, sign in map_criterion.SIGNS.items():
             c = float(rule.rule.sel(hurst=hurst, share=share, limit=name))
-            remains = rough.share(3.0**2 / (c * 2 * np.pi / 0.5), 3e-6, sign)
+            remains = rough.deviating(sign).share(3.0**2 / (c * 2 * np.pi / 0.5), 3e-6)
             assert remains == pytest.approx(share, rel=1e-3), (hurst, name)
 
 

@@ -598,7 +598,7 @@ def test_figure_13_follows_the_surfaces_that_go_furthest(ax):
     plot_fig13.draw_ladder(ax, table, 0.5)
     drawn(ax, [4, 8], [0.06, 0.04], marker="o", color=plotting.BLUE)
     # The theory at H = 0.8 is the same spectrum's, at a zone of a quarter of the finest waves.
-    low, value, high = plot_fig13.predict(0.8, np.array([8.0]), 0.5)
+    value, low, high = plot_fig13.predict(0.8, np.array([8.0]), 0.5)
     spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
     length = 0.5 * spectrum.elastic_energy()
     expected = predict(spectrum, length, range=np.sqrt(0.25 / 8 * length))

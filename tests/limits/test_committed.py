@@ -37,6 +37,8 @@ def rows_of_set(kind, entry):
         return len(campaign["strides"]) * len(campaign["ranges"])
     if kind == "larger":
         return len(entry["parts"]) * campaign["count"]
+    if kind == "coated":
+        return sum(len(solid["energies"]) for solid in campaign["solids"].values())
     if kind == "balls":
         return len(entry["waves"]) * len(entry["heights"]) * entry["places"]
     return None  # as many works of adhesion as have such shares
@@ -150,6 +152,26 @@ def test_larger_contacts_are_judged_both_ways():
     assert known.unevenness[is_skewed].median() > 0.2
     # Where the spectrum shows no roll-off within a patch, none is found.
     assert known.found_rolloff[known.waves < 4 * known.parts].isna().all()
+
+
+def test_shares_on_coated_solids_rise_with_the_work():
+    table = read("coated")
+    assert table.simulated.isna().mean() < 0.05
+    assert table.range.max() < 0.3
+    known = table.dropna(subset="simulated")
+    assert known.simulated.between(0, 1).all()
+    assert (known.simulated >= 1 - 1 / known.energy_ratio - 1e-3).all()
+    for _, rows in known.groupby(["set", "solid"]):
+        assert (np.diff(rows.sort_values("energy_ratio").simulated) >= 0).all()
+
+
+def test_thin_skins_are_stiff_to_what_maps_lack():
+    table = read("coated").drop_duplicates(["set", "solid"])
+    lacking = table.full_contact_energy / table.map_full_contact_energy
+    median = lacking.groupby(table.solid).median()
+    assert median.thin_skin > 3
+    assert median.thin_skin > 2 * median.thick_skin
+    assert median.thick_layer < 1.1
 
 
 def test_forces_of_balls_are_possible():

@@ -6,12 +6,13 @@ import pytest
 
 from limits.comparisons import Comparison
 from stickiness.limited import Limited
+from stickiness.remaining import errors
 
 ROWS = pd.DataFrame({"simulated": [1.0, 3.0], "value": [2.0, 2.0], "role": ["fitted", "unseen"]})
 
 
 def compare(**columns):
-    return Comparison("table.csv", "kind", "quantity", ROWS.assign(**columns))
+    return Comparison(errors.LARGER, ROWS.assign(**columns))
 
 
 def test_errors_are_in_their_unit():

@@ -8,14 +8,23 @@ import pytest
 from helpers.entries import complete
 from helpers.jobs import make_job
 
-from common import limits_table
-from common.config.campaigns import BallSet, LargerSet, RangeSet, SolidSet, TopographySet
+from common import heights_table, limits_table, remaining_table
+from common.config.campaigns import (
+    BallSet,
+    CoatedSet,
+    CoatedSolid,
+    LargerSet,
+    RangeSet,
+    SolidSet,
+    TopographySet,
+)
 from common.model_surfaces import cell_size, make_heights
 from common.topographies import make_set
 from limits import (
     calibrate_limits,
     comparisons,
     measure_balls,
+    measure_coated,
     measure_larger,
     measure_patches,
     measure_pull_offs,
@@ -55,6 +64,12 @@ COARSE = complete(
     refinements=[{"ratio": 1.0, "finer": 2}, {"ratio": 0.25, "finer": 8}],
 )
 SCANNED = complete(LargerSet, **TOPOGRAPHY | {"waves": 2}, shortest=4.0, parts=[1, 2])
+UNSEEN = complete(CoatedSet, **TOPOGRAPHY | {"points": 64}, shortest=3.0, stride=2)
+COATING = {"thickness": 0.1, "poisson": 0.5, "energies": [0.5, 2.0], "pixels_in_zone": 1.0}
+COATINGS = {
+    "skin": complete(CoatedSolid, **COATING, skin_modulus_ratio=30.0, skin_poisson=0.35),
+    "layer": complete(CoatedSolid, **COATING | {"thickness": 0.5}, backing="bonded"),
+}
 
 BALL = {"role": "fitted", "law": "exponential", "hurst": 0.8, "waves": [0.5], "heights": [0.1, 2.0]}
 BALL |= {"shortest": 0.5, "side": 6.0, "points": 64, "places": 2, "seeds": [5]}
@@ -130,6 +145,12 @@ def unresolved(folder):
 
 
 @pytest.fixture(scope="module")
+def coated(folder):
+    campaign = {"law": "exponential", "solids": COATINGS}
+    return tabulate(folder, "coated", measure_coated, [UNSEEN], **campaign)
+
+
+@pytest.fixture(scope="module")
 def balls(folder):
     settings = [complete(BallSet, **BALL, tabor=tabor) for tabor in STIFFNESSES]
     return tabulate(folder, "balls", measure_balls, settings)
@@ -173,12 +194,13 @@ def test_theory_needs_no_heights(solids, setting):
         rms_slope=row.rms_slope,
         relative_compliance=row.relative_compliance,
         flow=row.flow,
-        is_skin=row.kind == "skin",
+        solid=row.kind,
     )
     assert rebuilt.share(row.adhesion_length, row.range) == pytest.approx(
         prediction.separation, rel=1e-3, abs=1e-6
     )
-    assert rebuilt.share(row.adhesion_length, row.range, 1) == pytest.approx(
+    high = rebuilt.deviating(1)
+    assert high.share(row.adhesion_length, row.range) == pytest.approx(
         prediction.approach_limits[1], rel=1e-3
     )
 
@@ -299,6 +321,25 @@ def test_a_scan_of_half_the_side_tells_less_of_a_contact(larger):
     assert half.high_10 - half.low_10 > 2 * (same.high_10 - same.low_10)
 
 
+def test_maps_lack_energy_below_a_skin_rather_than_on_a_layer(coated):
+    assert coated.solid.tolist() == ["skin"] * 2 + ["layer"] * 2
+    assert coated.energy_ratio.tolist() == [0.5, 2.0] * 2
+    assert (coated.simulated > 1 - 1 / coated.energy_ratio).all()
+    lacking = coated.full_contact_energy / coated.map_full_contact_energy
+    on_half_space = coated.half_space_energy / coated.map_half_space_energy
+    assert (lacking > on_half_space).tolist() == [True, True, False, False]
+
+
+def test_a_scan_shows_long_waves_alone():
+    """Two waves are within four pixels of the map of 16 points, and eight are not."""
+    x = 2 * np.pi * np.arange(32) / 32
+    shown = 3 * np.cos(2 * x)[:, None] + np.sin(x)
+    heights = shown + 0.5 * np.cos(8 * x)[:, None] + 1
+    map_heights, side = measure_coated.scan(heights, {"stride": 2, "waves": 1})
+    np.testing.assert_allclose(map_heights, shown[::2, ::2], atol=1e-12)
+    assert side == pytest.approx(2 * np.pi)
+
+
 def test_stiff_balls_pull_off_as_rigid_ones(balls):
     """Boundary elements at a small Tabor parameter, and sums at the height of first touch."""
     rigid, stiff, soft = (rows for _, rows in balls.groupby("tabor"))
@@ -313,20 +354,27 @@ def test_a_smooth_ball_is_that_of_maugis(tabor):
     ball = measure_balls.make_ball("exponential", tabor)
     shape = measure_balls.curve(np.zeros((128, 128)), 6 / 128)
     pull = measure_balls.touching_force if tabor == 0 else measure_balls.pull_off_force
-    maugis = sphere.pull_off(
-        Roughness(1e-9, 1.0, 1e-18), ball.radius, ball.law.adhesion_length, ball.law.range
-    )
+    smooth = Roughness(h_rms=1e-9, q0=1.0, elastic_energy=1e-18)
+    maugis = sphere.pull_off(smooth, ball.radius, ball.law.adhesion_length, ball.law.range)
     # Maugis' law of constant traction and this one differ by a few per cent between JKR and DMT.
     assert pull(shape, 6.0, ball.law) == pytest.approx(maugis.force, rel=0.1)
 
 
-def test_a_table_without_a_column_is_refused(tmp_path):
-    path = tmp_path / "solids.csv"
-    path.write_text("set,role\nx,fitted\n")
-    with pytest.raises(ValueError, match=r"solids.csv: lacks the columns kind"):
-        limits_table.read(path, "solids")
+@pytest.mark.parametrize(
+    ("read", "lacking"),
+    [
+        (lambda path: limits_table.read(path, "solids"), "kind"),
+        (heights_table.read, "magnification"),
+        (remaining_table.read, "magnification"),
+    ],
+)
+def test_a_table_without_a_column_is_refused(tmp_path, read, lacking):
+    path = tmp_path / "some.csv"
+    path.write_text("set,role,hurst\nx,fitted,0.8\n")
+    with pytest.raises(ValueError, match=f"some.csv: lacks the columns {lacking}"):
+        read(path)
     with pytest.raises(ValueError, match="no such file"):
-        limits_table.read(tmp_path / "none.csv", "solids")
+        read(tmp_path / "none.csv")
 
 
 def test_tables_are_described(folder, solids):

@@ -4,6 +4,7 @@ import pytest
 
 from stickiness import Surface
 from stickiness.entries import check_surface
+from stickiness.verdicts.surface_data import read_ends
 
 STEEL = {
     "kind": "self_affine",
@@ -31,18 +32,10 @@ def test_a_wave_number_is_its_wavelength():
         assert by_number.data[name] == pytest.approx(float(make_surface().data[name]), rel=1e-6)
 
 
-@pytest.mark.parametrize(("end", "h_rms"), [(0, 0.5e-6), (1, 1e-6)])
-def test_the_dataset_gives_the_spectrum_back(end, h_rms):
-    steel = make_surface()
-    spectrum = steel.spectra[end]
-    assert spectrum.h_rms == pytest.approx(h_rms, rel=1e-6)
-    assert spectrum.rms_slope == pytest.approx(float(steel.data.rms_slope[end]), rel=1e-6)
-
-
 def test_waves_beyond_q1_do_not_count():
     steel = make_surface()
     q1 = float(steel.data.wave_number[20])
-    _, cut = Surface(steel.data.assign(q1=q1)).spectra
+    _, cut = read_ends(steel.data, highest=q1)
     assert cut.q1 == pytest.approx(q1)
     assert cut.rms_slope < 0.5 * steel.spectra[1].rms_slope
 

@@ -101,12 +101,3 @@ def test_comparison_counts_false_decisions(table):
     assert result["decided"] == 0.75
     assert (result["false_sticks"], result["false_does_not_stick"]) == (1, 1)
     assert heights_table.compare(rows, "bound", DEFAULT_SHARE)["inside"] == 1
-
-
-def test_a_table_without_a_column_is_refused(tmp_path):
-    path = tmp_path / "heights.csv"
-    path.write_text("set,hurst\nx,0.8\n")
-    with pytest.raises(ValueError, match=r"heights.csv: lacks the columns magnification"):
-        heights_table.read(path)
-    with pytest.raises(ValueError, match="no such file"):
-        heights_table.read(tmp_path / "none.csv")

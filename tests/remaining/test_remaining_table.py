@@ -60,12 +60,3 @@ def test_table_has_every_point_with_its_theories(measured, tmp_path):
     assert (table.predicted_low < table.predicted).all()
     assert (table.predicted < table.predicted_high).all()
     assert table.full_contact.tolist() == pytest.approx([0, 1 / 3], abs=1e-4)
-
-
-def test_a_table_without_a_column_is_refused(tmp_path):
-    path = tmp_path / "remaining.csv"
-    path.write_text("set,hurst\nx,0.8\n")
-    with pytest.raises(ValueError, match=r"remaining.csv: lacks the columns magnification"):
-        remaining_table.read(path)
-    with pytest.raises(ValueError, match="no such file"):
-        remaining_table.read(tmp_path / "none.csv")

@@ -140,6 +140,7 @@ def verdicts():
             "poisson_ratio": ("material", [0.5, np.nan]),
             "work_of_adhesion": ("material", [0.05, 0.05]),
             "work_on_smooth": ("material", [0, 0]),
+            "half_space": ("material", [1, 1]),
             "range": ("material", [1e-9, 1e-9]),
             "depends_on_rate": ("material", [1, 0]),
             "dwell": ("material", [np.nan, np.nan]),

@@ -13,18 +13,23 @@ from criteria import judge_surface
 from real_surfaces import picture_contact
 from report import write_surface
 from stickiness import Material, Surface, datasets, judge, surface
-from stickiness.criteria.pair import NOT_JUDGED, STICKY, TOUCHES
+from stickiness.criteria.pair import NOT_JUDGED, TOUCHES
 from stickiness.entries import check_material, check_surface, without_texts
 from stickiness.formatting import amount, in_unit, limited, number, with_error
 from stickiness.measured import topography
-from stickiness.pages import contact_figure, interactive, plotting, surface_figures
+from stickiness.pages import (
+    contact_figure,
+    interactive,
+    plotting,
+    pressed_heights,
+    surface_figures,
+)
+from stickiness.pages.pressed_heights import MeasuredMap, Picture
 from stickiness.pages.rows import describe_pair
 from stickiness.pages.surface_page import list_loads
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
-from stickiness.verdicts import pressed_heights
 from stickiness.verdicts.limits import read_limited
-from stickiness.verdicts.pressed_heights import MeasuredMap, Picture
 from stickiness.verdicts.wording import tell_rates
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -149,20 +154,6 @@ def test_stitched_surface_keeps_its_measurements_and_names_every_file(folder):
 
 
 @pytest.mark.slow
-def test_law_carried_on_reaches_its_end_and_opens_up(folder):
-    on = analyse(folder / "on.nc", file=scan(folder / "a.txt"), extend_to="10 nm")
-    data = on.data
-    assert float(data.q1) == pytest.approx(2 * np.pi / 10e-9)
-    assert float(data.wave_number[-1]) == pytest.approx(float(data.q1))
-    smooth, rough = data.psd.values
-    beyond = data.wave_number.values > float(data.q_cutoff) * 1.001
-    np.testing.assert_allclose(rough[~beyond], smooth[~beyond])
-    ratio = rough[beyond] / smooth[beyond]
-    assert np.all(np.diff(ratio) > 0)
-    write_page(on, folder, STEEL_ALONE).check("10 nm")
-
-
-@pytest.mark.slow
 def test_each_end_has_its_own_a_v_where_they_differ_in_shape(single, folder):
     one, other = Surface(single.data).a_v
     assert one is other
@@ -218,22 +209,18 @@ def test_the_page_tells_what_would_make_pairs_stick(page, pairs, folder):
         assert law["pull_off_stress"]["low"] == read_limited(pair.pull_off).low
 
 
-def test_page_of_a_material_with_a_dwell_has_its_ratio_and_thresholds(folder):
-    """Acrylic tape on a rough wall, at 1 Hz and after an hour."""
+def test_page_of_a_material_with_a_dwell_has_its_ratio(folder):
+    """Acrylic tape on a rough wall, after an hour."""
     series = {"equilibrium": "54 kPa", "terms": [["126 kPa", "400 s"]]}
-    tape = GEL | {"label": "tape", "youngs_modulus_prony": series, "work_of_adhesion": "70 mJ/m^2"}
-    rested = tape | {"label": "rested tape", "dwell": "3600 s"}
-    materials = {"tape": check_material(tape), "rested": check_material(rested)}
+    rested = GEL | {"label": "rested tape", "youngs_modulus_prony": series, "dwell": "3600 s"}
+    rested |= {"work_of_adhesion": "70 mJ/m^2"}
+    materials = {"rested": check_material(rested)}
     wall = WALL | {"longest_wavelength": "10 mm", "h_rms": "45 um"}
     analysed = analyse(folder / "wall.nc", **wall)
     judged = judge_by_rule(analysed, folder / "rested", materials)
-    codes = datasets.read(judged["verdicts"]).verdict.squeeze("surface")
-    assert codes.values.tolist() == [TOUCHES, STICKY]
     write_page(analysed, folder / "rested", judged=judged).check(
         "Rested tape sticks after 1 h of dwell",
         "high limits for up to 3.3 times the work and stress",
-        "It sticks below E = 82.4 kPa (69.6 to 97.7 kPa); it is 180 kPa.",
-        "It sticks below E = 82.4 kPa (69.6 to 144 kPa); it is 54 kPa.",
     )
 
 
@@ -255,9 +242,10 @@ def test_profiles_and_parametric_surfaces_have_pages(folder):
 
 @pytest.mark.slow
 def test_page_tells_of_steep_slopes_and_missing_points(single, folder):
+    steeper = 2.1 / float(single.data.rms_slope.sel(end="rough"))
     odd = single.data.assign(
         rms_slope=single.data.rms_slope.copy(data=[1.9, 2.1]),
-        q1=100 * single.data.q1,
+        drawn_psd=single.data.drawn_psd.copy(data=steeper**2 * single.data.drawn_psd.values),
         missing_fraction=single.data.missing_fraction.copy(data=0.29),
     )
     odd = odd.assign_attrs(remarks="h_rms is small; C falls as q^-5.3")
@@ -354,16 +342,9 @@ def test_curves_pass_through_the_pair_as_it_is(pairs):
 
 
 @pytest.mark.slow
-def test_rates_of_the_page_follow_the_modulus(pairs):
+def test_rates_that_stick_are_told_with_both_limits(pairs):
     pair = pairs.sel(material="gel")
-    solid = Material.from_entry(MATERIALS["gel"])
-    np.testing.assert_allclose(pair.modulus, solid.plane_strain.storage(pair.frequency.values))
-    # Within the limits of the threshold some rates may stick, and where the verdict is "sticks",
-    # 1 Hz is among those that stick.
     _, *rates = read_limited(pair.rate_threshold)
-    assert (rates[0] > 1) == (read_limited(pair.remaining).low >= DEFAULT_SHARE)
-    _, *limits = read_limited(pair.plane_strain_modulus_threshold)
-    np.testing.assert_allclose(solid.plane_strain.storage(np.array(rates)), limits, rtol=0.1)
     low, high = (f"{number(rate, 2)} Hz" for rate in rates)
     assert tell_rates(pair) == f"sticks below {low}, and may stick below {high}"
     assert tell_rates(pairs.sel(material="steel")) == ""

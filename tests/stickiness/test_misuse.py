@@ -23,7 +23,7 @@ from stickiness.criteria import a_v_table, equivalent_sphere, formulas
 from stickiness.measured import instrument_spectrum, levelling, periodic, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
-from stickiness.remaining import Roughness, measure, predict, share
+from stickiness.remaining import measure, predict, share
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.repulsive import richardson, subpixel
 from stickiness.solids import Film, HalfSpace, Layer, Skin
@@ -60,7 +60,6 @@ def average(fine, coarse, many):
     return multilevel.multilevel_mean(fine, coarse, many, ONES, ONES)
 
 
-ROUGH = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.3)
 GEL = Material(youngs_modulus=1e5, work_of_adhesion=0.05, range=3e-10)
 
 
@@ -210,18 +209,12 @@ MISUSES = [
     (lambda: predict(BAND, 1.0, 1e150), "out of proportion to the rms height"),
     (lambda: predict(BAND, 1.0, 1e-300), "out of proportion to the rms height"),
     (lambda: predict(BAND, 1e40, 1e-3), "give the work of adhesion over"),
-    (lambda: predict(BAND, 1e300, 1e-3), "give the work of adhesion over"),
     (lambda: predict(BAND, 1, 1, law="maugis"), "law must be one of exponential, van_der_waals, g"),
-    (lambda: predict(BAND, 1, 1, law="lennard_jones"), "law must be one of exponential, van_der_"),
     (lambda: share.tough_share(0.0, 0.4), "energy_ratio must"),
-    (lambda: judge(youngs_modulus=-1.0), "youngs_modulus must"),
-    (lambda: judge(poisson_ratio=0.7), "poisson_ratio must be less than .* 0.5, got 0.7"),
     (lambda: judge(length=1e-4), "length is of heights alone"),
-    (lambda: judge(wanted_share=1), "wanted_share must be between 0 and 1, got 1"),
     (lambda: verdict(BAND), "give either a material or its properties"),
     (lambda: verdict(BAND, GEL, youngs_modulus=1e5), "give either a material or its properties"),
     (lambda: Surface.from_drawing(), "give exactly one of: Ra; Rq"),
-    (lambda: Surface.from_drawing(Ra=1e-6, Rq=1e-6), "give exactly one of: Ra; Rq"),
     (lambda: Surface.from_drawing(Ra=-1e-6), "Ra must be positive"),
     (lambda: Surface.from_heights(np.ones(8), 1e-3), r"an \(nx, ny\) array, got the shape"),
     (lambda: Surface.from_profile(np.ones((8, 8)), 1e-3), r"an \(n,\) array, got the shape"),
@@ -242,10 +235,6 @@ MISUSES = [
     (
         lambda: judge(np.where(HEIGHTS > 0, np.nan, 1e-6 * HEIGHTS), length=1e-3),
         r"heights: \d+ of 256 points .* are missing, more than the 10.0 % that are filled",
-    ),
-    (
-        lambda: judge(solid=Layer(1e-300, 0.5)),
-        "thickness = 1e-300 is out of proportion to the waves",
     ),
     (
         lambda: stickiness.thresholds(
@@ -269,7 +258,6 @@ MISUSES = [
         lambda: judge(work_of_adhesion=1e300),
         r"work_of_adhesion must be between 1e-30 and 1e30 J/m\^2, got 1e\+300",
     ),
-    (lambda: share.tough_share(-1.0, 0.4), "energy_ratio must"),
     (lambda: share.tough_share(np.nan, 0.4), "energy_ratio must"),
     (lambda: share.tough_share(np.inf, 0.4), "energy_ratio must"),
     (lambda: Layer(np.inf, 0.3), "thickness must be positive and finite"),
@@ -280,10 +268,6 @@ MISUSES = [
     (lambda: Skin(1.0, -9.0, 0.4, 0.5), "modulus_ratio must be positive"),
     (lambda: Skin(1.0, 9.0, 0.6, 0.5), "skin_poisson must be non-negative and at most 0.5"),
     (lambda: Skin(1.0, 9.0, 0.4, -0.1), "poisson must be non-negative and at most 0.5"),
-    (
-        lambda: judge(solid=Skin(1e-7, 9.0, 0.4, 0.3)),
-        "must equal the solid's, 0.3, got 0.5",
-    ),
     (lambda: HalfSpace().compliance(0.0), "q must be positive and finite, got 0"),
     (lambda: Constant(-1.0), "modulus must be positive"),
     (lambda: Prony(0.0, ((1.0, 1.0),)), "equilibrium must be positive"),
@@ -413,8 +397,6 @@ DOUBTS = [
     (lambda: press(pressure=1e5), "pressure = 100000.0"),
     (lambda: adhesive.solve(HEIGHTS, SIDE, LAW, pressure=1e5), "pressure = 100000.0"),
     (lambda: press(length=1e-6 * SIDE), "length = "),
-    (lambda: judge(range=1e-15), "range = 1e-15 is outside 1e-11 to 1e-07"),
-    (lambda: judge(range=1.0), "range = 1 is outside 1e-11 to 1e-07"),
     (
         lambda: adhesive.solve(HEIGHTS, SIDE, TOO_COARSE, pressure=0.1),
         "Take pixels of at most 0.0002 ",

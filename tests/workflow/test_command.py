@@ -90,9 +90,6 @@ def test_the_answer_is_that_of_the_library(folder, verdict):
     answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--no-page")
     assert (answer.status, answer.errors) == (0, [])
     assert answer.lines == f"The material: {verdict}".splitlines()
-    assert answer.lines[0].startswith(f"The material: {verdict.word}: ")
-    assert answer.lines[1].endswith("µm")
-    assert f"E = {1e-3 * verdict.modulus_threshold:.3g} kPa" in answer.lines[3]
     assert not (folder / RESULTS).exists()
 
 
@@ -116,12 +113,6 @@ def test_the_example_takes_another_material_and_leaves_a_file_alone(folder, tmp_
     answer = run(tmp_path, "--example", "--modulus", "1 kPa", "--work", "60 mJ/m^2", "--no-page")
     assert (answer.status, answer.lines[0].count("--modulus")) == (0, 1)
     assert (tmp_path / "example_wall.txt").read_bytes() == (folder / "wall#1.npy").read_bytes()
-
-
-def test_json_has_the_numbers_of_the_library(folder, verdict):
-    answer = run(folder, "wall#1.npy", *TAPE, *SIZE, "--no-page", "--json")
-    assert (answer.status, answer.errors) == (0, [])
-    assert json.loads("\n".join(answer.lines)) == verdict.to_dict()
 
 
 def test_a_common_material_stands_for_its_values_and_a_ball_has_a_force(folder):
@@ -205,14 +196,6 @@ def test_terminal_page_and_files_give_one_number(folder, first, verdict):
     )
     stored = datasets.read(folder / RESULTS / "wall#1/verdicts.nc").squeeze()
     assert StickinessVerdict(stored).to_dict() == verdict.to_dict()
-    pair = {"work_of_adhesion": 0.06, "range": 3e-10}
-    wall = stickiness.Surface.read(folder / "wall#1.npy", length="2 mm", height_unit="um")
-    found = stickiness.thresholds(wall, youngs_modulus=2e5, **pair)
-    assert found.modulus.value == verdict.modulus_threshold
-    # The curve of the modulus crosses the wanted share at the threshold.
-    curve = stored.remaining_by_modulus.sel(limit="value")
-    crossing = np.interp(-stored.wanted_share, -curve, np.log(stored.modulus_factor))
-    assert np.exp(crossing) * 2e5 == pytest.approx(found.modulus.value, rel=0.05)
 
 
 def test_two_files_of_one_name_have_a_page_each(folder, tmp_path):

@@ -325,6 +325,33 @@ class LargerCampaign(Section):
     sets: f.Names[LargerSet]
 
 
+class CoatedSolid(Section):
+    """A skin or a layer, the works of adhesion and the ranges on it; lengths in 1/q0."""
+
+    one_of = (("backing", "skin_modulus_ratio and skin_poisson"),)
+
+    thickness: f.Positive = needed("of the layer or of the skin")
+    poisson: f.Poisson = needed("Poisson's ratio of the layer, or below the skin")
+    backing: Literal["bonded", "slip"] = optional("what a layer lies on")
+    skin_modulus_ratio: f.Positive = optional("Young's modulus of the skin over that below")
+    skin_poisson: f.Poisson = optional("Poisson's ratio of the skin")
+    energies: Values = needed("works of adhesion over the energy of full contact")
+    pixels_in_zone: f.Positive = needed("width of the cohesive zone on a half-space, in pixels")
+
+
+class CoatedSet(TopographySet):
+    """Topographies whose map lacks the finest waves."""
+
+    stride: Annotated[int, Field(ge=2)] = needed("the map has every so many-th point")
+
+
+class CoatedCampaign(Section):
+    """Energies at zero load on solids, on surfaces whose finest waves a map lacks."""
+
+    solids: f.Names[CoatedSolid]
+    sets: f.Names[CoatedSet]
+
+
 class BallSet(Section):
     """Balls on rough heights, in units of the zone of a smooth ball at pull-off."""
 
@@ -365,5 +392,6 @@ class LimitCampaign(Section):
     pull_offs: PullOffCampaign
     unresolved: UnresolvedCampaign
     larger: LargerCampaign
+    coated: CoatedCampaign
     balls: BallCampaign
     touching: f.Several[TouchingSurface]

@@ -71,8 +71,6 @@ class Pair:
     modulus: float | NDArray  #: plane-strain modulus E* [Pa]
     work_of_adhesion: float | NDArray  #: [J/m^2]
     range: float | NDArray  #: of the attraction [m]
-    #: Error of the model of what remains, in units of its limits: -1 and 1 at the low and high one
-    deviation: float | NDArray = 0.0
     rms_curvature: float | NDArray = np.nan  #: rms Laplacian [1/m]
     a_v: float | NDArray = np.nan  #: at this range on this surface
     pressed: float | NDArray = 0.0  #: mean pressure before separation [Pa]
@@ -130,12 +128,14 @@ class Pair:
         rough = self.rough.at_modulus(modulus / self.modulus)
         return replace(self, rough=rough, modulus=modulus)
 
+    def deviating(self, eta: float | NDArray) -> Self:
+        """Return the same with another error of the model, see `Roughness.deviating`."""
+        return replace(self, rough=self.rough.deviating(eta))
+
     @cached_property
     def remaining(self) -> float | NDArray:
         """Share of the work of adhesion that remains."""
-        return self.rough.share(
-            adhesion_length=self.adhesion_length, range=self.range, deviation=self.deviation
-        )
+        return self.rough.share(adhesion_length=self.adhesion_length, range=self.range)
 
     @cached_property
     def pull_off(self) -> float | NDArray:
@@ -143,7 +143,6 @@ class Pair:
         tension = self.rough.tension(
             adhesion_length=self.adhesion_length,
             range=self.range,
-            deviation=self.deviation,
             pressed=self.pressed / self.modulus,
         )
         return tension * self.modulus
@@ -158,7 +157,6 @@ class Pair:
         return self.rough.threshold(
             range=self.range,
             share=self.wanted_share,
-            deviation=self.deviation,
             adhesion_length=self.adhesion_length,
         )
 

@@ -87,7 +87,7 @@ def _read_surface(value: Any, info: ValidationInfo) -> Any:
             "must be a Surface: names of surfaces are known to the workflow alone, by its "
             "configuration"
         )
-    elif not hasattr(value, "scenarios"):
+    elif not hasattr(value, "family"):
         raise ValueError("must be a Surface")
     return value
 
@@ -430,12 +430,6 @@ class Material(ElasticPair, f.Labelled):
         if self.dwell is None:
             return 1.0
         return self.plane_strain.largest / self.plane_strain_modulus
-
-    def on_contact(self, contact: float) -> Self:
-        """The material with its own roughness as a contact of a side [m] meets it."""
-        if self.surface is None:
-            return self
-        return self.replace(surface=self.surface.on_contact(contact))
 
     @property
     def is_plane_strain(self) -> bool:

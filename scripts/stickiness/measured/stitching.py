@@ -34,6 +34,7 @@ from stickiness.measured.instrument_spectrum import MeasuredSpectrum, ring_areas
 from stickiness.measured.psd import RadialPSD
 from stickiness.measured.self_affine_fit import SelfAffineFit, fit_rings
 from stickiness.spectrum.direction import expm1_over
+from stickiness.spectrum.family import SpectrumFamily
 
 RINGS = 20  #: per decade
 SHORTEST_WAVE = 0.3e-9  #: [m]; the distance of atoms, where any roughness ends
@@ -43,7 +44,6 @@ STEEPEST_EXPONENT = 4.0  #: of C ~ q^-s in a gap: H = 1
 HURST_BEYOND = (0.3, 1.0)  #: between which the Hurst exponent beyond the cutoff is kept
 OCTAVES = 2  #: below the cutoff, which tell the local exponent
 REFERENCE_EXPONENT = 3.6  #: of C ~ q^-s, taken out before a mean over a ring: H = 0.8
-ORDERS = {"h_rms": 0, "rms_slope": 2, "rms_curvature": 4, "elastic_energy": 1}
 
 
 @dataclass(frozen=True)
@@ -297,27 +297,19 @@ class Continuation:
 
 @dataclass(frozen=True)
 class Draws:
-    """Moments of spectra that agree with a measured one."""
+    """Spectra that agree with a measured one."""
 
-    #: (n,) each: `h_rms` [length], `rms_slope`, `rms_curvature` [1/length] and `elastic_energy`
-    #: [length], the last of full contact per area over E*
-    moments: dict[str, NDArray]
+    family: SpectrumFamily  #: with waves beyond the cutoff, up to where each of them ends
     q0: NDArray  #: (n,), end of the plateau [1/length]; if there is none, lowest of the scan
     #: (n,), energy of all waves from the cutoff to `continue_to` over the measured energy
     unresolved: NDArray
-    beyond: NDArray  #: (n,), energy of the waves beyond the cutoff over that of the others
-    unheld: NDArray  #: (n,), of the waves that the first measurement does not hold, likewise
-    long_variance: NDArray  #: (n,), of heights, by the waves below those fitted [length^2]
-    long_energy: NDArray  #: (n,), of these waves, per area over E* [length]
+    #: (n,), energy of full contact per area over E* of the waves that the first measurement holds
+    #: [length]
+    held_energy: NDArray
     hurst: NDArray  #: (n,), of the fitted law
     #: (n,), C of the law at the lowest wave number fitted or the end of a plateau [length^4]
     first_psd: NDArray
     continuation: Continuation  #: of the spectrum beyond the cutoff
-    end: NDArray  #: (n,), wave number at which the waves beyond the cutoff end [1/length]
-
-    def quantiles(self, name: str, levels: tuple[float, ...]) -> NDArray:
-        """Quantiles of a moment."""
-        return np.quantile(self.moments[name], levels)
 
 
 def draw(
@@ -329,7 +321,7 @@ def draw(
     continue_to: float | None = None,
     steepest: float = np.inf,
 ) -> Draws:
-    """Draw moments of spectra that agree with a measured one.
+    """Draw spectra that agree with a measured one.
 
     Parameters
     ----------
@@ -338,19 +330,13 @@ def draw(
     count, seed : int
         Number of draws, and seed of the random numbers.
     extend_to : float, optional
-        Wave number up to which the fit extrapolates the spectrum [1/length]. Default: slope,
-        curvature and energy end at the cutoff.
+        Wave number up to which the fit extrapolates the spectrum [1/length].
     continue_to : float, optional
         Without `extend_to`: highest wave number at which the fitted law may end [1/length]. The
-        energies drawn contain the waves up to an end between the cutoff and there, whose logarithm
-        is spread evenly. Default: they end at the cutoff.
+        spectra end between the cutoff and there; the logarithm of the end is spread evenly.
+        Default: they end at the cutoff.
     steepest : float
         Rms slope at which the law ends at the latest.
-
-    Returns
-    -------
-    Draws
-        `count` values of every moment and of q0.
 
     Raises
     ------
@@ -374,82 +360,59 @@ def draw(
         levels[:, inside] = np.exp(gap.bridge(rings.q[inside], _draw_places(count, rng), ends))
     continuation = _continue(spectrum, levels, law, rng)
 
-    resolved, moments = _sum_moments(spectrum, levels, continuation, extend_to)
-
-    # Waves that are not resolved, up to ends that are spread over the orders of magnitude.
+    # Beyond the cutoff heights are the instrument's, and the law goes on in their place.
+    resolved = rings.q <= cutoff * (1 + 1e-9)
+    measured = SpectrumFamily(rings.q[resolved], spectrum.area[resolved], levels[:, resolved])
+    end: float | NDArray = cutoff if extend_to is None else extend_to
     furthest: float | NDArray = cutoff
     if extend_to is None and continue_to is not None:
-        of_slope = continuation.find_end(steepest**2 - resolved[2])
+        of_slope = continuation.find_end(steepest**2 - measured.variance(2))
         furthest = np.clip(of_slope, cutoff, max(continue_to, cutoff))
-    unresolved = continuation.integrate(furthest, 1) / 4 / moments["elastic_energy"]
-    ends = cutoff * (furthest / cutoff) ** _draw_places(count, rng)
-    moments["elastic_energy"] = moments["elastic_energy"] + continuation.integrate(ends, 1) / 4
-    energy = moments["elastic_energy"]
-    last = np.broadcast_to(ends if extend_to is None else extend_to, (count,))
+        # Where the waves end is spread over the orders of magnitude.
+        end = cutoff * (furthest / cutoff) ** _draw_places(count, rng)
+    ends = np.broadcast_to(end, (count,))
+    family = _join(measured, continuation, ends, spectrum.held.q)
+    told = measured.energy() if extend_to is None else family.energy()
 
-    # The longest waves, which levelling and the taper change, and what the law says of them.
     q0 = np.full(count, spectrum.lowest)
     if law.log_q_rolloff is not None:
         q0 = np.exp(law.log_q_rolloff)
-    first = spectrum.fit.q_min
-    long_waves = levels * np.where(rings.q < first * (1 - 1e-9), spectrum.area, 0.0)
-    start = np.log(np.maximum(first, q0))
+    start = np.log(np.maximum(spectrum.fit.q_min, q0))
     return Draws(
-        moments=moments,
+        family=family,
         q0=q0,
-        unresolved=unresolved,
-        beyond=np.maximum(4 * energy / resolved[1] - 1, 0.0),
-        unheld=_find_unheld(spectrum, levels, continuation, energy, last),
-        long_variance=long_waves.sum(1),
-        long_energy=long_waves @ rings.q / 4,
+        unresolved=continuation.integrate(furthest, 1) / 4 / told,
+        held_energy=family.up_to(spectrum.held.q).energy(),
         hurst=law.hurst,
         first_psd=np.exp(law.log_c0 - 2 * (law.hurst + 1) * start),
         continuation=continuation,
-        end=last,
     )
 
 
-def _sum_moments(
-    spectrum: MeasuredSpectrum, levels: NDArray, continuation: Continuation, extend_to: float | None
-) -> tuple[dict[int, NDArray], dict[str, NDArray]]:
-    """Sums of C q^n up to the cutoff by the order n, and moments up to where the fit extends."""
-    # Beyond the cutoff slope, curvature and energy would be the instrument's.
-    q = spectrum.rings.q
-    is_resolved = q <= spectrum.cutoff.q * (1 + 1e-9)
-    resolved = {
-        order: (levels * np.where(is_resolved, spectrum.area * q**order, 0.0)).sum(1)
-        for order in ORDERS.values()
-    }
-    moments = {}
-    for name, order in ORDERS.items():
-        moment = resolved[order]
-        if extend_to is not None:
-            moment = moment + continuation.integrate(extend_to, order)
-        elif order == 0:
-            moment = levels @ spectrum.area
-        moments[name] = moment / 4 if order == 1 else np.sqrt(moment)
-    return resolved, moments
+def _join(
+    measured: SpectrumFamily, continuation: Continuation, ends: NDArray, held: float
+) -> SpectrumFamily:
+    """Measured rings, and those of the laws beyond, up to the end of each.
 
-
-def _find_unheld(
-    spectrum: MeasuredSpectrum,
-    levels: NDArray,
-    continuation: Continuation,
-    energy: NDArray,
-    last: NDArray,
-) -> NDArray:
-    """Energy that the first measurement does not hold over what it holds, `(count,)`.
-
-    `energy` is that of all waves up to the `last`.
+    The energy of every ring is that of the law within it. One begins where the heights end (`held`,
+    [1/length]).
     """
-    q = spectrum.rings.q
     cutoff = continuation.cutoff
-    is_held = q <= min(cutoff, spectrum.held.q) * (1 + 1e-9)
-    measured = levels @ np.where(is_held, spectrum.area * q, 0.0) / 4
-    # Beyond the cutoff the heights hold waves, too, as the law has them.
-    held_end = np.clip(spectrum.held.q, cutoff, last)
-    held = measured + continuation.integrate(held_end, 1) / 4
-    return np.maximum(energy / held - 1, 0.0)
+    rings = int(np.ceil(RINGS * np.log10(ends.max() / cutoff)))
+    if rings == 0:
+        return measured
+    edges = np.geomspace(cutoff, ends.max(), rings + 1)
+    if cutoff < held < ends.max():
+        edges = np.unique(np.append(edges, held))
+    inside = np.minimum(edges[:, None], ends)
+    energy = np.diff(continuation.integrate(inside, 1), axis=0).T
+    q = np.sqrt(edges[1:] * edges[:-1])
+    area = np.pi * np.diff(edges**2)
+    return SpectrumFamily(
+        q=np.append(measured.q, q),
+        area=np.append(measured.area, area),
+        psd=np.append(measured.psd, energy / (area * q), axis=1),
+    )
 
 
 def _draw_levels(spectrum: MeasuredSpectrum, count: int, rng: np.random.Generator) -> NDArray:

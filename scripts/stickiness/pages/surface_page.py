@@ -12,16 +12,14 @@ import xarray as xr
 
 from stickiness.formatting import amount, number, quantity_with_error, with_error
 from stickiness.pages import contact_figure, interactive, plotting, surface_figures
+from stickiness.pages.pressed_heights import Picture
 from stickiness.pages.rendering import TEMPLATES, embed_png, write_page
 from stickiness.pages.rows import describe_pair, describe_surface, explain
 from stickiness.statistics import COVERS
 from stickiness.verdicts import wording
 from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
 from stickiness.verdicts.limits import read_limited
-from stickiness.verdicts.pressed_heights import Picture
 from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
-
-MOST_WIDTH = 0.98  #: of limits of a share, beyond which a page says that nothing is known
 
 
 def write_surface_page(
@@ -108,23 +106,6 @@ def describe_verdict(pair: xr.Dataset) -> dict[str, Any]:
             name: read_limited(pair[name]) for name in THRESHOLDS if not np.isnan(pair[name]).any()
         },
         "criteria": explain(pair) if wording.is_judged(pair) else [],
-        "larger": describe_larger(pair),
-    }
-
-
-def describe_larger(pair: xr.Dataset) -> dict[str, str] | None:
-    """Verdict and share for a contact larger than the scan; None where none is judged.
-
-    Limits that hold nearly all shares say nothing, and get no share.
-    """
-    if np.isnan(pair.larger_contact):
-        return None
-    share = read_limited(pair.larger_remaining)
-    says_nothing = share.high - share.low > MOST_WIDTH
-    return {
-        "contact": wording.tell_larger_size(pair),
-        "word": wording.WORDS[int(pair.larger_verdict)],
-        "remaining": "" if says_nothing else wording.tell_share(*share),
     }
 
 

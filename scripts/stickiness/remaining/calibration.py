@@ -1,12 +1,8 @@
 """How far predictions of what remains have been off, and so how wide their limits are.
 
-Every error of the share that remains is taken as an error of the work of adhesion: a limit of the
-share is its value at the work of adhesion times exp(error). The threshold of a modulus then has the
-limits value times exp(-error), and shares and thresholds agree.
-
-The errors are those of simulations beside predictions, in the tables of ``config/``, of which the
-rule `calibrate_limits` makes ``config/limits.csv``. The package holds that file, too, beside this
-module. Limits cover 90 %.
+Simulations stand beside predictions in the tables of ``config/``, of which the rule
+`calibrate_limits` makes ``config/limits.csv``. The package holds that file, too, beside this
+module. Limits cover 90 %. What the errors are proportional to is in `errors`.
 """
 
 from __future__ import annotations
@@ -23,15 +19,8 @@ def find_spread(kind: str, quantity: str) -> Limited[float]:
 
     Parameters
     ----------
-    kind : str
-        What was predicted: by the spectrum on half-spaces ("spectrum"), in contacts of few of the
-        longest waves along a side ("two waves", "one wave"), for the skewness of heights
-        ("skewness"), on other solids ("layer", "film", "thin", "skin"), by states simulated on
-        heights ("states"), on a surface by a map that was cut from it ("patch"), in a contact
-        larger than a scan ("larger", "larger non-Gaussian"), or of a ball ("ball").
-    quantity : str
-        "ln_work" is the error of the logarithm of the work of adhesion; others are described in the
-        table.
+    kind, quantity : str
+        Columns of the table, whose head describes them.
 
     Raises
     ------

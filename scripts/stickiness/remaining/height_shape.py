@@ -23,7 +23,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
 
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import SKEWNESS
 
 SLOPE = 1.0  # of the logarithm of the factor, against the skewness
 CHANCE = 1.645  # standard errors of the skewness, within which 90 % of Gaussian heights are
@@ -51,7 +51,7 @@ def find_height_shape(skewness: float) -> HeightShape:
     like 2.4 times the work of adhesion
     """
     shape = -SLOPE * float(np.arcsinh(skewness))
-    return HeightShape(shape, find_spread("skewness", "ln_work").high * abs(shape))
+    return HeightShape(shape, float(SKEWNESS.half_width(shape)))
 
 
 def find_shape_of(heights: ArrayLike) -> HeightShape:

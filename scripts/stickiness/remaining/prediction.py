@@ -8,11 +8,10 @@ from typing import Any
 import numpy as np
 
 from stickiness.arguments import number
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import APPROACH
 from stickiness.remaining.roughness import Roughness, find_anisotropy_error_factor
-from stickiness.remaining.solid_response import find_half_space_energy, find_relative_compliance
-from stickiness.remaining.thin_layers import find_flow
-from stickiness.solids import HALF_SPACE, Skin, Solid
+from stickiness.solids import HALF_SPACE, Solid
+from stickiness.spectrum.family import SpectrumFamily
 from stickiness.spectrum.interface import Spectrum, check_spectrum
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
@@ -101,38 +100,34 @@ def predict(
             f"q0 = {q0:.3g} is far outside the wave numbers of the spectrum, {lowest:.3g} to "
             f"{highest:.3g}: give that of its longest waves"
         )
-    rough = Roughness(
-        h_rms=spectrum.h_rms,
-        q0=q0,
-        elastic_energy=spectrum.elastic_energy(solid),
+    rough = Roughness.of(
+        SpectrumFamily.of(spectrum),
+        solid,
+        q0=np.array([q0]),
         q1=highest,
-        relative_compliance=find_relative_compliance(spectrum, solid, q0),
-        flow=find_flow(solid, q0),
-        half_space_energy=find_half_space_energy(spectrum, solid),
-        is_skin=isinstance(solid, Skin),
         anisotropy_error_factor=find_anisotropy_error_factor(spectrum.anisotropy),
-        rms_slope=spectrum.rms_slope,
         law=law,
         simulated=simulated,
-    )
+    ).take(0)
     _check_proportions(rough, length, range)
+    low = rough.deviating(-1)
+    high = rough.deviating(1)
     share = float(rough.share(length, range))
-    least_share = float(rough.share(length, range, -1))
-    most_share = float(rough.share(length, range, 1))
-    most_separation = float(rough.separation(length, range, 1))
-    least_tension = float(rough.tension(length, range, -1, pressed))
-    most_tension = float(rough.tension(length, range, 1, pressed))
-    late = float(np.exp(find_spread("spectrum", "ln_approach").low))
+    least_share = float(low.share(length, range))
+    late = float(np.exp(APPROACH.spread.low))
     softened = length * rough.relative_compliance
     maugis_range = range / find_strength(law)
     return Prediction(
         approach=share,
         separation=share,
-        pull_off=float(rough.tension(length, range, 0, pressed)),
+        pull_off=float(rough.tension(length, range, pressed)),
         area_at_zero_load=float(rough.area(length, range)),
-        approach_limits=(least_share * late, most_share),
-        separation_limits=(least_share, most_separation),
-        pull_off_limits=(least_tension, most_tension),
+        approach_limits=(least_share * late, float(high.share(length, range))),
+        separation_limits=(least_share, float(high.separation(length, range))),
+        pull_off_limits=(
+            float(low.tension(length, range, pressed)),
+            float(high.tension(length, range, pressed)),
+        ),
         energy_ratio=float(length / rough.elastic_energy),
         tabor=float(np.cbrt(softened**2 / (q0**2 * rough.h_rms * maugis_range**3))),
         anisotropy_error_factor=float(rough.anisotropy_error_factor),

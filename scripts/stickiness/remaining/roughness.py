@@ -11,7 +11,19 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
+from stickiness.limited import Limited
 from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import (
+    COATED,
+    SEPARATION,
+    STATES_TENSION,
+    TENSION,
+    WEAK,
+    between,
+    find_limits,
+    find_theory_error,
+    raise_limit,
+)
 from stickiness.remaining.share import (
     DeepestState,
     count_scales,
@@ -21,8 +33,11 @@ from stickiness.remaining.share import (
     find_onset,
     remaining_share,
 )
+from stickiness.remaining.solid_response import BOUNDED, SolidResponse, find_columns
 from stickiness.remaining.thin_layers import find_gain
-from stickiness.remaining.trial_states import DEFAULT_SHARE
+from stickiness.remaining.trial_states import DEFAULT_SHARE, SimulatedHeights
+from stickiness.solids import HALF_SPACE, Solid
+from stickiness.spectrum.family import SpectrumFamily
 from stickiness.traction_laws import EXPONENTIAL, find_strength
 
 # The narrowest wave that simulations followed: zeta = 64 with zone zeta = 0.25. Beyond it the onset
@@ -30,8 +45,6 @@ from stickiness.traction_laws import EXPONENTIAL, find_strength
 # move it, and that they take their whole energy from the work of adhesion (Persson and Tosatti).
 FINEST_SIMULATED = 128.0
 EXTRAPOLATION_ERROR = 0.5
-#: Kinds of errors of the theory by the longest waves along a side of the contact.
-CELLS = {1: "one wave", 2: "two waves", 4: "spectrum"}
 # Energy ratios between which the high limit of the pull-off goes over to the strength of the law.
 PULL_OFF_KNOWN = 1.4
 PULL_OFF_UNKNOWN = 3.0
@@ -52,60 +65,85 @@ SOFTEST = 1e-6
 UNLIKE = 2.0
 
 
-@dataclass(frozen=True)
+SHARED = ("simulated", "response")  #: fields that all rows have in common
+
+
+@dataclass(frozen=True, kw_only=True)
 class Roughness:
-    """What the prediction needs to know of a surface; numbers or arrays, lengths in one unit."""
+    """What the prediction needs to know of a surface; numbers or arrays, lengths in one unit.
+
+    The limits of a prediction are its values at another `eta`, see `deviating`.
+    """
 
     h_rms: float | NDArray
     q0: float | NDArray  #: of the longest waves, or of the roll-off
     elastic_energy: float | NDArray  #: of full contact per nominal area over E* [length]
     q1: float | NDArray = np.inf  #: of the finest waves; infinite: many decades of waves
-    relative_compliance: float | NDArray = 1.0  #: see `find_relative_compliance`
-    flow: float | NDArray = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
-    #: Energy of a half-space, which bounds that of a layer or skin; NaN: it does not.
-    half_space_energy: float | NDArray = np.nan
-    is_skin: bool | NDArray = False  #: whether the compliance is that of a skin, not of a layer
-    anisotropy_error_factor: float | NDArray = 1.0  #: see `find_anisotropy_error_factor`
-    waves: float | NDArray = np.inf  #: longest waves along a side of the contact
     rms_slope: float | NDArray = np.inf  #: infinite: without adhesion the area in contact vanishes
+    waves: float | NDArray = np.inf  #: longest waves along a side of the contact
+    #: Error of the model in units of its limits: -1 and 1 at the low and the high one
+    eta: float | NDArray = 0.0
     law: str | NDArray = EXPONENTIAL  #: name in `traction_laws.LAWS`
-    #: `FilmResponse`, or an array of these, by which elastic energy and compliance depend on the
-    #: modulus of a layer on a film, or below a skin; None without these
-    film_response: Any = None
+    anisotropy_error_factor: float | NDArray = 1.0  #: see `find_anisotropy_error_factor`
     #: ln of the factor by which heights that are not Gaussian change the energy ratio at which a
     #: share remains, and its error: see `height_shape`
     shape: float | NDArray = 0.0
     shape_error: float | NDArray = 0.0
-    #: `SimulatedHeights`, or an array of these, which replace the theory of share, area and
-    #: distance; None where there are none
-    simulated: Any = None
-    #: Energy of full contact of waves that are not simulated, over that of the others
-    lacking: float | NDArray = 0.0
-    height_factor: float | NDArray = 1.0  #: on the heights simulated
     #: Mean gap over h_rms at which hard solids first touch; NaN: that of contacts of many waves,
     #: whose error and that of next to nothing then count
     first_touch: float | NDArray = np.nan
     #: Instantaneous modulus over E* after a dwell, by which fast separation may exceed the share
     instant_ratio: float | NDArray = 1.0
 
+    # What the solid decides, see `solid_response.find_columns`.
+    solid: str | NDArray = "half-space"
+    half_space_energy: float | NDArray = np.nan  #: energy of full contact of a half-space
+    relative_compliance: float | NDArray = 1.0
+    flow: float | NDArray = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
+    #: Share of the elastic energy in waves finer than those measured
+    unresolved: float | NDArray = 0.0
+    row: int | NDArray = 0  #: of the family of `response`
+    response: SolidResponse | None = None  #: of layers on a film and of skins, at other moduli
+
+    # States of contact that replace the theory of share, area and distance.
+    simulated: SimulatedHeights | None = None
+    #: Energy of full contact of waves that are not simulated, over that of the others
+    lacking: float | NDArray = 0.0
+    height_factor: float | NDArray = 1.0  #: on the heights simulated
+
+    @classmethod
+    def of(
+        cls,
+        family: SpectrumFamily,
+        solid: Solid = HALF_SPACE,
+        *,
+        q0: NDArray,
+        told: float = np.inf,
+        **known: Any,
+    ) -> Roughness:
+        """Roughness of a family of n spectra on a solid, rows ``(n,)``.
+
+        `q0` are the wave numbers of their longest waves, `known` other columns. The slope is that
+        of waves up to one that is `told`: what drawn spectra have beyond is unknown.
+        """
+        return cls(
+            h_rms=np.sqrt(family.variance()),
+            q0=q0,
+            rms_slope=np.sqrt((family if told == np.inf else family.up_to(told)).variance(2)),
+            **find_columns(family, solid, q0),
+            **known,
+        )
+
+    def deviating(self, eta: float | NDArray) -> Self:
+        """Return the same with another error of the model, which replaces the one there is."""
+        return replace(self, eta=eta)
+
     def at_modulus(self, factor: float | NDArray) -> Self:
         """Return the same with E* times a factor: films and skins keep their stiffness."""
-        if not np.any(np.not_equal(self.film_response, np.array(None))):
+        if self.response is None:
             return self
-        factor, responses = np.broadcast_arrays(factor, self.film_response)
-        energy_ratio = np.ones(factor.shape)
-        compliance_ratio = np.ones(factor.shape)
-        for response in set(responses.ravel()) - {None}:
-            rows = responses == response
-            factors, place = np.unique(factor[rows], return_inverse=True)
-            energies, compliances = response.at_modulus(factors)
-            energy_ratio[rows] = energies[place]
-            compliance_ratio[rows] = compliances[place]
-        return replace(
-            self,
-            elastic_energy=self.elastic_energy * energy_ratio,
-            relative_compliance=self.relative_compliance * compliance_ratio,
-        )
+        change = self.response.change(self.row, factor)
+        return replace(self, **{name: getattr(self, name) * each for name, each in change.items()})
 
     def scaled(self, factor: float | NDArray) -> Self:
         """Return the same with heights times a factor, at an unchanged shape of the spectrum."""
@@ -128,52 +166,59 @@ class Roughness:
 
     def _change(self, change: Callable[[Any], Any]) -> Self:
         """Return the same with every number and array changed alike."""
-        columns = {field.name: getattr(self, field.name) for field in fields(self)}
-        return replace(self, **{name: change(column) for name, column in columns.items()})
+        return replace(self, **{name: change(each) for name, each in self.columns.items()})
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """Numbers and arrays by name, without what all rows have in common."""
+        names = [field.name for field in fields(self) if field.name not in SHARED]
+        return {name: getattr(self, name) for name in names}
 
     @property
     def shape_of_arrays(self) -> tuple[int, ...]:
         """Shape to which numbers and arrays broadcast."""
-        return np.broadcast_shapes(*(np.shape(getattr(self, field.name)) for field in fields(self)))
+        return np.broadcast_shapes(*map(np.shape, self.columns.values()))
 
-    def share(
-        self,
-        adhesion_length: ArrayLike,
-        range: ArrayLike,
-        deviation: ArrayLike = 0,
-        error: ArrayLike | None = None,
-    ) -> float | NDArray:
+    def share(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Share of the work of adhesion that remains.
 
-        `deviation` is the error of the model in units of its limits: -1 and +1 give the low and the
-        high limit. The share is that of slow separation. The high limit after a dwell is that of a
-        fast edge of contact, and may exceed 1. `error` of the logarithm of the work of adhesion
-        replaces that of the theory.
+        It is that of slow separation. The high limit after a dwell is that of a fast edge of
+        contact, and may exceed 1.
         """
-        by_theory = self._share_by_theory(adhesion_length, range, deviation, error)
-        slow = self._replace_simulated("share", by_theory, adhesion_length, range, deviation)
-        return plain(slow * self._find_fast_ratio(deviation))
+        if self.simulated is None:
+            slow = self.share_by_theory(adhesion_length, range)
+        else:
+            slow = self._ask_simulated("share", adhesion_length, range, self.eta)
+        return plain(slow * self._fast_ratio)
 
-    def _find_fast_ratio(self, deviation: ArrayLike) -> NDArray:
+    def limit_share(self, adhesion_length: ArrayLike, range: ArrayLike) -> Limited[Any]:
+        """Share of the work of adhesion that remains, with its limits."""
+        return find_limits(self, lambda each: each.share(adhesion_length, range))
+
+    @property
+    def _fast_ratio(self) -> NDArray:
         """Factor of the high limit by which fast separation may exceed a slow one after a dwell."""
-        return np.asarray(self.instant_ratio) ** np.clip(deviation, 0.0, 1.0)
+        return np.asarray(self.instant_ratio) ** raise_limit(self.eta)
 
-    def _share_by_theory(self, adhesion_length, range, deviation, error=None) -> NDArray:
-        """Share by the spectrum; arguments as of `share`."""
-        deviation = np.asarray(deviation)
+    def share_by_theory(
+        self, adhesion_length: ArrayLike, range: ArrayLike, error: ArrayLike | None = None
+    ) -> NDArray:
+        """Share by the spectrum; `error` of ln of the work of adhesion replaces the theory's."""
         length = np.asarray(adhesion_length)
-        full_contact_share = 1 - 1 / self._energy_ratio(length)
+        # Below a skin on a map it is the energy of full contact that is not known.
+        known_to = np.exp(np.multiply(self.eta, COATED.half_width(self)))
+        full_contact_share = 1 - 1 / self._energy_ratio(length * known_to)
 
         # A limit is the value at another work of adhesion, and another height of the summits.
         error = self._find_error(length, range) if error is None else error
-        shifted = length * np.exp(deviation * error)
+        shifted = length * np.exp(np.multiply(self.eta, error))
         is_wide = np.isnan(self.first_touch)
         touch = find_spread("spectrum", "first_touch")
-        of_many = np.interp(deviation, (-1, 0, 1), (touch.high, touch.value, touch.low))
+        of_many = between(touch._replace(low=touch.high, high=touch.low), self.eta)
         energy_ratio = self._shaped_energy_ratio(shifted)
         compliance = np.asarray(self.relative_compliance)
         # Points of a skin are coupled, so that the limit of independent springs does not apply.
-        layer_compliance = np.where(self.is_skin, 1.0, compliance)
+        layer_compliance = np.where(np.equal(self.solid, "skin"), 1.0, compliance)
         share = remaining_share(
             energy_ratio,
             np.asarray(range) / self.h_rms,
@@ -185,94 +230,56 @@ class Roughness:
             first_touch=np.where(is_wide, of_many, self.first_touch),
         )
         # Where next to nothing remains an error is absolute, and fades with the adhesion.
-        fading = np.minimum(self._energy_ratio(length) / self.onset(length, range), 1.0) ** 2
-        share = share + is_wide * deviation * fading * find_spread("spectrum", "share").high
-        if np.isfinite(self.half_space_energy).any():
-            share = self._bound_by_half_space(share, length, range, deviation)
+        weak_error = WEAK.half_width(self._energy_ratio(length) / self.onset(length, range))
+        share = share + is_wide * self.eta * weak_error
+        if np.isin(self.solid, BOUNDED).any():
+            share = self._bound_by_half_space(share, length, range)
 
         # Full contact is a state that the surfaces may take.
         return np.clip(share, np.maximum(full_contact_share, 0.0), 1.0)
 
     def _find_error(self, adhesion_length, range) -> NDArray:
         """Error of the logarithm of the work of adhesion, which covers 90 %."""
-        # Other solids are less certain the further their compliance is from a half-space's, and
-        # layers on a film, which no half-space bounds, by as much at any compliance.
-        compliance = np.asarray(self.relative_compliance)
-        flow = np.asarray(self.flow)
-        is_layer = ~np.asarray(self.is_skin)
-        is_on_film = is_layer & np.isnan(self.half_space_energy) & (compliance != 1)
-        is_on_base = is_layer & ~is_on_film
-        weights = {
-            "film": 1.0 * is_on_film,
-            "layer": np.maximum(1 - compliance, 0.0) * (1 - flow) * is_on_base,
-            "thin": flow * is_on_base,
-            "skin": np.maximum(1 - compliance, 0.0) * ~is_layer,
-        }
-        by_solid = [weight * find_spread(kind, "ln_work").high for kind, weight in weights.items()]
         # Beyond the waves that were simulated the onset may rise further.
         onset = self.onset(adhesion_length, range)
         simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
         extrapolated = EXTRAPOLATION_ERROR * np.log(onset / np.asarray(simulated_onset))
-        # A contact of few waves is one realisation.
-        by_waves = [find_spread(kind, "ln_work").high for kind in CELLS.values()]
-        of_spectrum = np.interp(np.log(self.waves), np.log(list(CELLS)), by_waves)
-        errors = (of_spectrum, *by_solid, extrapolated)
-        independent = np.sqrt(sum(np.square(error) for error in errors))
-        return np.hypot(independent * self.anisotropy_error_factor, self.shape_error)
+        return find_theory_error(self, extrapolated)
 
-    def _replace_simulated(
-        self, quantity: str, by_theory, adhesion_length, range, *others
-    ) -> float | NDArray:
-        """Values by theory, replaced where there are simulated heights; `others` as of these."""
-        if not np.any(np.not_equal(self.simulated, np.array(None))):
-            return plain(by_theory)
-        # One row per pair. Heights times a factor take the factor squared of all energies.
-        replaced, simulated, law, lacking, length, row_range, *other_rows = (
-            np.array(column)
-            for column in np.broadcast_arrays(
-                by_theory,
-                self.simulated,
-                self.law,
-                self.lacking,
-                adhesion_length / np.square(self.height_factor),
-                range / np.asarray(self.height_factor),
-                *others,
+    def _ask_simulated(self, quantity: str, adhesion_length, range, *others) -> NDArray:
+        """A quantity by the states simulated on heights, which all rows have in common."""
+        # Heights times a factor take the factor squared of all energies.
+        length = adhesion_length / np.square(self.height_factor)
+        range = range / np.asarray(self.height_factor)
+        columns = np.broadcast_arrays(length, range, self.law, self.lacking, *others)
+        lengths, ranges, laws, lacking, *rest = (np.ravel(column) for column in columns)
+        found = np.empty(lengths.shape)
+        for law in np.unique(laws):
+            rows = laws == law
+            known = (column[rows] for column in (lacking, *rest))
+            found[rows] = getattr(self.simulated, quantity)(
+                lengths[rows], ranges[rows], str(law), *known
             )
-        )
-        for name in np.unique(law):
-            for heights in set(simulated.ravel()) - {None}:
-                rows = (simulated == heights) & (law == name)
-                replaced[rows] = getattr(heights, quantity)(
-                    length[rows],
-                    row_range[rows],
-                    str(name),
-                    lacking[rows],
-                    *(column[rows] for column in other_rows),
-                )
-        return plain(replaced)
+        return found.reshape(columns[0].shape)
 
-    def _bound_by_half_space(self, share, adhesion_length, range, deviation) -> NDArray:
+    def _bound_by_half_space(self, share, adhesion_length, range) -> NDArray:
         """Bound a share by that on a half-space.
 
         A solid that is stiffer to every wave has no state of less energy than a half-space, and a
         softer one has none of more.
         """
-        is_known = np.isfinite(self.half_space_energy)
         half_space = replace(
             self,
             elastic_energy=self._energy_on_half_space,
-            half_space_energy=np.nan,
+            solid="half-space",
             relative_compliance=1.0,
             flow=0.0,
-            is_skin=False,
-            film_response=None,
-            simulated=None,
-            instant_ratio=1.0,
+            response=None,
         )
-        bound = half_space.share(adhesion_length, range, deviation)
+        bound = half_space.share_by_theory(adhesion_length, range)
         is_stiffer = 1 - np.asarray(self.relative_compliance) >= 0
         bounded = np.where(is_stiffer, np.minimum(share, bound), np.maximum(share, bound))
-        return np.where(is_known, bounded, share)
+        return np.where(np.isin(self.solid, BOUNDED), bounded, share)
 
     def _energy_ratio(self, adhesion_length: ArrayLike) -> NDArray:
         """Work of adhesion over the elastic energy of full contact."""
@@ -316,8 +323,8 @@ class Roughness:
 
     @property
     def _energy_on_half_space(self) -> NDArray:
-        """Energy of full contact of a half-space, as far as it is known."""
-        is_known = np.isfinite(self.half_space_energy)
+        """Energy of full contact of a half-space; of a layer on a film its own stands for it."""
+        is_known = np.isin(self.solid, BOUNDED)
         return np.where(is_known, self.half_space_energy, self.elastic_energy)
 
     @property
@@ -333,22 +340,22 @@ class Roughness:
 
     def area(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Share of the nominal area that is in contact at zero load."""
-        by_theory = self._deepest_state(adhesion_length, range).area
-        return self._replace_simulated("area", by_theory, adhesion_length, range)
+        if self.simulated is not None:
+            return plain(self._ask_simulated("area", adhesion_length, range))
+        return plain(self._deepest_state(adhesion_length, range).area)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Distance over which what remains acts: its work over the largest tension [length]."""
+        if self.simulated is not None:
+            # Heights times a factor are simulated as they were, in a unit that is so much larger.
+            in_unit = self._ask_simulated("distance", adhesion_length, range)
+            return plain(in_unit * self.height_factor)
         state = self._deepest_state(adhesion_length, range)
         acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
         tension = np.where(acts, state.tension, 1.0)
         energy_ratio = self._shaped_energy_ratio(adhesion_length)
         distance = self.h_rms * energy_ratio * state.share / tension
-        by_theory = np.where(acts, distance, np.asarray(range) + self.h_rms)
-        # Heights times a factor are simulated as they were, in a unit that is so much larger.
-        in_unit = self._replace_simulated(
-            "distance", by_theory / self.height_factor, adhesion_length, range
-        )
-        return plain(in_unit * self.height_factor)
+        return plain(np.where(acts, distance, np.asarray(range) + self.h_rms))
 
     def _deepest_state(self, adhesion_length, range) -> DeepestState:
         return find_deepest_state(
@@ -368,53 +375,42 @@ class Roughness:
         softened = np.asarray(adhesion_length) * self.relative_compliance
         return self.q0 * (np.asarray(range) / find_strength(self.law)) ** 2 / softened
 
-    def separation(
-        self, adhesion_length: ArrayLike, range: ArrayLike, deviation: ArrayLike = 0
-    ) -> float | NDArray:
-        """Work of separation over the work of adhesion; `deviation` as of `share`.
+    def separation(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
+        """Work of separation over the work of adhesion.
 
         The high limit allows for jumps and for a pinned edge, which may cost the work of adhesion
         times the area of contact, as Dalvi et al. (doi:10.1073/pnas.1913126116) measured it. Full
         contact that lasts up to the strength of the law is within this limit, too.
         """
-        share = np.asarray(self.share(adhesion_length, range, deviation))
+        share = np.asarray(self.share(adhesion_length, range))
         energy_ratio = self._energy_ratio(adhesion_length)
-        jumps = np.exp(find_spread("spectrum", "ln_separation").high)
+        jumps = np.exp(SEPARATION.spread.high)
         with_jumps = np.minimum(jumps * share, 1.0)
         pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / energy_ratio)
         high_limit = np.maximum(with_jumps, pinned)
-        return plain(np.where(np.asarray(deviation) > 0, high_limit, share))
+        return plain(np.where(np.asarray(self.eta) > 0, high_limit, share))
 
     def tension(
-        self,
-        adhesion_length: ArrayLike,
-        range: ArrayLike,
-        deviation: ArrayLike = 0,
-        pressed: ArrayLike = 0.0,
+        self, adhesion_length: ArrayLike, range: ArrayLike, pressed: ArrayLike = 0.0
     ) -> float | NDArray:
-        """Largest mean tension on separation over E*; `deviation` as of `share`.
+        """Largest mean tension on separation over E*.
 
         Edges that lag behind on separation raise the high limit by theory as they do the work. It
         goes over to the strength of the law towards full contact, which was not simulated, and
         takes it where full contact, `pressed` with that pressure over E*, lasts.
         """
         length = np.asarray(adhesion_length)
-        deviation = np.asarray(deviation)
-        share = np.asarray(self.share(length, range, deviation))
-        is_theory = np.equal(self.simulated, np.array(None))
-        of_theory = find_spread("spectrum", "ln_tension")
-        of_states = find_spread("states", "ln_tension")
-        value, low, high = (
-            np.where(is_theory, *pair) for pair in zip(of_theory, of_states, strict=True)
-        )
+        eta = np.asarray(self.eta)
+        share = np.asarray(self.share(length, range))
+        value, low, high = (TENSION if self.simulated is None else STATES_TENSION).spread
 
         # The errors of the share and of the distance are independent: they add in quadrature.
         with np.errstate(divide="ignore", invalid="ignore"):
-            slow = share / self._find_fast_ratio(deviation)
-            of_share = np.abs(np.log(slow / self.share(length, range)))
-            of_distance = np.abs(np.where(deviation < 0, value - low, high - value) * deviation)
+            slow = share / self._fast_ratio
+            of_share = np.abs(np.log(slow / self.deviating(0.0).share(length, range)))
+            of_distance = np.abs(np.where(eta < 0, value - low, high - value) * eta)
             added = np.hypot(of_share, of_distance) - of_share
-        correction = value + np.sign(deviation) * np.where(np.isfinite(of_share), added, 0.0)
+        correction = value + np.sign(eta) * np.where(np.isfinite(of_share), added, 0.0)
         predicted = length / self.distance(length, range) * share * np.exp(correction)
         # Towards full contact, which was not simulated, only the strength bounds the high limit.
         log_known = np.log(PULL_OFF_KNOWN)
@@ -425,7 +421,7 @@ class Roughness:
         strength = find_strength(self.law) * length / range
         slope = np.asarray(self.rms_slope)
         lasts = (np.asarray(pressed) > 2 * slope) & (strength > LASTING * slope / 2)
-        weight = np.where(lasts, 1.0, weight) * np.clip(deviation, 0.0, 1.0)
+        weight = np.where(lasts, 1.0, weight) * raise_limit(eta)
         # Geometric interpolation between what is predicted and the strength.
         return plain(np.minimum(predicted, strength) ** (1 - weight) * strength**weight)
 
@@ -433,14 +429,12 @@ class Roughness:
         self,
         range: ArrayLike,
         share: ArrayLike = DEFAULT_SHARE,
-        deviation: ArrayLike = 0,
         adhesion_length: ArrayLike | None = None,
     ) -> float | NDArray:
         """Adhesion length from which on at least a share remains.
 
-        With `deviation` +1 or -1, from which on its high or low limit is at least that. On a film
-        the modulus of the layer changes the length, from `adhesion_length`, and below a skin that
-        of the half-space.
+        On a film the modulus of the layer changes the length, from `adhesion_length`, and below a
+        skin that of the half-space.
         """
         from scipy.optimize import elementwise  # not needed to read a configuration
 
@@ -453,12 +447,12 @@ class Roughness:
         )
         # One row per pair: the root search runs over rows. Without a length to start from, the film
         # under a layer is taken as it is.
-        surface = replace(self, film_response=None) if adhesion_length is None else self
+        surface = replace(self, response=None) if adhesion_length is None else self
         start_length = np.nan if adhesion_length is None else adhesion_length
-        columns = (range, deviation, share, start_length)
+        columns = (range, share, start_length)
         shape = np.broadcast_shapes(surface.shape_of_arrays, *map(np.shape, columns))
         rough = surface.broadcast(shape)
-        ranges, deviations, wanted_shares, start_lengths = (
+        ranges, wanted_shares, start_lengths = (
             np.broadcast_to(column, shape).ravel() for column in columns
         )
 
@@ -466,13 +460,12 @@ class Roughness:
             """Share that remains in these rows, less the wanted one."""
             length = np.exp(log_length)
             rough_rows = rough.take(row).at_modulus(start_lengths[row] / length)
-            remains = rough_rows.share(length, ranges[row], deviations[row])
-            return remains - wanted_shares[row]
+            return rough_rows.share(length, ranges[row]) - wanted_shares[row]
 
         # The bracket, in the logarithm of the length.
         energy = np.asarray(rough.elastic_energy)
         lowest = np.log(LEAST_LENGTH * energy)
-        highest = np.log(rough._find_most_length(wanted_shares, self.simulated))
+        highest = np.log(rough._find_most_length(wanted_shares))
 
         # Shares need not rise with the length. The threshold must agree with the share at the
         # start: search below that if enough remains there, else above.
@@ -492,15 +485,15 @@ class Roughness:
         lengths = np.select([holds_always, holds_never], extremes, np.exp(root.x))
         return plain(lengths.reshape(shape))
 
-    def _find_most_length(self, share: NDArray, simulated: Any) -> NDArray:
+    def _find_most_length(self, share: NDArray) -> NDArray:
         """Adhesion length from which on every limit is above a share.
 
         Full contact keeps 1 - energy/length, which is more than the share from energy/(1 - share)
         on; 20 times that leaves room for limits. A film may raise the energy on the way there.
         """
         energy = np.asarray(self.at_modulus(SOFTEST).elastic_energy)
-        if simulated is not None:  # whose energy may exceed that of a spectrum that is drawn
-            energy = np.maximum(energy, simulated.whole.full_contact_energy)
+        if self.simulated is not None:  # whose energy may exceed that of a spectrum that is drawn
+            energy = np.maximum(energy, self.simulated.whole.full_contact_energy)
         return 20 * energy / (1 - share)
 
 

@@ -1,87 +1,74 @@
-"""How layers, films and skins take full contact, beside a half-space."""
+"""How solids take full contact: half-spaces, layers, layers on a film, and skins."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.solids import HALF_SPACE, Film, Layer, Skin, Solid, check_solid
-from stickiness.spectrum.interface import Spectrum
+from stickiness.remaining.thin_layers import find_flow
+from stickiness.solids import Film, Layer, Skin, Solid, check_solid
+from stickiness.spectrum.family import SpectrumFamily
+
+BOUNDED = ("layer", "skin")  #: solids that are stiffer than a half-space to every wave, or softer
+
+
+def name_solid(solid: Solid) -> str:
+    """What theory tells apart: "half-space", "layer", "film" for a layer on one, or "skin"."""
+    check_solid(solid)
+    if isinstance(solid, Layer):
+        return "film" if isinstance(solid.backing, Film) else "layer"
+    return "skin" if isinstance(solid, Skin) else "half-space"
+
+
+def find_columns(family: SpectrumFamily, solid: Solid, q0: Any) -> dict[str, Any]:
+    """Columns of `roughness.Roughness` that a solid decides, ``(n,)`` for a family of n spectra.
+
+    `q0` is the wave number of the longest waves of each.
+    """
+    response = SolidResponse(family, solid, q0)
+    is_split = name_solid(solid) in ("film", "skin")  # of two solids, which differ in modulus
+    return {
+        "elastic_energy": family.energy(solid),
+        "half_space_energy": family.energy(),
+        "relative_compliance": response.find_compliance(),
+        "flow": find_flow(solid, q0),
+        "solid": name_solid(solid),
+        "response": response if is_split else None,
+        "row": np.arange(family.count),
+    }
 
 
 @dataclass(frozen=True, eq=False)
-class FilmResponse:
-    """How full contact of a layer on a film, or on a skin, depends on E*; films and skins do not.
+class SolidResponse:
+    """Full contact of one solid with a family of spectra, at any modulus.
 
-    It is evaluated at the moduli that are needed, all at once, with the waves in common.
+    Films and skins keep their stiffness where the modulus of the layer on them, or of the
+    half-space below, is another.
     """
 
-    spectra: tuple[Spectrum, ...]  #: several: of draws between them, by the geometric mean
+    family: SpectrumFamily
     solid: Solid
-    q0: float
+    q0: NDArray  #: of the longest waves, ``(n,)``
 
-    @cached_property
-    def _waves(self) -> list[tuple[NDArray, NDArray]]:
-        """Wave numbers of every spectrum, and what they add to the energy of a half-space."""
-        waves = []
-        for spectrum in self.spectra:
-            averaged = spectrum.averaged()
-            q, weight = averaged.quadrature(*averaged.band)
-            waves.append((q, weight * q))
-        return waves
+    def find_compliance(self, modulus: NDArray | float = 1.0, rows: Any = slice(None)) -> NDArray:
+        """Compliance over that of a half-space: S of the longest waves, see `solids`.
 
-    def at_modulus(self, factor: NDArray) -> tuple[NDArray, NDArray]:
-        """Elastic energy over E* and relative compliance with E* times factors ``(n,)``.
-
-        Both over what they are as it is.
+        A skin is stiff to short waves, which then store most of the energy. The mean of 1/S of all
+        waves, weighted by the energy of a half-space, stands for them.
         """
-        modulus = np.append(1.0, factor)[:, None]
-        energies = [(1 / self.solid.factor(q, modulus)) @ energy for q, energy in self._waves]
-        energy = np.exp(np.mean(np.log(energies), axis=0))
-        # See `find_relative_compliance`.
-        compliance = 1 / energy
-        if not isinstance(self.solid, Skin):
-            compliance = np.asarray(self.solid.factor(self.q0, modulus[:, 0]))
-        return energy[1:] / energy[0], compliance[1:] / compliance[0]
+        if isinstance(self.solid, Skin):
+            family = self.family.take(rows)
+            return family.energy() / family.energy(self.solid, modulus)
+        return np.asarray(self.solid.factor(self.q0[rows], modulus) * np.ones(self.q0[rows].shape))
 
-
-def is_on_film(solid: Solid) -> bool:
-    """Whether a solid is a layer on a film."""
-    return isinstance(solid, Layer) and isinstance(solid.backing, Film)
-
-
-def find_relative_compliance(spectrum: Spectrum, solid: Solid, q0: float) -> float:
-    """S of the longest waves on a layer, see `solids`; on a skin that of all waves together.
-
-    A skin is stiff to short waves, which then store most of the energy. The mean of 1/S, weighted
-    by the energy of a half-space, stands for them.
-    """
-    if isinstance(solid, Skin):
-        return spectrum.elastic_energy() / spectrum.elastic_energy(solid)
-    return float(check_solid(solid).factor(q0))
-
-
-def find_half_space_energy(spectrum: Spectrum, solid: Solid) -> float:
-    """Elastic energy that bounds that of a layer or a skin; NaN of a film.
-
-    A film is softer to long waves.
-    """
-    if solid == HALF_SPACE or is_on_film(solid):
-        return np.nan
-    return spectrum.elastic_energy()
-
-
-def find_stiffening(solid: Solid, spectrum: Spectrum, lowest: float) -> float:
-    """Energy of the waves from a wave number on, over that on a half-space.
-
-    Waves beyond those of the spectrum count as its shortest.
-    """
-    waves = spectrum.averaged()
-    highest = spectrum.band[1]
-    on_half_space = waves.integrate(lambda q: q, lowest, highest)
-    if on_half_space == 0:
-        return 1 / float(solid.factor(max(lowest, highest)))
-    return waves.integrate(lambda q: q / solid.factor(q), lowest, highest) / on_half_space
+    def change(self, rows: Any, modulus: Any) -> dict[str, NDArray]:
+        """Factors on energy over E* and on compliance, if E* is multiplied by a `modulus`."""
+        family = self.family.take(rows)
+        compliance = self.find_compliance(1.0, rows)
+        return {
+            "elastic_energy": family.energy(self.solid, modulus) / family.energy(self.solid),
+            "relative_compliance": self.find_compliance(modulus, rows) / compliance,
+        }

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
 from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import BALL
 from stickiness.remaining.roughness import Roughness
 from stickiness.traction_laws import find_strength
 
@@ -44,7 +45,6 @@ def pull_off(
     radius: ArrayLike,
     adhesion_length: ArrayLike,
     range: ArrayLike,
-    deviation: ArrayLike = 0,
     curvature: float = 0.0,
     error: float = 0.0,
 ) -> SpherePullOff:
@@ -53,25 +53,24 @@ def pull_off(
     Parameters
     ----------
     rough : Roughness
-        What the sphere touches.
+        What the sphere touches, with the error of the model in units of its limits.
     radius : float or array
         Of the sphere [length].
     adhesion_length : float or array
         Work of adhesion over E* [length].
     range : float or array
         Of the attraction [length].
-    deviation : float or array
-        Error of the force in units of its limits, as of `Roughness.share`.
     curvature : float
         Rms mean curvature of the waves that are longer than the zone of contact [1/length].
     error : float
-        Of ln of the force from place to place, over the root of ln of the factor that roughness
-        takes from it: of real contacts `find_spread("ball", "ln_force")`.
+        Of ln of the force from place to place, in the unit of `errors.BALL`: of real contacts its
+        half-width.
     """
     radius, length, range = positive(radius=radius, adhesion_length=adhesion_length, range=range)
-    deviation = np.asarray(deviation)
+    eta = np.asarray(rough.eta)
+    exact = rough.deviating(0.0)
     reach = np.asarray(rough.distance(length, range))
-    share = np.maximum(rough.share(length, range), LEAST_SHARE)
+    share = np.maximum(exact.share(length, range), LEAST_SHARE)
 
     def find_force(share: NDArray, radius: NDArray) -> NDArray:
         """Force over pi E*."""
@@ -79,18 +78,18 @@ def pull_off(
 
     force = find_force(share, radius)
     smooth = radius * length * _coefficient(radius, length, range / find_strength(rough.law))
-    work = np.asarray(rough.separation(length, range, deviation))
-    if np.any(deviation):
+    work = np.asarray(rough.separation(length, range))
+    if np.any(eta):
         # Errors of the share, the radius and the place are independent: they add in quadrature.
-        of_place = deviation * error * np.sqrt(np.maximum(np.log(smooth / force), 0.0))
-        of_radius = np.log(find_force(share, curve(radius, curvature, deviation)) / force)
+        of_place = eta * error * BALL.unit(np.log(smooth / force))
+        of_radius = np.log(find_force(share, curve(radius, curvature, eta)) / force)
         with np.errstate(divide="ignore"):  # nothing remains at a low limit
-            of_limit = np.asarray(rough.share(length, range, deviation))
+            of_limit = np.asarray(rough.share(length, range))
             of_share = np.log(find_force(of_limit, radius) / force)
             of_work = np.log(work / share)
-        work = share * np.exp(np.sign(deviation) * np.hypot(of_work, of_place))
+        work = share * np.exp(np.sign(eta) * np.hypot(of_work, of_place))
         of_force = np.sqrt(of_share**2 + of_radius**2 + of_place**2)
-        force = force * np.exp(np.sign(deviation) * of_force)
+        force = force * np.exp(np.sign(eta) * of_force)
 
     jkr_contact = np.cbrt(9 * np.pi / 8 * share * length * radius**2)
     derjaguin_zone = np.sqrt(2 * radius * reach)
@@ -108,7 +107,7 @@ def narrow(rough: Roughness, waves: ArrayLike, summits: float) -> Roughness:
 
     Few waves have few summits, so that hard solids touch at a lower one: the expected highest of n
     Gaussian heights is about sqrt(2 ln n) times h_rms. Contacts of many waves are as between flats.
-    `summits` are independent heights in a zone one wave wide: `find_spread("ball", "summits")`.
+    `summits` are independent heights in a zone one wave wide: `errors.SUMMITS`.
     """
     touch = np.sqrt(2 * np.log1p(summits * np.square(waves)))
     most = find_spread("spectrum", "first_touch").value
@@ -119,7 +118,7 @@ def narrow(rough: Roughness, waves: ArrayLike, summits: float) -> Roughness:
     )
 
 
-def curve(radius: ArrayLike, curvature: float, deviation: ArrayLike) -> NDArray:
+def curve(radius: ArrayLike, curvature: float, eta: ArrayLike) -> NDArray:
     """Radius of a sphere [length] on waves that are longer than the zone of contact.
 
     Their rms mean `curvature` [1/length] scatters it by at most 1/(1/radius - curvature), and not
@@ -127,7 +126,7 @@ def curve(radius: ArrayLike, curvature: float, deviation: ArrayLike) -> NDArray:
     """
     radius = np.asarray(radius)
     curved = curvature * radius
-    return radius * np.exp(np.asarray(deviation) * curved / (1 + curved))
+    return radius * np.exp(np.asarray(eta) * curved / (1 + curved))
 
 
 def _coefficient(radius: NDArray, length: NDArray, range: NDArray) -> NDArray:

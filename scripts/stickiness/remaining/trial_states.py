@@ -32,7 +32,14 @@ from typing import Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import (
+    PLACE,
+    SHORTENING,
+    UNRESOLVED,
+    between,
+    find_patch_error,
+    find_states_error,
+)
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
@@ -127,7 +134,7 @@ class TrialStates:
         distance = np.exp(np.interp(log_length, nodes, np.log(self.simulated_distance)))
         simulated_range = np.exp(np.interp(log_length, nodes, np.log(self.simulated_range)))
         ratio = np.clip(range / simulated_range, SHORTEST_RATIO, 1.0)
-        shortened = distance * ratio ** find_spread("states", "shortening").value
+        shortened = distance * ratio**SHORTENING.spread.value
         return shortened + np.maximum(range - simulated_range, 0.0)
 
     def _gains(self, adhesion_length: NDArray, range: NDArray, law: str) -> NDArray:
@@ -161,24 +168,23 @@ class TrialStates:
         return self.simulated_range[np.maximum(below, 0)]
 
     def share_between(
-        self, adhesion_length: NDArray, range: NDArray, law: str, deviation: NDArray
+        self, adhesion_length: NDArray, range: NDArray, law: str, eta: NDArray
     ) -> NDArray:
         """Share that remains, between both bounds, ``(n,)``; as `share`.
 
-        `deviation` is -1 or +1 for the low or high limit of the place between them.
+        `eta` is -1 or +1 for the low or high limit of the place between them.
         States simulated at this range or a shorter one bound the share closely.
         """
         low_bound = self.share(adhesion_length, range, law)
         high_bound = self.find_high_bound(adhesion_length, range, law)
         ratio = range / self._find_simulated_range(adhesion_length)
-        spread = find_spread("states", "place")
         # It is the further up, the stronger the adhesion is, and the shorter its range. Beyond
         # the strongest that was simulated, full contact is near, whose energy is known.
         strongest = self.simulated_length[-1]
         strength = np.minimum(adhesion_length, strongest**2 / adhesion_length)
         strength = strength / self.full_contact_energy
-        place = np.interp(deviation, (-1, 0, 1), (spread.low, spread.value, spread.high))
-        place = np.clip(place * strength * np.maximum(1 - ratio, 0.0) ** 2, 0.0, 1.0)
+        place = between(PLACE.spread, eta) * PLACE.unit(strength, ratio)
+        place = np.clip(place, 0.0, 1.0)
         return low_bound + place * np.maximum(high_bound - low_bound, 0.0)
 
     def find_threshold(self, range: float, law: str, wanted: float) -> float:
@@ -223,7 +229,7 @@ class SimulatedHeights:
         range: NDArray,
         law: str,
         lacking: NDArray,
-        deviation: NDArray,
+        eta: NDArray,
     ) -> NDArray:
         """Share of the work of adhesion that remains, ``(n,)``.
 
@@ -235,14 +241,12 @@ class SimulatedHeights:
             Name in `traction_laws.LAWS`.
         lacking : (n,) array
             Energy of full contact of the waves that are not simulated, over that of the others.
-        deviation : (n,) array
+        eta : (n,) array
             0 for the value, -1 or +1 for its low or high limit, between them in proportion.
         """
-        shift = self.find_shift(adhesion_length, range, law, lacking, deviation)
-        share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, deviation)
-        # The error is absolute, but no larger than a share of which next to nothing remains.
-        error = find_spread("states", "share").high
-        return np.clip(share + deviation * error * share / (share + error), 0.0, 1.0)
+        shift = self.find_shift(adhesion_length, range, law, lacking, eta)
+        share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, eta)
+        return np.clip(share + eta * find_states_error(share), 0.0, 1.0)
 
     def find_shift(
         self,
@@ -250,21 +254,19 @@ class SimulatedHeights:
         range: NDArray,
         law: str,
         lacking: NDArray,
-        deviation: ArrayLike = 0.0,
+        eta: ArrayLike = 0.0,
     ) -> NDArray:
         """Logarithm of the factor on the work of adhesion, ``(n,)``; arguments as of `share`."""
         ranges, place = np.unique(range, return_inverse=True)
         of_patch = np.array([self.find_patch_error(float(one_range), law) for one_range in ranges])
-        # Waves that lack take their energy, and more where little remains: they part summits.
+        # Waves that lack cost their energy, and more where contact is sparse: they part summits.
         stored = np.log1p(lacking)
         lost = 1 - self.whole.share(adhesion_length / (1 + lacking), range, law)
-        beyond = np.sqrt(stored) * lost**3
-        spread = find_spread("states", "unresolved")
-        of_waves = np.where(
-            np.less(deviation, 0), spread.value - spread.low, spread.high - spread.value
-        )
+        beyond = UNRESOLVED.unit(lacking, lost)
+        value, low, high = UNRESOLVED.spread
+        of_waves = np.where(np.less(eta, 0), value - low, high - value)
         error = np.hypot(of_patch[place], of_waves * beyond)
-        return spread.value * beyond - stored + np.multiply(deviation, error)
+        return value * beyond - stored + np.multiply(eta, error)
 
     def find_patch_error(self, range: float, law: str) -> float:
         """Error of ln of the work of adhesion by what the quarters of the map differ from it.
@@ -278,9 +280,7 @@ class SimulatedHeights:
             # Parts that hold at any work of adhesion have no threshold.
             known = np.array(quarters)[np.isfinite(quarters)] - whole
             distance = np.sqrt(np.mean(known**2)) if np.isfinite(known).any() else 0.0
-            least = find_spread("patch", "least").high
-            by_distance = find_spread("patch", "ln_work").high * distance
-            self._errors[range, law] = float(np.hypot(least, by_distance))
+            self._errors[range, law] = find_patch_error(distance)
         return self._errors[range, law]
 
     def area(self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray) -> NDArray:

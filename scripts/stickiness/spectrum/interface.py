@@ -196,15 +196,15 @@ class Spectrum(ABC):
 
     def integrate(self, function: Callable[[NDArray], NDArray], low: float, high: float) -> float:
         """Return 2 pi * integral from `low` to `high`, included, of q f(q) C(q) dq, f smooth."""
-        q, weight = self.quadrature(low, high)
-        return float(weight @ function(q)) if q.size else 0.0
+        q, area, psd = self.sample(low, high)
+        return float((area * psd) @ function(q)) if q.size else 0.0
 
-    def quadrature(self, low: float, high: float) -> tuple[NDArray, NDArray]:
-        """Wave numbers and weights of the sum that `integrate` takes."""
+    def sample(self, low: float, high: float) -> tuple[NDArray, NDArray, NDArray]:
+        """Wave numbers, areas in the plane of q, and C there, of the sum that `integrate` takes."""
         low = max(low, self.q0)
         high = min(high, self.q1)
         if not high > low:
-            return np.empty(0), np.empty(0)
+            return np.empty(0), np.empty(0), np.empty(0)
         kinks = self.knots
         knots = np.concatenate([[low], kinks[(kinks > low) & (kinks < high)], [high]])
         # Gauss quadrature on panels in ln q. What layers make of a wave has its nearest singularity
@@ -215,8 +215,8 @@ class Spectrum(ABC):
         edges = np.interp(np.arange(start[-1] + 1), start, np.log(knots))
         half = 0.5 * np.diff(edges)[:, None]
         q = np.exp(edges[:-1, None] + half * (1 + x))
-        weight = 2 * np.pi * half * w * q**2 * self.psd(q)
-        return q.ravel(), weight.ravel()
+        area = 2 * np.pi * half * w * q**2
+        return q.ravel(), area.ravel(), self.psd(q).ravel()
 
     def modes(self, length: float) -> tuple[NDArray, NDArray, NDArray]:
         """Modes of a periodic cell of side `length` that lie in the band.

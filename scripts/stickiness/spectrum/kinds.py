@@ -319,9 +319,9 @@ class Shells(Spectrum):
         keep = self.q <= q1 * (1 + _ROUNDING)
         return Shells(self.q[keep], self.variance[keep], self.anisotropy)
 
-    def quadrature(self, low: float, high: float) -> tuple[NDArray, NDArray]:
+    def sample(self, low: float, high: float) -> tuple[NDArray, NDArray, NDArray]:
         inside = (self.q >= low) & (self.q <= high)
-        return self.q[inside], self.variance[inside]
+        return self.q[inside], np.ones(np.count_nonzero(inside)), self.variance[inside]
 
     def mode_variance(self, i: NDArray, j: NDArray, dq: float) -> NDArray:
         """Height variance of each mode of the band: its shell's variance in equal parts."""

@@ -2,16 +2,14 @@
 
 What goes in:
 
-- `rough_surface`: `Surface`, what is known of a rough surface; `measured_surface`, `analysis` and
-  `parametric` make one of measured heights, a drawing or parameters, `surface_variables` lists what
-  it stores
+- `rough_surface`: `Surface`, what is known of a rough surface; `analysis` makes one of measured
+  heights, `surface_data` of a drawing or of parameters, and lists what it stores; `longer_waves`
+  adds what a contact meets that is larger than a scan
 - `entries.material.Material`, the solid that touches it, and its adhesion
 
 What happens to them:
 
-- `scenarios`: all that a surface may be, a row each, with the error of the model
-- `pair_roughness`: the roughness that a material meets on a surface, with layers and two rough
-  solids
+- `meeting`: a material meets a surface, in each spectrum that this may have
 - `judgement`: `judge`, the only place where pairs become numbers; `pair_variables` lists these
 - `curves`, `thresholds`: what it says of other moduli, heights, rates and dwells, and of what would
   make a pair stick
@@ -24,15 +22,13 @@ __all__ = [
     "curves",
     "judgement",
     "limits",
-    "measured_surface",
-    "pair_roughness",
+    "longer_waves",
+    "meeting",
     "pair_variables",
-    "parametric",
     "rough_ball",
     "rough_surface",
-    "scenarios",
     "simulated_surface",
-    "surface_variables",
+    "surface_data",
     "thresholds",
     "verdict",
 ]

@@ -18,6 +18,7 @@ from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, wit
 from stickiness.measured import stitching
 from stickiness.measured.doubts import doubt_fit, doubt_pattern
 from stickiness.measured.instrument_spectrum import Cutoff, MeasuredSpectrum
+from stickiness.measured.measurement import Measurement, find_spectra
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import Profile, Topography
 from stickiness.plausibility import LIMITS
@@ -25,16 +26,16 @@ from stickiness.remaining.height_shape import find_shape_of
 from stickiness.remaining.uneven_roughness import find_unevenness
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
-from stickiness.verdicts.longer_waves import FIRST_WAVE, lengthen
-from stickiness.verdicts.measured_surface import Measurement, find_spectra
-from stickiness.verdicts.parametric import (
+from stickiness.verdicts.simulated_surface import simulate_surface
+from stickiness.verdicts.surface_data import (
     END_QUANTILES,
     ENDS,
     POINTS_PER_DECADE,
     REFERENCE_HURST,
     describe_variables,
+    find_moments,
+    tabulate_family,
 )
-from stickiness.verdicts.simulated_surface import simulate_surface
 
 DRAWS = 200  #: spectra that are drawn
 SEED = 1  #: of the draws
@@ -48,7 +49,6 @@ def analyse(
     measurements: Sequence[Measurement],
     *,
     extend_to: float | None = None,
-    contact: float | None = None,
     ignore_doubts: bool = False,
 ) -> xr.Dataset:
     """Analyse measurements of one surface.
@@ -60,16 +60,13 @@ def analyse(
     extend_to : float, optional
         Wavelength [m] down to which the fitted law extrapolates the spectrum. By default it goes on
         to an unknown end, which widens the limits of verdicts.
-    contact : float, optional
-        Side of the contact [m], whose waves are longer than those of the measurements. By default
-        the contact is as large as the largest of these.
     ignore_doubts : bool
         Judge implausible data, too.
 
     Returns
     -------
     Dataset
-        Variables of `surface_variables.SURFACE_VARIABLES`. Its attribute `not_judged` lists, a line
+        Variables of `surface_data.SURFACE_VARIABLES`. Its attribute `not_judged` lists, a line
         each, why no verdict should rest on the data; it is empty if one may.
     """
     heights = [measurement.heights for measurement in measurements]
@@ -110,8 +107,6 @@ def analyse(
     simulated = None if not_judged else simulate_surface(measurements, spectrum)
     if simulated is not None:
         dataset = dataset.merge(simulated)
-    if contact is not None:
-        dataset = lengthen(dataset, contact)
     dataset = _add_budgets(describe_variables(dataset), fit)
     ignored = doubts if ignore_doubts else []
     remarks = [
@@ -119,7 +114,6 @@ def analyse(
         *(f"judged all the same (plausibility: ignore): {doubt}" for doubt in ignored),
         *(remark for each in heights for remark in each.remarks),
         *([] if doubts or q_extended is not None else _remark_on_exponent(fit)),
-        *dataset.attrs.get("remarks", "").splitlines(),  # of a larger contact
     ]
     return dataset.assign_attrs(
         remarks="\n".join(remarks),
@@ -143,7 +137,7 @@ def _tabulate(
             _thin_reading(heights[0]),
             _describe_fit(spectrum, q_extended),
             _describe_heights(heights, spectrum),
-            _tabulate_draws(draws),
+            _tabulate_draws(draws, spectrum.cutoff.q if q_extended is None else q_extended),
             _compare_measurements(spectrum),
         ]
     )
@@ -254,7 +248,6 @@ def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Da
             "scan": 2 * np.pi / spectrum.lowest,
             "contact": 2 * np.pi / spectrum.lowest,
             "q_fitted": fit.q_min,
-            "q_kept": _find_kept(spectrum),
             "q0": fit.q_rolloff or spectrum.lowest,
             "q1": cutoff.q if q_extended is None else q_extended,
             "q_cutoff": cutoff.q,
@@ -267,13 +260,6 @@ def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Da
         dataset["anisotropy"] = spectrum.anisotropy
         dataset["axis_ratio"] = find_ratio(spectrum.anisotropy, fit.hurst)
     return dataset
-
-
-def _find_kept(spectrum: MeasuredSpectrum) -> float:
-    """Wave number from which the area of the rings begins that the fit has."""
-    longer = spectrum.rings.q < spectrum.fit.q_min * (1 - 1e-9)
-    area = spectrum.area[longer].sum() + spectrum.lowest**2  # the first cell has no wave
-    return max(np.sqrt(area / np.pi), FIRST_WAVE * spectrum.lowest)
 
 
 def _describe_heights(
@@ -305,26 +291,19 @@ def _describe_heights(
     )
 
 
-def _tabulate_draws(draws: stitching.Draws) -> xr.Dataset:
-    """Both ends of every moment, and the draws themselves for what depends on several moments."""
-    tabulated = {
-        "unresolved_energy": ("end", np.quantile(draws.unresolved, END_QUANTILES)),
-        "q0_draws": ("draw", draws.q0),
-        "beyond_energy": ("end", np.quantile(draws.beyond, END_QUANTILES)),
-        "beyond_energy_draws": ("draw", draws.beyond),
-        "beyond_hurst_draws": ("draw", draws.continuation.hurst),
-        "beyond_end_draws": ("draw", draws.end),
-        "unheld_energy": ("end", np.quantile(draws.unheld, END_QUANTILES)),
-        "unheld_energy_draws": ("draw", draws.unheld),
-        "hurst_draws": ("draw", draws.hurst),
-        "first_psd_draws": ("draw", draws.first_psd),
-        "long_variance_draws": ("draw", draws.long_variance),
-        "long_energy_draws": ("draw", draws.long_energy),
-    }
-    for name, of_draws in draws.moments.items():
-        tabulated[name] = ("end", draws.quantiles(name, END_QUANTILES))
-        tabulated[f"{name}_draws"] = ("draw", of_draws)
-    return xr.Dataset(tabulated, coords={"draw": np.arange(DRAWS)})
+def _tabulate_draws(draws: stitching.Draws, q1: float) -> xr.Dataset:
+    """The spectra drawn, and both ends of their moments."""
+    return xr.Dataset(
+        {
+            **tabulate_family(draws.family),
+            **find_moments(draws.family, q1),
+            "unresolved_energy": ("end", np.quantile(draws.unresolved, END_QUANTILES)),
+            "held_energy": ("draw", draws.held_energy),
+            "drawn_q0": ("draw", draws.q0),
+            "drawn_hurst": ("draw", draws.hurst),
+            "drawn_first_psd": ("draw", draws.first_psd),
+        }
+    ).set_coords(["draw", "ring"])
 
 
 def _compare_measurements(spectrum: MeasuredSpectrum) -> xr.Dataset:

@@ -30,10 +30,10 @@ from stickiness.criteria.pair import (
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.entries.material import Material
-from stickiness.limited import Limited
+from stickiness.formatting import percent
 from stickiness.remaining.roughness import LEAST_LENGTH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
-from stickiness.solids import HALF_SPACE
+from stickiness.solids import HALF_SPACE, Skin
 from stickiness.statistics import COVERS
 from stickiness.verdicts.curves import (
     FREQUENCIES,
@@ -41,8 +41,8 @@ from stickiness.verdicts.curves import (
     find_rate_moduli,
     follow_remaining,
 )
-from stickiness.verdicts.limits import HIGH, LIMITS, LOW, VALUE
-from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness
+from stickiness.verdicts.limits import LIMITS, LOW
+from stickiness.verdicts.meeting import Meeting, meet
 from stickiness.verdicts.pair_variables import (
     BY_BOUND,
     BY_GAUSSIAN_THEORY,
@@ -50,13 +50,12 @@ from stickiness.verdicts.pair_variables import (
     BY_SIMULATION,
     DECIDED_BY,
     DIMENSIONS,
-    LARGER,
+    GIVEN,
     PAIR_VARIABLES,
     PER_PAIR,
 )
-from stickiness.verdicts.parametric import ENDS
 from stickiness.verdicts.rough_surface import Surface
-from stickiness.verdicts.scenarios import Scenarios
+from stickiness.verdicts.surface_data import ENDS
 from stickiness.verdicts.thresholds import (
     CONTACT_AREA,
     LEAST_AREA,
@@ -65,6 +64,8 @@ from stickiness.verdicts.thresholds import (
 )
 from stickiness.verdicts.wording import describe_material
 
+FURTHEST = 15.0  #: ln of a margin; a threshold further away is an end of the search
+MUCH = 0.1  #: of the energy of full contact, in waves that were not measured
 LEAST_MODULUS = 1e-3  #: [Pa]; a threshold below is none: nothing is softer
 #: What is known of the draws of a measured surface alone.
 DRAW_STATISTICS = (
@@ -140,23 +141,19 @@ def judge(
     cells = []
     for material in materials.values():
         for surface in surfaces.values():
-            rough = combine_roughness(material, surface)
-            pair = rough.meet(material, wanted_share)
-            cell = _judge_pair(rough, pair, material)
+            meeting = meet(material, surface, wanted_share)
+            cell = judge_meeting(meeting)
             if curves:
-                cell |= follow_remaining(pair, rough, material, axes)
+                cell |= follow_remaining(meeting, axes)
             if thresholds:
-                moduli = Limited(*cell["plane_strain_modulus_threshold"][[VALUE, LOW, HIGH]])
                 # Of two rough solids only the rms height of the pair is defined.
                 known = surface.rms_height if material.surface is None else None
-                of_pair = find_thresholds(material, rough, pair, moduli, contact_area, known)
-                for name, threshold in of_pair.items():
-                    cell[name] = [threshold.low, threshold.value, threshold.high]
-            cell |= _judge_larger(material, surface, wanted_share)
-            cell["doubts"] = "\n".join(_list_doubts(material, surface, cell))
+                for name, found in find_thresholds(meeting, cell, contact_area, known).items():
+                    cell[name] = [found.low, found.value, found.high]
+            cell["doubts"] = "\n".join(_list_doubts(material, surface, meeting, cell))
             cells.append(cell)
     dataset = _arrange(cells, materials, surfaces).assign(wanted_share=wanted_share)
-    rate_moduli = [find_rate_moduli(material, axes) for material in materials.values()]
+    rate_moduli = [find_rate_moduli(each.plane_strain, axes) for each in materials.values()]
     dataset["modulus"] = ("material", "frequency"), rate_moduli
     along = {name: points for name, points in axes.items() if name in dataset.dims}
     return _withhold(_describe(dataset.assign_coords(along)))
@@ -183,28 +180,37 @@ def _name(argument: str, given: Mapping | Sequence, kind: type) -> dict:
     return named
 
 
-def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[str, Any]:
+def judge_meeting(meeting: Meeting) -> dict[str, Any]:
     """Numbers and codes of one pair; their dimensions are in `DIMENSIONS`."""
-    # What has limits: a row for each surface that it may be, both ends first and then the draws.
+    # What has limits: a row for each surface that it may be.
+    pair = meeting.pair
     length_threshold = pair.remaining_threshold
     # Where the search for the adhesion length ends, any modulus would do. E* has no threshold
     # where nothing is soft enough.
     holds_always = length_threshold < 1.01 * LEAST_LENGTH * pair.elastic_energy
     thresholds_of_rows = np.where(holds_always, np.inf, pair.work_of_adhesion / length_threshold)
-    moduli = rough.limit(thresholds_of_rows, pair)
+    moduli = meeting.limit(thresholds_of_rows, pair)
     moduli = np.where(moduli < LEAST_MODULUS, 0.0, moduli)
     cell: dict[str, Any] = {
-        "remaining": rough.limit(pair.remaining, pair),
-        "pull_off": rough.limit(pair.pull_off, pair),
-        "margin": rough.limit(pair.adhesion_length / length_threshold, pair),
+        "remaining": meeting.limit(pair.remaining, pair),
+        "pull_off": meeting.limit(pair.pull_off, pair),
+        "margin": meeting.limit(pair.adhesion_length / length_threshold, pair),
         "plane_strain_modulus_threshold": moduli,
+        "modulus_threshold": moduli * meeting.quoted_ratio,
     }
-    cell |= describe_draws(rough.scenarios, pair)
+    cell |= describe_draws(meeting)
 
     # What is known at both ends, the smooth one and the rough one.
-    ends = rough.take_ends(pair)
+    ends = meeting.ends
     cell |= find_quantities(ends)
-    cell["modulus_threshold"] = moduli * material.quoted_modulus / material.plane_strain_modulus
+    cell |= {
+        "plane_strain_modulus": pair.modulus,
+        "quoted_modulus": pair.modulus * meeting.quoted_ratio,
+        "work_of_adhesion": pair.work_of_adhesion,
+        "range": pair.range,
+        "instant_ratio": pair.rough.instant_ratio,
+        "law": pair.rough.law,
+    }
 
     # What every criterion says there.
     margins = _join_criteria([criterion.margin(ends) for criterion in CRITERIA.values()])
@@ -212,15 +218,16 @@ def _judge_pair(rough: PairRoughness, pair: Pair, material: Material) -> dict[st
     sticky = dict(zip(CRITERIA, margins.T > 1, strict=True))
     cell["margin_by_criterion"] = margins
     cell["threshold_by_criterion"] = _join_criteria(thresholds)
-    cell["stiffening"] = rough.stiffening
-    cell["pair_a_v"] = [rough.a_v.low.min(), rough.a_v.value[-1], rough.a_v.high.max()]
+    cell["stiffening"] = meeting.stiffening
+    a_v = meeting.a_v
+    cell["pair_a_v"] = [a_v.low.min(), a_v.value[-1], a_v.high.max()]
 
     # The verdict. Beyond the onset at the finest wave contact grows by itself.
     low, _, high = cell["remaining"]
     cell["verdict"] = decide(low, high, sticky[EDGES].any(), pair.wanted_share)
     cell["disagrees"] = [(says != sticky[REMAINING]).any() for says in sticky.values()]
-    cell["decided_by"] = _find_decider(rough, pair)
-    cell["not_judged"] = rough.not_judged
+    cell["decided_by"] = _find_decider(meeting)
+    cell["not_judged"] = meeting.not_judged
     return cell
 
 
@@ -229,26 +236,28 @@ def _join_criteria(by_criterion: Sequence[float | NDArray]) -> NDArray:
     return np.transpose([np.broadcast_to(at_ends, len(ENDS)) for at_ends in by_criterion])
 
 
-def describe_draws(scenarios: Scenarios, pair: Pair) -> dict[str, float]:
+def describe_draws(meeting: Meeting) -> dict[str, float]:
     """`DRAW_STATISTICS` of the margins of a pair; NaN of a surface that was not measured."""
-    if not scenarios.is_drawn:
+    if not meeting.is_drawn:
         return dict.fromkeys(DRAW_STATISTICS, np.nan)
+    pair = meeting.pair
     margins = pair.adhesion_length / pair.remaining_threshold
     # Without the error of the model, margins scatter with the spectrum alone.
-    exact = replace(pair, deviation=0.0)
+    exact = pair.deviating(0.0)
     by_spectrum = np.log(exact.adhesion_length / exact.remaining_threshold)
     by_model = np.log(margins) - by_spectrum
-    weights = scenarios.weights
+    # Of rows without a threshold the ends of the search would count.
+    is_found = (np.abs(by_spectrum) < FURTHEST) & (np.abs(by_model) < FURTHEST)
     of_spectrum, of_model = (
-        np.sqrt(np.cov(by_source, aweights=weights, ddof=0))
+        np.std(by_source[is_found]) if is_found.any() else 0.0
         for by_source in (by_spectrum, by_model)
     )
     # On a map, errors of the model contain how its parts differ, and what is not resolved.
     of_map, of_waves = _find_errors_of_map(pair) / COVERS
     sticks = margins > 1
     return {
-        "probability": np.average(sticks, weights=weights),
-        "probability_low": np.average(sticks & pair.withstands, weights=weights),
+        "probability": np.mean(sticks),
+        "probability_low": np.mean(sticks & pair.withstands),
         "error_of_spectrum": np.hypot(of_spectrum, of_waves),
         "error_of_map": of_map,
         "error_of_model": np.sqrt(np.maximum(of_model**2 - of_map**2 - of_waves**2, 0.0)),
@@ -263,57 +272,49 @@ def _find_errors_of_map(pair: Pair) -> NDArray:
     simulated = pair.rough.simulated
     if simulated is None:
         return np.zeros(2)
-    of_map = simulated.find_patch_error(float(pair.range), pair.rough.law)
+    law = str(pair.rough.law)
+    of_map = simulated.find_patch_error(float(pair.range), law)
     length = np.array([np.median(pair.remaining_threshold)])
     lacking = np.array([np.median(pair.rough.lacking)])
     low, high = (
-        simulated.find_shift(length, np.array([pair.range]), pair.rough.law, lacking, deviation)
-        for deviation in (-np.ones(1), np.ones(1))
+        simulated.find_shift(length, np.array([pair.range]), law, lacking, eta)
+        for eta in (-np.ones(1), np.ones(1))
     )
     half_width = (high - low).item() / 2
     return np.array([of_map, np.sqrt(max(half_width**2 - of_map**2, 0.0))])
 
 
-def _find_decider(rough: PairRoughness, pair: Pair) -> int:
+def _find_decider(meeting: Meeting) -> int:
     """Code of what decides the verdict on a pair, its place in `DECIDED_BY`."""
-    if not rough.scenarios.is_drawn:
+    if not meeting.is_drawn:
         return BY_GAUSSIAN_THEORY
-    simulated = pair.rough.simulated
-    if simulated is None:
+    pair = meeting.pair
+    if pair.rough.simulated is None:
         return BY_SHAPED_THEORY
     # Is enough left in contact without adhesion already, by its low limit?
-    pressed = replace(pair, rough=replace(pair.rough, simulated=simulated.without_adhesion()))
-    is_enough = rough.limit(pressed.remaining, pair)[LOW] >= pair.wanted_share
+    states = pair.rough.simulated.without_adhesion()
+    pressed = replace(pair, rough=replace(pair.rough, simulated=states))
+    is_enough = meeting.limit(pressed.remaining, pair)[LOW] >= pair.wanted_share
     return BY_BOUND if is_enough else BY_SIMULATION
 
 
-def _judge_larger(material: Material, surface: Surface, wanted_share: float) -> dict[str, Any]:
-    """Verdict, and `LARGER` with limits, of a contact that is larger than a scan.
-
-    "not judged" and NaN where longer waves are not expected, or not known.
-    """
-    larger = surface.larger
-    if larger is None:
-        unknown = dict.fromkeys((f"larger_{name}" for name in LARGER), np.full(3, np.nan))
-        return unknown | {"larger_verdict": NOT_JUDGED}
-    # A material that is rough itself meets the same contact.
-    material = material.on_contact(larger.contact)
-    rough = combine_roughness(material, larger)
-    cell = _judge_pair(rough, rough.meet(material, wanted_share), material)
-    if rough.not_judged:
-        cell |= dict.fromkeys(LARGER, np.full(3, np.nan)) | {"verdict": NOT_JUDGED}
-    return {f"larger_{name}": cell[name] for name in ("verdict", *LARGER)}
-
-
-def _list_doubts(material: Material, surface: Surface, cell: Mapping[str, Any]) -> Iterator[str]:
+def _list_doubts(
+    material: Material, surface: Surface, meeting: Meeting, cell: Mapping[str, Any]
+) -> Iterator[str]:
     """Sentences about a pair: why it is not judged, improbable values, remarks on the data."""
     reasons = cell["not_judged"].splitlines()
     yield from reasons
     yield from find_pair_doubts(material, surface)
-    remarks = list(surface.remarks)
-    if surface.larger is not None and cell["larger_verdict"] == DEPENDS:
-        remarks += [remark for remark in surface.larger.remarks if remark not in remarks]
-    yield from (remark for remark in remarks if remark not in reasons)
+    yield from (remark for remark in surface.remarks if remark not in reasons)
+    unresolved = float(np.median(meeting.pair.rough.unresolved))
+    if isinstance(meeting.solid, Skin) and cell["verdict"] == DEPENDS and unresolved > MUCH:
+        is_told = surface.draw_count and surface.data.q1 > surface.data.q_cutoff * (1 + 1e-9)
+        cure = "" if is_told else ", or the end of the waves (extend_to),"
+        yield (
+            "the skin is stiff to waves finer than those measured, which are thought to hold "
+            f"{percent(unresolved)} of the energy of full contact with it: these decide, and a "
+            f"finer measurement{cure} would narrow the limits"
+        )
     strain = float(np.max(cell["layer_strain"]))
     if strain > MOST_STRAIN:
         yield (
@@ -359,19 +360,13 @@ def _arrange(
 def _list_properties(material: Material) -> dict[str, Any]:
     """Properties of a material, as it is judged."""
     return {
-        "work_of_adhesion": material.work_of_adhesion,
         "material_label": material.label,
         "material_doubts": "\n".join(material.doubts),
         "properties": describe_material(material),
-        "law": material.law,
-        "range": material.range,
         "work_on_smooth": material.work_on_smooth,
         "half_space": material.solid == HALF_SPACE and material.surface is None,
-        "quoted_modulus": material.quoted_modulus,
-        "plane_strain_modulus": material.plane_strain_modulus,
         "poisson_ratio": np.nan if material.is_plane_strain else material.poisson_ratio,
         "dwell": material.dwell or np.nan,
-        "instant_ratio": material.instant_ratio,
         "depends_on_rate": material.depends_on_rate,
     }
 
@@ -382,7 +377,6 @@ def _list_lengths(surface: Surface) -> dict[str, float]:
         "rms_height": surface.rms_height,
         "scan": surface.scan,
         "contact": surface.contact,
-        "larger_contact": surface.larger.contact if surface.larger else np.nan,
     }
 
 
@@ -397,7 +391,6 @@ def _describe(dataset: xr.Dataset) -> xr.Dataset:
     present = {name: PAIR_VARIABLES[name] for name in PAIR_VARIABLES if name in dataset.variables}
     dataset = datasets.annotate(dataset, **present)
     dataset.verdict.attrs |= datasets.flags(WORDS)
-    dataset.larger_verdict.attrs |= datasets.flags(WORDS)
     dataset.regime.attrs |= datasets.flags(REGIMES)
     dataset.decided_by.attrs |= datasets.flags(DECIDED_BY)
     return dataset
@@ -411,7 +404,8 @@ def _withhold(dataset: xr.Dataset) -> xr.Dataset:
     withheld = {}
     with xr.set_options(keep_attrs=True):
         for name, numbers in dataset.items():
-            if numbers.dtype.kind == "f" and set(PER_PAIR) <= set(numbers.dims):
+            is_found = numbers.dtype.kind == "f" and name not in GIVEN
+            if is_found and set(PER_PAIR) <= set(numbers.dims):
                 reasons = filter(None, (numbers.attrs.get("nan_means"), "not judged"))
                 withheld[name] = numbers.where(judged).transpose(*numbers.dims)
                 withheld[name].attrs["nan_means"] = ", or ".join(dict.fromkeys(reasons))

@@ -1,13 +1,12 @@
 """Value and limits of a number, from all that it may be.
 
 What a surface may be, and by how much the model may err there, are the rows of a table, see
-`scenarios`. A number of all rows becomes one number with limits here, and nowhere else. The limits
+`meeting`. A number of all rows becomes one number with limits here, and nowhere else. The limits
 cover 90 %. Files hold them along the dimension `limit`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -20,11 +19,12 @@ LIMITS = ("low", "value", "high")  #: along the dimension `limit` of files
 LOW, VALUE, HIGH = range(3)  #: their places
 #: Unit and description of that dimension.
 LIMIT_TEXT = ("1", "value, and the limits of all that is unknown, which cover 90 %")
-QUANTILES = (0.05, 0.5, 0.95)  #: of the rows, low limit, value and high limit
+QUANTILES = (0.05, 0.5, 0.95)  #: of draws, low limit, value and high limit
+ROUGH_END = 1  #: row of a surface that is known between its ends, which has its value
 
 
-def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = True) -> NDArray:
-    """Low limit, value and high limit of a number: weighted quantiles over all that it may be.
+def limit_drawn(values: ArrayLike, withstands: ArrayLike = True) -> NDArray:
+    """Low limit, value and high limit of a number that was found for every draw.
 
     They are values of rows, so that limits of shares, margins and thresholds agree with each other.
 
@@ -32,8 +32,6 @@ def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = Tru
     ----------
     values : (..., n) array
         The number in every row.
-    weights : (n,) array
-        Weights of the rows, whole numbers, whose sums are exact.
     withstands : (..., n) array
         Whether a layer takes the heights of a row. For the low limit, nothing remains where not.
 
@@ -44,13 +42,23 @@ def find_limits(values: ArrayLike, weights: NDArray, withstands: ArrayLike = Tru
     """
     values = np.asarray(values, dtype=float)
     least = np.where(withstands, values, 0.0)
+    return np.stack(
+        [
+            np.quantile(rows, part, axis=-1, method="inverted_cdf")
+            for rows, part in zip((least, values, values), QUANTILES, strict=True)
+        ],
+        axis=-1,
+    )
 
-    def find_quantiles(rows: NDArray, parts: Sequence[float]) -> NDArray:
-        return np.quantile(rows, parts, axis=-1, weights=weights, method="inverted_cdf")
 
-    low = find_quantiles(least, QUANTILES[:1])
-    value_and_high = find_quantiles(values, QUANTILES[1:])
-    return np.moveaxis(np.concatenate([low, value_and_high]), 0, -1)
+def limit_between_ends(values: ArrayLike, withstands: ArrayLike = True) -> NDArray:
+    """The same of a surface that is known between a smooth and a rough end, ``(..., 6)``.
+
+    The first two rows are both ends without an error of the model, see `meeting.deviate`.
+    """
+    values = np.asarray(values, dtype=float)
+    least = np.where(withstands, values, 0.0)
+    return np.stack([least.min(-1), values[..., ROUGH_END], values.max(-1)], axis=-1)
 
 
 def read_limited(numbers: xr.DataArray) -> Limited[Any]:

@@ -17,20 +17,27 @@ over C they begin below that step, at `FIRST_WAVE` times it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.formatting import amount, number
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import CELLS, LARGER, UNLIKE
 from stickiness.remaining.height_shape import HeightShape
+from stickiness.spectrum.family import SpectrumFamily
 from stickiness.statistics import COVERS
-from stickiness.verdicts.parametric import END_QUANTILES, ENDS
-from stickiness.verdicts.simulated_surface import find_simulated_shape
+from stickiness.verdicts.simulated_surface import MOST_LONGER, find_simulated_shape
+from stickiness.verdicts.surface_data import (
+    END_QUANTILES,
+    ENDS,
+    describe_variables,
+    find_moments,
+    read_family,
+    tabulate_family,
+)
 
-LARGER = 10.0  #: side of the contact over that of the scan, of the answer beside that for the scan
 #: Places of the roll-off among which one is drawn, over the logarithm of wave numbers from twice
 #: the lowest fitted (0) to the contact; from 1 on the law goes on to the contact.
 PLACES = np.minimum(np.linspace(0.0, 1.8, 181), 1.0)
@@ -66,16 +73,16 @@ class LongerWaves:
 
         # Rings between the first wave of the contact and those that are kept of the scan.
         first = FIRST_WAVE * of_contact
-        whole_width = np.log(float(data.q_kept) / first)
+        whole_width = np.log(_find_kept(data) / first)
         count = int(np.ceil(RINGS * whole_width / np.log(10)))
         width = whole_width / count
         q = first * np.exp(width * (np.arange(count) + 0.5))
 
         # The law, level below the roll-off of every draw.
-        level = data.first_psd_draws.values[:, None]
-        exponent = 2 * np.clip(data.hurst_draws.values, 0.0, 1.0)[:, None] + 2
+        level = data.drawn_first_psd.values[:, None]
+        exponent = 2 * np.clip(data.drawn_hurst.values, 0.0, 1.0)[:, None] + 2
         if "q_rolloff" in data:
-            q0 = data.q0_draws.values
+            q0 = data.drawn_q0.values
             corner = q0
             start = np.maximum(fitted, corner)
         else:
@@ -91,13 +98,17 @@ class LongerWaves:
         return cls(q=q, width=width, law=law, power=power, q0=q0)
 
     @property
-    def psd(self) -> NDArray:
-        """C of this contact in the rings [m^4], ``(n, m)``."""
-        return self.law * self.power
+    def family(self) -> SpectrumFamily:
+        """Spectra of this contact in the rings."""
+        return SpectrumFamily(self.q, 2 * np.pi * self.width * self.q**2, self.law * self.power)
 
-    def integrate(self, order: int) -> NDArray:
-        """2 pi * integral of q^(1 + order) C over the waves, ``(n,)``."""
-        return 2 * np.pi * self.width * self.psd @ self.q ** (2 + order)
+
+def _find_kept(data: xr.Dataset) -> float:
+    """Wave number from which the area of the rings begins that the fit has [1/m]."""
+    lowest = 2 * np.pi / float(data.scan)
+    longer = data.ring.values < float(data.q_fitted) * (1 - 1e-9)
+    area = data.ring_area.values[longer].sum() + lowest**2  # the first cell has no wave
+    return max(np.sqrt(area / np.pi), FIRST_WAVE * lowest)
 
 
 def _find_rolloff(data: xr.Dataset, contact: float, place: NDArray) -> NDArray:
@@ -117,8 +128,8 @@ def _draw_places(data: xr.Dataset, contact: float, rng: np.random.Generator) -> 
     rise = np.maximum(q[told], corner[:, None]) / fitted
 
     # Whittle's likelihood, as of the fit, for every draw and place.
-    exponent = 2 * np.clip(data.hurst_draws.values, 0.0, 1.0)[:, None, None] + 2
-    ratio = psd / (data.first_psd_draws.values[:, None, None] * rise**-exponent)
+    exponent = 2 * np.clip(data.drawn_hurst.values, 0.0, 1.0)[:, None, None] + 2
+    ratio = psd / (data.drawn_first_psd.values[:, None, None] * rise**-exponent)
     log_likelihood = -np.sum(dof * (ratio - np.log(ratio)), axis=-1)
     likelihood = np.exp(log_likelihood - log_likelihood.max(axis=1, keepdims=True))
     share = np.cumsum(likelihood, axis=1)
@@ -132,7 +143,7 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
     Parameters
     ----------
     data : Dataset
-        Variables of `surface_variables.SURFACE_VARIABLES` of a measured surface.
+        Variables of `surface_data.SURFACE_VARIABLES` of a measured surface.
     contact : float
         Side of the contact [m], at least that of the scan.
     error : float, optional
@@ -142,9 +153,9 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
     Returns
     -------
     Dataset
-        The same variables for the larger contact, with `longer_energy` and its draws. The slope
-        and the curvature are those of the scan, whose shorter waves decide them. `remarks` say why
-        the scan tells little of the contact, if it does.
+        The same variables for the larger contact. States simulated on the heights are left out if
+        the longer waves hold much of its energy. `remarks` say why the scan tells little of the
+        contact, if it does.
 
     Raises
     ------
@@ -160,15 +171,22 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
     if contact <= scan * (1 + 1e-9):
         return data
 
-    # Energy and rms height of every draw. What is not measured of the contact follows the law.
+    # What is not measured of the contact follows the law.
     waves = LongerWaves.draw(data, contact)
-    unknown = 1 - (scan / contact) ** 2
-    of_scan = data.elastic_energy_draws.values
-    energy = of_scan + unknown * (waves.integrate(order=1) / 4 - data.long_energy_draws.values)
-    change = unknown * (waves.integrate(order=0) - data.long_variance_draws.values)
-    h_rms = np.sqrt(np.maximum(data.h_rms_draws.values**2 + change, 0.0))
-    longer = np.maximum(energy / of_scan - 1, 0.0)
-    share = np.median(longer / (1 + longer))
+    longer = waves.family
+    measured = (scan / contact) ** 2
+    of_scan = read_family(data)
+    is_long = of_scan.q < float(data.q_fitted) * (1 - 1e-9)
+    of_contact = SpectrumFamily(
+        q=np.append(longer.q, of_scan.q),
+        area=np.append(longer.area, of_scan.area),
+        psd=np.append(
+            (1 - measured) * longer.psd, np.where(is_long, measured, 1.0) * of_scan.psd, axis=1
+        ),
+    )
+    energy = of_contact.energy()
+    added = np.maximum(energy / of_scan.energy() - 1, 0.0)
+    share = np.median(added / (1 + added))
 
     # The shape of the heights, by simulation if there is one. Those of the longer waves are not
     # known: their shape is that of the scan's, or they are Gaussian.
@@ -180,38 +198,33 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
 
     # What the scan does not tell scatters the energy, for full contact bounds what remains.
     if error is None:
-        error = float(find_larger_error(unlikeness, contact / scan))
+        error = find_larger_error(float(unlikeness), contact / scan)
     scatter = np.random.default_rng(SCATTER_SEED).normal(size=energy.size) / COVERS
     factor = np.exp(error * scatter)
 
-    # Both ends of what is known are quantiles of the draws, as those of the scan.
-    changed = data.assign(
-        h_rms_draws=("draw", h_rms),
-        elastic_energy_draws=("draw", factor * energy),
-        longer_energy_draws=("draw", longer),
-        q0_draws=("draw", np.minimum(data.q0_draws.values, waves.q0)),
-        h_rms=("end", np.quantile(h_rms, END_QUANTILES)),
-        elastic_energy=("end", np.quantile(energy, END_QUANTILES)),
-        longer_energy=("end", np.quantile(longer, END_QUANTILES)),
+    family = replace(of_contact, psd=factor[:, None] * of_contact.psd)
+    changed = data.drop_dims("ring").assign(
+        **tabulate_family(family),
+        **find_moments(family, float(data.q1)),
+        held_energy=("draw", factor * data.held_energy.values),
+        drawn_q0=("draw", np.minimum(data.drawn_q0.values, waves.q0)),
         unresolved_energy=data.unresolved_energy * (1 - share),
         q0=np.minimum(float(data.q0), np.median(waves.q0)),
         shape=shape,
         shape_error=shape_error,
         contact=contact,
     )
-
-    # Spectra of the draws, for layers, and of both ends.
-    spectra = ("draw", "longer_wave_number"), unknown * waves.width * waves.psd * factor[:, None]
-    changed = changed.assign(longer_psd_draws=spectra).assign_coords(longer_wave_number=waves.q)
+    # The heights do not stand for a contact of which longer waves hold much of the energy.
+    if np.quantile(added / (1 + added), END_QUANTILES[-1]) > MOST_LONGER:
+        changed = changed.drop_vars("trial_energy", errors="ignore")
     remarks = (data.attrs.get("remarks", ""), _explain_error(data, contact / scan, error))
-    return _prepend_spectrum(changed, waves, order=np.argsort(energy)).assign_attrs(
-        remarks="\n".join(filter(None, remarks))
-    )
+    changed = _prepend_spectrum(changed, waves, order=np.argsort(energy))
+    return describe_variables(changed).assign_attrs(remarks="\n".join(filter(None, remarks)))
 
 
 def _explain_error(data: xr.Dataset, ratio: float, error: float) -> str:
     """Say why a scan tells little of a contact `ratio` times as large; empty unless it does."""
-    if error <= find_spread("one wave", "ln_work").high:
+    if error <= CELLS[1].spread.high:
         return ""
     factor = number(np.exp(error), 2)
     skewness = number(float(data.skewness), 2)
@@ -224,19 +237,17 @@ def _explain_error(data: xr.Dataset, ratio: float, error: float) -> str:
     )
 
 
-def find_larger_error(unlikeness: ArrayLike, ratio: ArrayLike) -> NDArray:
+def find_larger_error(unlikeness: float, ratio: float) -> float:
     """Error of ln of the work of adhesion by what a scan does not tell of a larger contact.
 
     Parameters
     ----------
-    unlikeness : array
+    unlikeness : float
         Of the scan to Gaussian heights of even roughness, see `find_unlikeness`.
-    ratio : array
+    ratio : float
         Side of the contact over that of the scan.
     """
-    of_gaussian = find_spread("larger", "ln_work").high
-    of_others = find_spread("larger non-Gaussian", "ln_work").high
-    return weigh_larger(ratio) * np.hypot(of_gaussian, of_others * np.asarray(unlikeness))
+    return float(np.hypot(LARGER.half_width(ratio), UNLIKE.half_width(ratio, unlikeness)))
 
 
 def find_unlikeness(unevenness: ArrayLike, shape: ArrayLike) -> NDArray:
@@ -248,11 +259,6 @@ def find_unlikeness(unevenness: ArrayLike, shape: ArrayLike) -> NDArray:
     return np.hypot(unevenness, shape)
 
 
-def weigh_larger(ratio: ArrayLike) -> NDArray:
-    """Size of an error to which every doubling of the contact adds, over that of one doubling."""
-    return np.sqrt(np.maximum(np.log2(ratio), 0.0))
-
-
 def _prepend_spectrum(data: xr.Dataset, waves: LongerWaves, order: NDArray) -> xr.Dataset:
     """Put these waves in the place of those below the fit, in the spectra of both ends.
 
@@ -262,7 +268,7 @@ def _prepend_spectrum(data: xr.Dataset, waves: LongerWaves, order: NDArray) -> x
     longer = xr.Dataset(
         {
             "psd": (("end", "wave_number"), waves.law[chosen]),
-            "psd_standard_error": ("wave_number", np.std(waves.psd, axis=0)),
+            "psd_standard_error": ("wave_number", np.std(waves.family.psd, axis=0)),
             "psd_fit": ("wave_number", np.median(waves.law, axis=0)),
             "fitted": ("wave_number", np.zeros(waves.q.size, "i1")),
         },

@@ -1,9 +1,41 @@
 """What `judge` returns: every variable with its dimensions, its unit and its description."""
 
+from typing import NamedTuple
+
 from stickiness.criteria.pair import LIMITED, QUANTITIES, WORDS
-from stickiness.verdicts.curves import AXES
 from stickiness.verdicts.limits import LIMIT_TEXT
-from stickiness.verdicts.thresholds import THRESHOLDS
+
+
+class Axis(NamedTuple):
+    """An axis along which the share is followed."""
+
+    dimension: str
+    description: str
+    nan_means: str
+
+
+AXES = {
+    "modulus": Axis("modulus_factor", "for E* times a factor", "not judged"),
+    "roughness": Axis("roughness_factor", "for the pair's heights times a factor", "not judged"),
+    "rate": Axis("frequency", "at a frequency", "beyond the material's table, or dwell"),
+    "dwell": Axis("dwell_factor", "for the dwell times a factor", "no dwell, or beyond the table"),
+}
+
+CONTACT_AREA = 0.05  #: share of the nominal area, for the pressure that brings it into contact
+THRESHOLDS = {  #: unit, description, and why a value may be missing
+    "rms_height_threshold": (
+        "m",
+        "rms height below which the wanted share remains; of two rough solids that of the pair",
+        "not known",
+    ),
+    "thickness_threshold": ("m", "thickness above which the wanted share remains", "no layer"),
+    "rate_threshold": ("Hz", "frequency below which the wanted share remains", "elastic, or dwell"),
+    "contact_pressure": (
+        "Pa",
+        f"mean pressure that makes {CONTACT_AREA:.0%} contact without adhesion",
+        "not judged",
+    ),
+}
 
 #: What decides a verdict, by code: theory of the spectrum, alone or with the skewness of the
 #: heights, or contact simulated on the heights.
@@ -14,13 +46,12 @@ DECIDED_BY = (
     "simulated contact with adhesion",
 )
 BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
-#: Judged for a larger contact, too, with limits.
-LARGER = ("remaining", "modulus_threshold", "plane_strain_modulus_threshold")
+#: What is given of a pair, also of one that is not judged.
+GIVEN = ("work_of_adhesion", "range", "plane_strain_modulus", "quoted_modulus", "instant_ratio")
 PER_PAIR = ("material", "surface")  #: dimensions of what has one value for every pair
 #: Dimensions of what has more, after those of the pair.
 DIMENSIONS = {
     **dict.fromkeys((*LIMITED, *THRESHOLDS, "pair_a_v"), ("limit",)),
-    **{f"larger_{name}": ("limit",) for name in LARGER},
     **dict.fromkeys((*QUANTITIES, "stiffening"), ("end",)),
     **dict.fromkeys(("margin_by_criterion", "threshold_by_criterion"), ("end", "criterion")),
     "disagrees": ("criterion",),
@@ -28,7 +59,6 @@ DIMENSIONS = {
 }
 
 _UNMEASURED = "not measured"
-_NO_LONGER = "no waves longer than the scan are expected or known"
 _ANY_MODULUS = "not judged; infinite where any modulus would do"
 #: Unit, description and, where a value may be missing, what that means.
 PAIR_VARIABLES: dict[str, tuple[str, ...]] = {
@@ -91,16 +121,6 @@ PAIR_VARIABLES: dict[str, tuple[str, ...]] = {
     ),
     "scan": ("m", "side of the largest scan", _UNMEASURED),
     "contact": ("m", "side of the contact that is judged", _UNMEASURED),
-    "larger_contact": ("m", "side of a larger contact that is judged, too", _NO_LONGER),
-    "larger_verdict": ("1", "verdict for the larger contact"),
-    **{
-        f"larger_{name}": (
-            LIMITED[name][0],
-            f"{LIMITED[name][1]}, of the larger contact",
-            _NO_LONGER,
-        )
-        for name in LARGER
-    },
     **{
         f"remaining_by_{name}": (
             "1",

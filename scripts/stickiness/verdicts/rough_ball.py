@@ -12,21 +12,21 @@ from typing import Any
 
 import numpy as np
 import scipy
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import number
 from stickiness.criteria.pair import Pair
 from stickiness.entries.material import Material
 from stickiness.formatting import amount, in_unit, limited
 from stickiness.remaining import sphere
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import BALL, SUMMITS
+from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
-from stickiness.verdicts.limits import VALUE
-from stickiness.verdicts.pair_roughness import PairRoughness, combine_roughness, combine_scenarios
+from stickiness.verdicts.limits import ROUGH_END, VALUE
+from stickiness.verdicts.meeting import Meeting, deviate, find_family, find_roughness, meet
 from stickiness.verdicts.rough_surface import Surface
 
-ROUGH = 1  #: row of the rough end
 LOOSE = 1e-3  #: relative, of the longest wave in the zone of contact
 WIDEST = 1.0  #: radii across the zone of contact, in which a paraboloid stands for the ball
 
@@ -103,16 +103,16 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
     """
     check_ball(material, radius)
     whole = BallContact(
-        rough=combine_roughness(material, surface),
+        meeting=meet(material, surface, DEFAULT_SHARE),
         material=material,
         surface=surface,
         radius=radius,
-        summits=find_spread("ball", "summits").value,
-        error=find_spread("ball", "ln_force").high,
+        summits=SUMMITS.spread.value,
+        error=BALL.spread.high,
     )
     contact = find_contact(whole)
     low, value, high = contact.force
-    doubt = whole.rough.not_judged or contact.doubt
+    doubt = whole.meeting.not_judged or contact.doubt
     if doubt:
         low = value = high = np.nan
     return BallPullOff(
@@ -120,7 +120,7 @@ def pull_off_of_ball(surface: Surface, material: Material, radius: float) -> Bal
         force=value,
         force_limits=(low, high),
         smooth_force=contact.smooth_force,
-        waves=contact.zone * float(np.asarray(whole.rough.scenarios.ends.q0)[ROUGH]) / (2 * np.pi),
+        waves=contact.zone * float(np.asarray(whole.meeting.ends.q0)[ROUGH_END]) / (2 * np.pi),
         not_judged=doubt,
     )
 
@@ -139,7 +139,7 @@ def check_ball(material: Material, radius: float) -> None:
 class BallContact:
     """Contact of a ball that meets some of the waves."""
 
-    rough: PairRoughness  #: with these waves
+    meeting: Meeting  #: with these waves
     material: Material
     surface: Surface
     radius: float  #: of the ball [m]
@@ -149,37 +149,34 @@ class BallContact:
 
     def shorter(self, q: float) -> BallContact:
         """The same where the ball meets the waves from a wave number on [1/m]."""
-        material = self.material
-        surface = self.surface.shorter(q)
-        curvatures = [surface.lost_curvature]
-        if material.surface is not None:
-            own = surface if material.surface is self.surface else material.surface.shorter(q)
-            material = material.replace(surface=own)
-            curvatures.append(own.lost_curvature)
-        return replace(
-            self,
-            rough=replace(self.rough, scenarios=combine_scenarios(material, surface)),
-            curvature=float(np.hypot.reduce(curvatures)),
-        ).without_states()
+        rough = find_roughness(self.material, self.surface, above=q)
+        longer = find_family(self.material, self.surface).below(q)
+        # Half of the Laplacian of the waves that are left out.
+        curvature = np.median(np.sqrt(longer.variance(4))) / 2
+        shorter = replace(self, curvature=float(curvature))
+        return shorter._with(deviate(rough, self.meeting.is_drawn)).without_states()
 
     def without_states(self) -> BallContact:
         """The same by the theory of heights, without states simulated on a map."""
-        scenarios = self.rough.scenarios.with_roughness(simulated=None, lacking=0.0)
-        return replace(self, rough=replace(self.rough, scenarios=scenarios))
+        return self._with(replace(self.pair.rough, simulated=None, lacking=0.0))
 
-    @cached_property
+    def _with(self, rough: Roughness) -> BallContact:
+        """The same with other roughness, on which the same law acts."""
+        rough = replace(rough, law=self.pair.rough.law)
+        return replace(self, meeting=replace(self.meeting, pair=replace(self.pair, rough=rough)))
+
+    @property
     def pair(self) -> Pair:
         """The ball's material with all that the surface may be."""
-        return self.rough.meet(self.material, DEFAULT_SHARE)
+        return self.meeting.pair
 
-    def press(self, waves: ArrayLike, deviation: ArrayLike) -> sphere.SpherePullOff:
+    def press(self, waves: ArrayLike, eta: float | NDArray) -> sphere.SpherePullOff:
         """Pull-off in every row, where so many of the longest waves lie across the zone."""
         return sphere.pull_off(
-            rough=sphere.narrow(self.pair.rough, waves, self.summits),
+            rough=sphere.narrow(self.pair.rough, waves, self.summits).deviating(eta),
             radius=self.radius,
             adhesion_length=self.pair.adhesion_length,
             range=self.pair.range,
-            deviation=deviation,
             curvature=self.curvature,
             error=self.error,
         )
@@ -187,27 +184,27 @@ class BallContact:
     @cached_property
     def with_one_wave(self) -> sphere.SpherePullOff:
         """Pull-off in every row where the longest wave is as long as the zone is wide."""
-        return self.press(waves=1.0, deviation=0.0)
+        return self.press(waves=1.0, eta=0.0)
 
     @cached_property
     def zone(self) -> float:
         """Width of the zone of contact at pull-off [m]."""
         radii = self.with_one_wave.zone_radius
-        return 2 * float(self.rough.limit(radii, self.pair)[VALUE])
+        return 2 * float(self.meeting.limit(radii, self.pair)[VALUE])
 
     @cached_property
     def force(self) -> tuple[float, ...]:
         """Low limit, value and high limit of the pull-off force [N]."""
         # The value is that without errors of the model.
         waves = self.zone * self.pair.q0 / (2 * np.pi)
-        low, _, high = self._limit(self.press(waves, deviation=self.pair.deviation).force)
-        value = self._limit(self.press(waves, deviation=0.0).force)[VALUE]
+        low, _, high = self._limit(self.press(waves, eta=self.pair.rough.eta).force)
+        value = self._limit(self.press(waves, eta=0.0).force)[VALUE]
         return low, value, high
 
     def _limit(self, forces: ArrayLike) -> tuple[float, ...]:
         """Limits of forces over E* in all rows [N]."""
         of_rows = self.pair.modulus * np.asarray(forces)
-        return tuple(float(force) for force in self.rough.limit(of_rows, self.pair))
+        return tuple(float(force) for force in self.meeting.limit(of_rows, self.pair))
 
     @property
     def smooth_force(self) -> float:
@@ -231,9 +228,8 @@ def find_contact(whole: BallContact) -> BallContact:
 
     The wider the zone, the more waves it holds, which leave less of the attraction.
     """
-    surfaces = [each for each in (whole.surface, whole.material.surface) if each is not None]
-    lowest = min(spectrum.band[0] for each in surfaces for spectrum in each.spectra)
-    highest = max(each.highest for each in surfaces)
+    lowest = min(spectrum.band[0] for spectrum in whole.meeting.spectra)
+    highest = whole.meeting.family.highest
     # States simulated on a map are those of a contact as large as the map. A smaller one touches
     # at lower summits.
     if not whole.zone >= whole.surface.contact:

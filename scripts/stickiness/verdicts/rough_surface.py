@@ -25,25 +25,24 @@ from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, find_doubts
-from stickiness.remaining.roughness import Roughness, find_anisotropy_error_factor
+from stickiness.remaining.roughness import find_anisotropy_error_factor
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.solids import Solid
+from stickiness.spectrum.family import SpectrumFamily
 from stickiness.spectrum.interface import Spectrum
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.units import Quantity
-from stickiness.verdicts import parametric
-from stickiness.verdicts.longer_waves import LARGER, lengthen
-from stickiness.verdicts.parametric import ENDS, MOMENTS
-from stickiness.verdicts.scenarios import Scenarios
-from stickiness.verdicts.shorter_waves import shorten, shorten_shells
+from stickiness.verdicts import surface_data
+from stickiness.verdicts.longer_waves import lengthen
 from stickiness.verdicts.simulated_surface import (
     find_lacking,
     read_simulated,
     simulate_on,
 )
+from stickiness.verdicts.surface_data import ENDS, MOMENTS, read_family
 
 if TYPE_CHECKING:  # scripts that open a file of a surface do not read measurements
-    from stickiness.verdicts.measured_surface import Measurement
+    from stickiness.measured.measurement import Measurement
 
 #: What a verdict needs of the file of a surface.
 NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
@@ -59,7 +58,7 @@ class Surface:
     Attributes
     ----------
     data : Dataset
-        The variables of `surface_variables.SURFACE_VARIABLES` that are known: spectrum and moments
+        The variables of `surface_data.SURFACE_VARIABLES` that are known: spectrum and moments
         at both ends, draws, unresolved waves, the fit, and a thinned picture of the heights. It is
         what the workflow stores in ``real_surfaces/<surface>.nc``.
     shells : Spectrum, optional
@@ -106,7 +105,7 @@ class Surface:
         if spectrum.is_discrete:
             return cls(_describe_shells(spectrum), shells=spectrum)
         return cls(
-            parametric.tabulate_ends(
+            surface_data.tabulate_ends(
                 spectrum,
                 rough,
                 hurst=getattr(spectrum, "hurst", None),
@@ -186,7 +185,7 @@ class Surface:
     ) -> Surface:
         """Analyse heights on a grid of these steps [m]; warn of `doubts` and keep them."""
         from stickiness.entries import check_heights
-        from stickiness.verdicts.measured_surface import Measurement
+        from stickiness.measured.measurement import Measurement
 
         options = check_heights(options)
         surface = cls._analyse([Measurement.from_array(heights, steps, options)], options)
@@ -220,7 +219,7 @@ class Surface:
         """
         from stickiness.entries import check_drawing
 
-        return cls(parametric.read_drawing(check_drawing(parameters)))
+        return cls(surface_data.read_drawing(check_drawing(parameters)))
 
     @classmethod
     def read(cls, path: str | Path, **options: Any) -> Surface:
@@ -248,11 +247,9 @@ class Surface:
     def from_entry(cls, entry: Mapping[str, Any]) -> Surface:
         """Make a surface of a checked entry of the configuration, with values in SI units."""
         if entry["kind"] == "self_affine":
-            return cls(parametric.read_self_affine(entry))
+            return cls(surface_data.read_self_affine(entry))
         if entry["kind"] == "surface_texture":
-            return cls(parametric.read_drawing(entry))
-        from stickiness.verdicts.measured_surface import read_measurements
-
+            return cls(surface_data.read_drawing(entry))
         return cls._analyse(read_measurements(entry), entry)
 
     @classmethod
@@ -263,9 +260,10 @@ class Surface:
         data = analyse(
             measurements,
             extend_to=entry["extend_to"],
-            contact=entry["contact"],
             ignore_doubts=entry["plausibility"] == "ignore",
         )
+        if entry["contact"] is not None:
+            data = lengthen(data, entry["contact"])
         return cls(data, measurements=tuple(measurements))
 
     @classmethod
@@ -288,61 +286,6 @@ class Surface:
     def scan(self) -> float:
         """Side of the largest scan [m]; NaN of a surface that was not measured."""
         return float(self.data.get("scan", np.nan))
-
-    @property
-    def is_larger(self) -> bool:
-        """Whether the contact is larger than the scan."""
-        return self.contact > self.scan * (1 + 1e-9)
-
-    @cached_property
-    def larger(self) -> Surface | None:
-        """The surface as a contact of `LARGER` times the side of the scan meets it.
-
-        None if its waves are known, by a roll-off or by the size of the contact, or not judged.
-        """
-        if "q_rolloff" in self.data or self.not_judged:
-            return None
-        larger = self.on_contact(LARGER * self.scan)
-        return None if larger is self else larger
-
-    def on_contact(self, contact: float) -> Surface:
-        """The surface as a contact of a side [m] meets it, itself if its waves are that long."""
-        if self.is_larger or not contact > self.scan:  # nor if nothing was scanned
-            return self
-        return Surface(lengthen(self.data, contact))
-
-    def shorter(self, q: float) -> Surface:
-        """The surface without its long waves, as a contact that is smaller than these meets it.
-
-        Parameters
-        ----------
-        q : float
-            Wave number [1/m] of the longest wave that is kept.
-
-        Returns
-        -------
-        Surface
-            With the rms mean curvature of the waves taken out as `lost_curvature`; the same surface
-            if it has no waves below `q`.
-        """
-        if q <= min(spectrum.band[0] for spectrum in self.spectra) * (1 + 1e-9):
-            return self
-        if self.shells is not None:
-            shells, lost = shorten_shells(self.shells, q)
-            data = _describe_shells(shells).assign(lost_curvature=("end", [lost, lost]))
-            return Surface(data, shells=shells)
-        return Surface(shorten(self.data, q))
-
-    @property
-    def lost_curvature(self) -> float:
-        """Rms mean curvature [1/m] of the waves that `shorter` has taken out."""
-        return float(np.median(self.rows("lost_curvature"))) if "lost_curvature" in self.data else 0
-
-    @property
-    def highest(self) -> float:
-        """Highest wave number that any draw may have [1/m]."""
-        of_draws = self.data.get("beyond_end_draws", self.data.q1)
-        return float(np.maximum(of_draws, self.data.q1).max())
 
     @property
     def not_judged(self) -> str:
@@ -386,43 +329,60 @@ class Surface:
         """Spectra of the smooth and of the rough end, up to q1."""
         if self.shells is not None:
             return self.shells, self.shells
-        return parametric.read_ends(self.data, highest=float(self.data.q1))
+        highest = float(self.data.q1) if self.draw_count else np.inf
+        return surface_data.read_ends(self.data, highest)
 
     @cached_property
-    def scenarios(self) -> Scenarios:
-        """All that the surface may be, as a half-space meets it."""
+    def family(self) -> SpectrumFamily:
+        """Every spectrum that the surface may have: those drawn, or that of both ends."""
+        return read_family(self.data) if self.draw_count else SpectrumFamily.of(*self.spectra)
+
+    def find_family(self, above: float) -> SpectrumFamily:
+        """The same without waves below a wave number [1/m]."""
+        if not above:
+            return self.family
+        if not self.draw_count:
+            return self.family.above(above)
+        # The last ring measured reaches beyond the cutoff, where the law begins.
+        return self.family.ending_rings(float(self.data.q_cutoff)).above(above)
+
+    def find_columns(self, above: float = 0.0) -> dict[str, Any]:
+        """Columns of `Roughness` that no solid changes, a row for each of `find_family`."""
         data = self.data
-        energy = self.rows("elastic_energy")
-        slope = data.rms_slope.sel(end=list(ENDS)).values
-        longest_waves = self.contact * float(data.q0) / (2 * np.pi)
-        roughness = Roughness(
-            h_rms=self.rows("h_rms"),
-            q0=self.rows("q0"),
-            q1=np.full(energy.shape, float(data.q1)),
-            elastic_energy=energy,
-            half_space_energy=energy,
-            anisotropy_error_factor=find_anisotropy_error_factor(
+        q0 = data.drawn_q0.values if self.draw_count else np.full(2, float(data.q0))
+        q1 = float(data.q1)
+        longest_waves = self.contact * max(float(data.q0), above) / (2 * np.pi)
+        shape = float(data.get("shape", 0.0))
+        columns = {
+            "q0": np.maximum(q0, above),
+            "q1": q1,
+            "told": q1 if self.draw_count else np.inf,
+            "anisotropy_error_factor": find_anisotropy_error_factor(
                 float(data.get("axis_ratio", 1.0))
             ),
             # A surface that is described has very many.
-            waves=np.float64(np.inf if np.isnan(self.contact) else longest_waves),
-            # Slopes of the draws are not kept; those of both ends hardly differ.
-            rms_slope=np.append(slope, np.full(self.draw_count, slope.mean())),
-            shape=np.float64(data.get("shape", 0.0)),
-            shape_error=np.float64(data.get("shape_error", 0.0)),
-            simulated=self.simulated,
-            lacking=self._find_lacking(),
-        )
-        if self.draw_count:
-            return Scenarios.of_draws(roughness)
-        return Scenarios.between_ends(roughness)
-
-    def rows(self, name: str) -> NDArray:
-        """A variable at both ends, and of every draw of a measured surface."""
-        stored = self.data[name]  # along the ends, or one number for both
-        at_ends = stored.sel(end=list(ENDS)).values if stored.ndim else np.full(2, float(stored))
-        of_draws = self.data.get(f"{name}_draws")
-        return at_ends if of_draws is None else np.append(at_ends, of_draws.values)
+            "waves": np.inf if np.isnan(self.contact) else longest_waves,
+            "shape": shape,
+            "shape_error": float(data.get("shape_error", 0.0)),
+            "simulated": self.simulated,
+            "lacking": self.lacking,
+        }
+        if not above:
+            return columns
+        # The shape of the heights is mostly that of the waves that hold their energy. States
+        # simulated on the heights have all waves.
+        kept = self.find_family(above)
+        lost = shape * (1 - np.minimum(kept.energy() / self.family.energy(), 1.0)) / 2
+        if above >= q1:
+            ends = [self.family.q[psd > 0].max() for psd in self.family.psd]
+            columns["q1"] = max(q1, float(np.median(ends)))
+        return columns | {
+            "told": np.inf,
+            "shape": shape - lost,
+            "shape_error": np.hypot(columns["shape_error"], lost),
+            "simulated": None,
+            "lacking": 0.0,
+        }
 
     @cached_property
     def simulated(self) -> SimulatedHeights | None:
@@ -440,12 +400,19 @@ class Surface:
             self._simulated_on[solid] = simulate_on(self.data, solid)
         return self._simulated_on[solid]
 
-    def _find_lacking(self) -> NDArray:
-        """Energy of waves that are not simulated over that of the others, in every row."""
+    @cached_property
+    def lacking(self) -> NDArray | float:
+        """Energy of waves that are not simulated over that of the others, of every spectrum."""
         if self.simulated is None:
-            return np.zeros(2 + self.draw_count)
-        longer = self.rows("longer_energy") if "longer_energy" in self.data else 0.0
-        return find_lacking(self.simulated, unheld=self.rows("unheld_energy"), longer=longer)
+            return 0.0
+        return find_lacking(self.simulated, self.family.energy() / self.data.held_energy.values)
+
+    @property
+    def lacking_energy(self) -> NDArray | float:
+        """The same as an energy per area over E* [m], on a half-space."""
+        if self.simulated is None:
+            return 0.0
+        return self.lacking * self.simulated.whole.full_contact_energy
 
     @cached_property
     def a_v(self) -> tuple[SurfaceAv, SurfaceAv]:
@@ -486,6 +453,14 @@ class Surface:
                 "The limits include that; a finer measurement narrows them"
             )
         return tuple(doubts)
+
+
+def read_measurements(entry: Mapping[str, Any]) -> tuple[Measurement, ...]:
+    """Read every measurement of a checked entry of a measured surface."""
+    from stickiness.entries import list_measurements
+    from stickiness.measured.measurement import Measurement
+
+    return tuple(map(Measurement.from_entry, list_measurements(entry)))
 
 
 def _describe_shells(spectrum: Spectrum) -> xr.Dataset:

@@ -10,8 +10,9 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
+from stickiness.measured.measurement import Measurement
 from stickiness.measured.topography import Topography
-from stickiness.remaining.calibration import find_spread
+from stickiness.remaining.errors import CELLS
 from stickiness.remaining.height_shape import HeightShape, keep_beyond_chance
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.standard_heights import (
@@ -23,7 +24,6 @@ from stickiness.remaining.standard_heights import (
 from stickiness.remaining.trial_states import DEFAULT_SHARE, SimulatedHeights, TrialStates
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.traction_laws import EXPONENTIAL
-from stickiness.verdicts.measured_surface import Measurement
 
 #: Share of the elastic energy in waves longer than the map, up to which the map stands for the
 #: surface; of one measurement alone there are none.
@@ -138,12 +138,6 @@ def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
     return dataset
 
 
-def stands_alone(data: xr.Dataset) -> bool:
-    """Whether heights stand for a surface: little energy is in waves longer than the scan."""
-    longer = data.get("longer_energy")
-    return longer is None or float((longer / (1 + longer)).max()) <= MOST_LONGER
-
-
 def _has_long_waves(heights: Topography, spectrum: MeasuredSpectrum) -> bool:
     """Whether the waves of a surface that store its energy fit into a map."""
     rings = spectrum.rings
@@ -163,9 +157,9 @@ def _stack(of_parts: list) -> NDArray:
 def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
     """Read what `simulate_surface` made from the dataset of a surface.
 
-    None if it holds none, or if the heights do not stand for the surface.
+    None if it holds none.
     """
-    if "trial_energy" not in data or not stands_alone(data):
+    if "trial_energy" not in data:
         return None
     whole, *quarters = (
         TrialStates(
@@ -210,17 +204,14 @@ def find_simulated_shape(data: xr.Dataset) -> HeightShape | None:
     if np.isnan(by_states):
         return None
     change = by_theory - by_states
-    chance = find_spread("one wave", "ln_work").high
+    chance = CELLS[1].spread.high
     return keep_beyond_chance(HeightShape(change, 0.0), change, chance)
 
 
-def find_lacking(
-    simulated: SimulatedHeights, unheld: ArrayLike, longer: ArrayLike = 0.0
-) -> NDArray:
+def find_lacking(simulated: SimulatedHeights, whole: ArrayLike = 1.0) -> NDArray:
     """Energy of the waves that a simulation lacks over that of the others; at least 0.
 
-    `unheld` is that of the waves that the heights do not hold over that of those they hold,
-    `longer` that of the waves longer than the scan over that of all others.
+    `whole` is the energy of all waves over that of the waves that the heights hold.
     """
-    energy = (1 + np.asarray(unheld)) * (1 + np.asarray(longer)) * simulated.resolved_energy
+    energy = np.asarray(whole) * simulated.resolved_energy
     return np.maximum(energy / simulated.whole.full_contact_energy - 1, 0.0)

@@ -6,25 +6,23 @@ where the low limit of the share first fails, and where the high limit of the sh
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from stickiness.criteria.a_v_table import RANGES
-from stickiness.criteria.pair import Pair
-from stickiness.entries.material import Material
 from stickiness.limited import Limited
 from stickiness.persson.theory import Persson
-from stickiness.remaining.thin_layers import find_flow
-from stickiness.solids import Layer, Skin, Solid
-from stickiness.solids.moduli import Modulus
-from stickiness.verdicts.limits import VALUE
-from stickiness.verdicts.pair_roughness import PairRoughness
-from stickiness.verdicts.scenarios import END_ROWS
+from stickiness.remaining.solid_response import find_columns
+from stickiness.solids import Layer, Skin
+from stickiness.solids.moduli import Constant, Modulus
+from stickiness.verdicts.limits import ROUGH_END, VALUE
+from stickiness.verdicts.meeting import Meeting
+from stickiness.verdicts.pair_variables import CONTACT_AREA, THRESHOLDS
 
-CONTACT_AREA = 0.05  #: share of the nominal area
 LEAST_AREA = 0.005  #: least and largest share of the nominal area that may be asked for
 MOST_AREA = 0.35
 # Relative, of areas by theory: covers simulations at these areas (H = 0.3 to 0.9, magnifications of
@@ -43,57 +41,39 @@ _CONVERGED = 0  # status of SciPy's search
 _NOT_BRACKETED = -1
 
 UNKNOWN = Limited(np.nan, np.nan, np.nan)
-THRESHOLDS = {  #: unit, description, and why a value may be missing
-    "rms_height_threshold": (
-        "m",
-        "rms height below which the wanted share remains; of two rough solids that of the pair",
-        "not known",
-    ),
-    "thickness_threshold": ("m", "thickness above which the wanted share remains", "no layer"),
-    "rate_threshold": ("Hz", "frequency below which the wanted share remains", "elastic, or dwell"),
-    "contact_pressure": (
-        "Pa",
-        f"mean pressure that makes {CONTACT_AREA:.0%} contact without adhesion",
-        "not judged",
-    ),
-}
 
 
 def find_thresholds(
-    material: Material,
-    rough: PairRoughness,
-    pair: Pair,
-    moduli: Limited[float],
+    meeting: Meeting,
+    cell: Mapping[str, Any],
     contact_area: float,
     rms_height: float | None = None,
 ) -> dict[str, Limited[float]]:
     """Find every one of `THRESHOLDS` for a pair; NaN where it does not apply.
 
-    `moduli` is the threshold of E* [Pa]. `rms_height` [m] is the one that readers know, if it is
-    not that of the spectrum: thresholds are in proportion.
+    `cell` has the threshold of E* [Pa]. `rms_height` [m] is the one that readers know, if it is not
+    that of the spectrum: thresholds are in proportion.
     """
-    if rough.not_judged:
+    if meeting.not_judged:
         return dict.fromkeys(THRESHOLDS, UNKNOWN)
-    has_rates = material.depends_on_rate and material.dwell is None
+    has_rates = not isinstance(meeting.moduli, Constant) and meeting.dwell is None
+    moduli = cell["plane_strain_modulus_threshold"]
     return {
-        "rms_height_threshold": find_rms_height(pair, rough, rms_height),
-        "thickness_threshold": find_thickness(pair, rough, material.solid),
-        "rate_threshold": find_rate(material.plane_strain, moduli) if has_rates else UNKNOWN,
-        "contact_pressure": find_pressure(pair, rough, material.solid, contact_area),
+        "rms_height_threshold": find_rms_height(meeting, rms_height),
+        "thickness_threshold": find_thickness(meeting),
+        "rate_threshold": find_rate(meeting.moduli, moduli) if has_rates else UNKNOWN,
+        "contact_pressure": find_pressure(meeting, contact_area),
     }
 
 
-def find_rms_height(
-    pair: Pair, rough: PairRoughness, rms_height: float | None = None
-) -> Limited[float]:
+def find_rms_height(meeting: Meeting, rms_height: float | None = None) -> Limited[float]:
     """Find the rms height [m] below which the wanted share remains; see `find_thresholds`."""
-    # Of draws it is that between both ends.
-    of_rows = rough.scenarios.between(np.asarray(pair.h_rms)[END_ROWS])
-    h_rms = float(rough.limit(of_rows, pair)[VALUE])
+    pair = meeting.pair
+    h_rms = float(meeting.limit(pair.h_rms, pair)[VALUE])
 
     def remain(height: NDArray) -> NDArray:
         scaled = pair.scaled(height[:, None] / h_rms)
-        return rough.limit(scaled.remaining, scaled)
+        return meeting.limit(scaled.remaining, scaled)
 
     highest = find_threshold(
         remain,
@@ -105,50 +85,49 @@ def find_rms_height(
     return Limited(*(scale * height for height in highest))
 
 
-def find_thickness(pair: Pair, rough: PairRoughness, solid: Solid) -> Limited[float]:
+def find_thickness(meeting: Meeting) -> Limited[float]:
     """Find the thickness [m] of a layer above which the wanted share remains; NaN of others."""
+    solid = meeting.solid
     if not isinstance(solid, Layer):
         return UNKNOWN
-    before = pair.rough
+    pair = meeting.pair
+    rough = pair.rough
+    family = meeting.family.take(np.asarray(rough.row))
 
     def remain(thickness: NDArray) -> NDArray:
-        # The layer as it is comes first: all else is in proportion to what the pair has with it.
-        layers = [solid, *(replace(solid, thickness=each) for each in thickness)]
-        at_ends = [[each.elastic_energy(layer) for each in rough.spectra] for layer in layers]
-        energy = np.array([rough.scenarios.between(energies) for energies in at_ends])
-        softness = np.array([layer.factor(before.q0) for layer in layers])
+        layers = [replace(solid, thickness=each) for each in thickness]
+        by_layer = [find_columns(family, layer, rough.q0) for layer in layers]
+        columns: dict[str, Any] = {
+            name: np.array([column[name] for column in by_layer])
+            for name in ("elastic_energy", "relative_compliance", "flow")
+        }
         changed = replace(
             pair,
-            rough=replace(
-                before,
-                elastic_energy=before.elastic_energy * energy[1:] / energy[0],
-                relative_compliance=before.relative_compliance * softness[1:] / softness[0],
-                flow=np.array([find_flow(layer, before.q0) for layer in layers[1:]]),
-            ),
-            layer_strain=np.array([layer.strain(before.h_rms, before.q0) for layer in layers[1:]]),
+            rough=replace(rough, **columns),
+            layer_strain=np.array([layer.strain(rough.h_rms, rough.q0) for layer in layers]),
         )
-        if before.simulated is not None:
+        if rough.simulated is not None:
             # Simulated states are those of one thickness; others keep what it does at the same
             # ratio of the work of adhesion to the energy of full contact.
-            work = pair.work_of_adhesion * energy[0] / energy[1:]
-            changed = replace(changed, work_of_adhesion=work)
-        return rough.limit(changed.remaining, changed)
+            ratio = rough.elastic_energy / columns["elastic_energy"]
+            changed = replace(changed, work_of_adhesion=pair.work_of_adhesion * ratio)
+        return meeting.limit(changed.remaining, changed)
 
     return find_threshold(
         remain,
-        start=DEEPEST / rough.spectra[0].band[0],
-        stop=float(np.min(before.h_rms)),
+        start=DEEPEST / meeting.spectra[0].band[0],
+        stop=float(np.min(rough.h_rms)),
         wanted=pair.wanted_share,
     )
 
 
-def find_rate(storage: Modulus, moduli: Limited[float]) -> Limited[float]:
+def find_rate(storage: Modulus, moduli: ArrayLike) -> Limited[float]:
     """Find the frequency [Hz] up to which a storage modulus stays below each of other moduli.
 
     It is searched within a table, and over all frequencies of a Prony series.
     """
     frequencies = getattr(storage, "frequencies", (LOWEST_FREQUENCY, HIGHEST_FREQUENCY))
-    by_limit = np.sort([moduli.low, moduli.value, moduli.high])
+    by_limit = np.sort(moduli)
     return find_threshold(
         lambda f: by_limit / np.asarray(storage.storage(f))[:, None],
         start=frequencies[0],
@@ -211,22 +190,21 @@ def _find_crossings(
     return np.where(root.success, root.x, nearest)
 
 
-def find_pressure(
-    pair: Pair, rough: PairRoughness, solid: Solid, area: float = CONTACT_AREA
-) -> Limited[float]:
-    """Find the mean pressure [Pa] at an area of contact, without adhesion.
-
-    It is that of both ends: draws do not keep their spectra.
-    """
-    q0 = float(np.mean(np.asarray(pair.q0)[END_ROWS]))
-    error = min(AREA_ERROR * float(np.mean(pair.rough.anisotropy_error_factor)), MOST_AREA_ERROR)
+def find_pressure(meeting: Meeting, area: float = CONTACT_AREA) -> Limited[float]:
+    """Find the mean pressure [Pa] at an area of contact, without adhesion, by both ends."""
+    ends = meeting.ends
+    solid = meeting.solid
+    error = min(AREA_ERROR * float(np.mean(ends.rough.anisotropy_error_factor)), MOST_AREA_ERROR)
     if isinstance(solid, Skin):
         error = max(error, AREA_ERROR_SKIN)
-    stiffer_layer = max(1 - float(solid.factor(q0)), 0.0)
+    stiffer_layer = max(1 - float(solid.factor(float(np.mean(ends.q0)))), 0.0)
     least = (1 - error) * (1 - AREA_ERROR_LAYER * stiffer_layer)
     areas = area * np.array([least, 1.0, 1 + error])
-    theories = [Persson(spectrum, correction="wang2017", solid=solid) for spectrum in rough.spectra]
-    pressures = pair.modulus * np.array([theory.pressure_at_area(areas) for theory in theories])
+    theories = [
+        Persson(spectrum, correction="wang2017", solid=solid) for spectrum in meeting.spectra
+    ]
+    pressures = ends.modulus * np.array([theory.pressure_at_area(areas) for theory in theories])
     low, middle, high = pressures.T
-    value = rough.limit(rough.scenarios.between(middle), pair)[VALUE]
+    # Measured surfaces lie between both ends, others at the rough one.
+    value = np.sqrt(middle.prod()) if meeting.is_drawn else middle[ROUGH_END]
     return Limited(value=float(value), low=float(low.min()), high=float(high.max()))

@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -24,20 +24,10 @@ from stickiness.spectrum.interface import Spectrum
 from stickiness.verdicts import wording
 from stickiness.verdicts.judgement import find_pair_doubts, judge
 from stickiness.verdicts.limits import read_limited
-from stickiness.verdicts.pair_variables import DECIDED_BY, LARGER
+from stickiness.verdicts.pair_variables import DECIDED_BY
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
 from stickiness.verdicts.wording import MOST_STRESS
-
-
-class LargerContact(NamedTuple):
-    """Answer for a contact larger than the scan, if the fitted law goes on to longer waves."""
-
-    contact: float  #: side of the contact [m]
-    word: str  #: verdict
-    remaining: Limited[float]  #: share of the work of adhesion
-    modulus_threshold: Limited[float]  #: as of `StickinessVerdict` [Pa]
-    plane_strain_modulus_threshold: Limited[float]  #: [Pa]
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,17 +161,6 @@ class StickinessVerdict:
         return float(self.cell.contact)
 
     @property
-    def larger(self) -> LargerContact | None:
-        """Answer for a larger contact; None where nothing would change."""
-        if np.isnan(self.cell.larger_contact):
-            return None
-        return LargerContact(
-            contact=float(self.cell.larger_contact),
-            word=WORDS[int(self.cell.larger_verdict)],
-            **{name: read_limited(self.cell[f"larger_{name}"]) for name in LARGER},
-        )
-
-    @property
     def doubts(self) -> tuple[str, ...]:
         """Why the answer is probably to another question."""
         return tuple(self.cell.doubts.item().splitlines())
@@ -221,16 +200,10 @@ class StickinessVerdict:
             "material_properties": cell.properties.item(),
             "rms_height": _quantity_of(cell.rms_height, "m"),
             "wanted_share": self.wanted_share,
-            **self._describe_remaining(""),
+            **self._describe_remaining(),
             "pull_off_stress": _quantity(pull_off, "Pa"),
             "contact": _quantity_of(cell.contact, "m"),
         }
-        if self.larger is not None:
-            contents["larger_contact"] = {
-                "contact": _quantity_of(cell.larger_contact, "m"),
-                "verdict": self.larger.word,
-                **self._describe_remaining("larger_"),
-            }
         contents["warnings"] = list(self.doubts)
         return _leave_out_unknown(contents)
 
@@ -245,9 +218,9 @@ class StickinessVerdict:
             **plane_strain,
         }
 
-    def _describe_remaining(self, contact: str) -> dict[str, Any]:
-        """What remains, and the thresholds; `contact` is the prefix of a larger one."""
-        share = read_limited(self.cell[f"{contact}remaining"])
+    def _describe_remaining(self) -> dict[str, Any]:
+        """What remains, and the thresholds."""
+        share = read_limited(self.cell.remaining)
         work = float(self.cell.work_of_adhesion)
         moduli = {
             "modulus_threshold": wording.name_modulus(self.cell),
@@ -258,7 +231,7 @@ class StickinessVerdict:
             "effective_work_of_adhesion": _quantity(Limited(*(work * x for x in share)), "J/m^2"),
         }
         for name, symbol in moduli.items():
-            modulus = _quantity(_drop_unbounded(read_limited(self.cell[f"{contact}{name}"])), "Pa")
+            modulus = _quantity(_drop_unbounded(read_limited(self.cell[name])), "Pa")
             described[name] = modulus and {"symbol": symbol, **modulus}
         return _leave_out_unknown(described)
 

@@ -48,6 +48,8 @@ _WIDEST = {
     "finer measurement would narrow them.",
     "range": "The limits are wide mostly because the surface is given by ranges: a measurement "
     "would narrow them.",
+    "solid": "The limits are wide mostly because theory decides on such a solid: no measurement of "
+    "the surface would narrow them.",
     "theory": "The limits are wide mostly because theory decides: a map, on which contact can be "
     "simulated, would narrow them.",
 }
@@ -126,22 +128,13 @@ def tell_change(cell: xr.Dataset) -> str:
 
 
 def tell_contact(cell: xr.Dataset) -> str:
-    """Size of the contact, and the answer for a larger one; empty where neither matters."""
+    """Size of the contact, and how to ask for another; empty of a surface that is described."""
+    if np.isnan(cell.contact):
+        return ""
     size = amount(float(cell.contact), "m")
     if float(cell.contact) > float(cell.scan) * (1 + 1e-9):
         return f"for a contact of {size}"
-    if np.isnan(cell.larger_contact):
-        return ""
-    share = tell_share(*read_limited(cell.larger_remaining))
-    return (
-        f"for contacts up to the size of the scan, {size}; for {tell_larger_size(cell)}, if longer "
-        f"waves follow the fitted law: {WORDS[int(cell.larger_verdict)]}, {share} remains"
-    )
-
-
-def tell_larger_size(cell: xr.Dataset) -> str:
-    """Size of the larger contact that is judged, too."""
-    return amount(float(cell.larger_contact), "m")
+    return f"for a contact as large as the scan, {size}; give another size as contact"
 
 
 def tell_dwell(cell: xr.Dataset) -> str:
@@ -214,7 +207,9 @@ def tell_widest(cell: xr.Dataset) -> str:
     widest = max(errors, key=lambda name: errors[name])
     if errors["map"] > 0:
         return _WIDEST_ON_MAP[widest]
-    return _WIDEST["spectrum" if widest == "spectrum" else "theory"]
+    if widest == "spectrum":
+        return _WIDEST["spectrum"]
+    return _WIDEST["theory" if cell.half_space else "solid"]
 
 
 def tell_doubt(doubt: str) -> str:

@@ -87,16 +87,6 @@ def test_an_error_has_a_key_and_a_value(check, entry, key, value):
     assert (caught.value.key, str(caught.value.value)) == (key, str(value))
 
 
-def test_materials_are_read_from_a_file(tmp_path):
-    path = tmp_path / "tape.yaml"
-    path.write_text(
-        "materials: {tape: {label: tape, source: own, plane_strain_modulus: 1 MPa, "
-        "work_of_adhesion: 50 mJ/m^2, range: 0.3 nm}}",
-        encoding="utf-8",
-    )
-    assert entries.read_materials(path)["tape"]["plane_strain_modulus"] == 1e6
-
-
 def test_a_storage_modulus_that_falls_is_refused_by_file_and_row(tmp_path):
     path = tmp_path / "tape.yaml"
     text = (

@@ -84,9 +84,12 @@ def test_stylus_and_tem_leave_a_gap_that_decides(spectra):
     whole = stitching.stitch([spectra["TEM"], spectra["stylus"]])
     (gap,) = whole.gaps
     np.testing.assert_allclose(2 * np.pi / gap.q, [1.95e-6, 58e-9], rtol=0.01)
-    drawn = stitching.draw(whole, 1000, seed=1)
-    for name, low, high in (("h_rms", 17e-9, 54e-9), ("elastic_energy", 1.0e-9, 13e-9)):
-        np.testing.assert_allclose(drawn.quantiles(name, (0.05, 0.95)), [low, high], rtol=0.15)
+    drawn = stitching.draw(whole, 1000, seed=1).family
+    for values, limits in (
+        (np.sqrt(drawn.variance()), [17e-9, 54e-9]),
+        (drawn.energy(), [1.0e-9, 13e-9]),
+    ):
+        np.testing.assert_allclose(np.quantile(values, (0.05, 0.95)), limits, rtol=0.15)
     assert whole.fit.hurst == pytest.approx(0.89, abs=0.1)
     assert COVERS * whole.fit.hurst_se == pytest.approx(0.52, abs=0.1)
 
@@ -137,7 +140,5 @@ def test_the_law_stays_when_the_afm_counts_to_where_it_agrees(spectra):
     plain = stitching.stitch([replace(sharp, trusted=False), spectra["TEM"], spectra["stylus"]])
     more = stitching.stitch([sharp, spectra["TEM"], spectra["stylus"]])
     assert abs(more.fit.hurst - plain.fit.hurst) < COVERS * plain.fit.hurst_se
-    energies = [
-        np.median(stitching.draw(s, 500, seed=1).moments["elastic_energy"]) for s in (plain, more)
-    ]
+    energies = [np.median(stitching.draw(s, 500, seed=1).family.energy()) for s in (plain, more)]
     assert energies[1] == pytest.approx(energies[0], rel=0.2)

@@ -207,18 +207,17 @@ def test_draws_scatter_about_the_moments_of_the_surface():
     h = surface.synthesise(s, n=n, length=length, seed=4)
     found = instrument_spectrum.analyse(Topography(h, length / n, length / n, "here"), "none")
     drawn = stitching.draw(found, 400, seed=1)
+    variance = drawn.family.variance()
     # A periodic surface keeps its variance whatever the spectrum estimated from it.
-    assert np.mean(drawn.moments["h_rms"] ** 2) == pytest.approx(np.var(h), rel=0.02)
+    assert np.mean(variance) == pytest.approx(np.var(h), rel=0.02)
     inside = s.truncated(found.cutoff.q)
-    assert np.mean(drawn.moments["rms_slope"]) == pytest.approx(inside.rms_slope, rel=0.05)
-    assert np.mean(drawn.moments["elastic_energy"]) == pytest.approx(
-        inside.elastic_energy(), rel=0.1
-    )
+    rms_slope = np.sqrt(drawn.family.variance(2))
+    assert np.mean(rms_slope) == pytest.approx(inside.rms_slope, rel=0.05)
+    assert np.mean(drawn.family.energy()) == pytest.approx(inside.elastic_energy(), rel=0.1)
     # The relative error of the variance is that of its rings, 1/dof each.
     share = found.rings.psd * found.area
     expected = np.sqrt(np.sum(share**2 / found.rings.dof)) / share.sum()
-    spread = np.std(drawn.moments["h_rms"] ** 2) / np.mean(drawn.moments["h_rms"] ** 2)
-    assert spread == pytest.approx(expected, rel=0.15)
+    assert np.std(variance) / np.mean(variance) == pytest.approx(expected, rel=0.15)
     # The end of the plateau is drawn with the error of its fit.
     fit = found.fit
     assert np.std(np.log(drawn.q0)) == pytest.approx(fit.q_rolloff_se / fit.q_rolloff, rel=0.15)
@@ -228,13 +227,16 @@ def test_law_carried_on_adds_its_waves_and_their_uncertainty():
     _, h, dx = patch()
     found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended())
     end = 100 * found.cutoff.q
-    plain = stitching.draw(found, 400, seed=1).moments
-    more = stitching.draw(found, 400, seed=1, extend_to=end).moments
+    plain = stitching.draw(found, 400, seed=1).family
+    drawn = stitching.draw(found, 400, seed=1, extend_to=end)
+    more = drawn.family
+    energy = drawn.continuation.integrate(end, 1) / 4
+    np.testing.assert_allclose(more.energy() - plain.energy(), energy, rtol=1e-9)
     law = SelfAffine(hurst=found.fit.hurst, q0=found.cutoff.q, q1=end, C0=found.fit.c0)
-    added = np.median(more["rms_slope"] ** 2) - np.median(plain["rms_slope"] ** 2)
+    added = np.median(more.variance(2)) - np.median(plain.variance(2))
     assert added == pytest.approx(law.rms_slope**2, rel=0.15)
-    assert np.median(more["h_rms"]) == pytest.approx(np.median(plain["h_rms"]), rel=0.02)
-    errors = [np.std(np.log(drawn["rms_curvature"])) for drawn in (more, plain)]
+    assert np.median(more.variance()) == pytest.approx(np.median(plain.variance()), rel=0.04)
+    errors = [np.std(np.log(family.variance(4))) for family in (more, plain)]
     assert errors[0] > 2 * errors[1]
     with pytest.raises(ValueError, match="extend_to must be below the shortest wavelength"):
         stitching.draw(found, 5, seed=1, extend_to=0.5 * found.cutoff.q)
@@ -269,7 +271,7 @@ def test_limits_contain_the_energy_of_waves_that_the_instrument_does_not_resolve
         found = instrument_spectrum.analyse(Topography(h, length / n, length / n, "a").detrended())
         for name, to in (("with", atoms), ("without", None)):
             drawn = stitching.draw(found, 400, seed=1, continue_to=to)
-            low, high = drawn.quantiles("elastic_energy", (0.05, 0.95))
+            low, high = np.quantile(drawn.family.energy(), (0.05, 0.95))
             inside[name].append(low < s.elastic_energy() < high)
     assert sum(inside["with"]) >= 5
     assert sum(inside["without"]) <= (0 if hurst < 0.5 else 4)
@@ -282,14 +284,15 @@ def test_unresolved_energy_is_that_of_the_law_and_ends_with_what_is_configured()
     plain = stitching.draw(found, 400, seed=1)
     drawn = stitching.draw(found, 400, seed=1, continue_to=end)
     law = SelfAffine(hurst=found.fit.hurst, q0=found.cutoff.q, q1=end, C0=found.fit.c0)
-    share = law.elastic_energy() / np.median(plain.moments["elastic_energy"])
+    share = law.elastic_energy() / np.median(plain.family.energy())
     assert np.median(drawn.unresolved) == pytest.approx(share, rel=0.1)
-    more = drawn.moments["elastic_energy"] / plain.moments["elastic_energy"] - 1
-    assert np.all((more >= 0) & (more <= drawn.unresolved * (1 + 1e-9)))
-    assert np.mean(more == 0) == pytest.approx(1 / 7, abs=0.04)
-    for name in ("h_rms", "rms_slope", "rms_curvature"):
-        np.testing.assert_array_equal(drawn.moments[name], plain.moments[name])
+    more = drawn.family.energy() / plain.family.energy() - 1
+    assert np.all((more > -1e-12) & (more <= drawn.unresolved * (1 + 1e-9)))
+    assert np.mean(more < 1e-12) == pytest.approx(1 / 7, abs=0.04)
+    for order in (0, 2, 4):
+        resolved = drawn.family.up_to(found.cutoff.q).variance(order)
+        np.testing.assert_allclose(resolved, plain.family.variance(order), rtol=1e-12)
     told = stitching.draw(found, 9, seed=1, extend_to=end, continue_to=100 * end)
     only = stitching.draw(found, 9, seed=1, extend_to=end)
-    np.testing.assert_array_equal(told.moments["elastic_energy"], only.moments["elastic_energy"])
+    np.testing.assert_array_equal(told.family.psd, only.family.psd)
     assert not told.unresolved.any()

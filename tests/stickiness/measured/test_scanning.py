@@ -9,8 +9,8 @@ from stickiness import Surface, thresholds
 from stickiness.entries import check_heights
 from stickiness.measured import scanning, topography
 from stickiness.measured.levelling import detrend
+from stickiness.measured.measurement import Measurement
 from stickiness.remaining.calibration import find_spread
-from stickiness.verdicts.measured_surface import Measurement
 
 N = 128
 ROW = np.arange(N)

@@ -55,7 +55,7 @@ def test_energy_of_a_surface_lies_between_the_ends_of_its_drawing(hurst, rolloff
         assert texture.RZ_OVER_RQ[0] < rz / rq < texture.RZ_OVER_RQ[1]
         for width, most in ((None, 60), (rsm, 8)):
             drawn = Surface.from_drawing(Ra=ra, RSm=width, lambda_c=CUTOFF)
-            low, high = drawn.scenarios.ends.elastic_energy
+            low, high = drawn.family.energy()
             assert low < s.elastic_energy() < high
             assert high < most * low
 
@@ -81,12 +81,12 @@ def test_cutoffs_are_those_of_the_standard(ra, rsm, cutoff):
 
 def test_a_drawing_without_a_cutoff_has_that_of_the_standard():
     # Cut-offs of 0.8 and 2.5 mm; wave numbers of the surface are in inverse proportion.
-    low, high = (Surface.from_drawing(Ra=height).scenarios.ends.q0 for height in (1.9e-6, 2.1e-6))
-    np.testing.assert_allclose(low / high, 2.5 / 0.8, rtol=1e-9)
+    low, high = (float(Surface.from_drawing(Ra=each).data.q0) for each in (1.9e-6, 2.1e-6))
+    assert low / high == pytest.approx(2.5 / 0.8, rel=1e-9)
     # Rq is 1.2533 times Ra on Gaussian heights.
     for height, q0 in ((1.9e-6, low), (2.1e-6, high)):
-        ends = Surface.from_drawing(Rq=1.2533 * height).scenarios.ends
-        np.testing.assert_allclose(ends.q0, q0, rtol=1e-9)
+        of_rq = Surface.from_drawing(Rq=1.2533 * height)
+        assert float(of_rq.data.q0) == pytest.approx(q0, rel=1e-9)
 
 
 def test_parameters_of_heights_are_their_closed_forms(tmp_path):

@@ -1,17 +1,14 @@
 """Simulated works of approach and separation against closed forms and the balance of energy."""
 
 import warnings
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from references.gradient_flow import follow
 
 from stickiness import adhesive, repulsive, surface
-from stickiness.adhesive.path import PathPoint
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining import measure
-from stickiness.remaining.measurement import _gain
 from stickiness.solids import HalfSpace, Layer
 from stickiness.spectrum import SelfAffine
 
@@ -156,20 +153,3 @@ def test_limits_lie_on_both_sides_of_every_value():
         low, high = getattr(found, f"{name}_limits")
         assert 0 <= low < value < high < 3 * value
         assert high - value == pytest.approx(value - low) or low == 0
-
-
-def test_energy_gained_up_to_zero_load_is_that_of_a_spring():
-    # Energy -1 + K (u - u0)^2/2, and the pressure against it; zero load lies between the states.
-    stiffness, rest = 0.4, 2.0
-    points = [
-        PathPoint(
-            SimpleNamespace(
-                energy=-1 + stiffness * (gap - rest) ** 2 / 2,
-                mean_pressure=-stiffness * (gap - rest),
-                mean_gap=gap,
-            )
-        )
-        for gap in (2.8, 2.3, 1.9, 1.5)
-    ]
-    assert _gain(points) == pytest.approx(1.0, rel=1e-12)
-    assert _gain(points[:2]) == pytest.approx(1 - stiffness * 0.3**2 / 2, rel=1e-12)

@@ -9,7 +9,7 @@ import pytest
 from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.calibration import find_spread
-from stickiness.remaining.roughness import UNLIKE
+from stickiness.remaining.roughness import LASTING, UNLIKE
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine, combine
 from stickiness.surface import realised_spectrum, synthesise
@@ -25,12 +25,21 @@ def rough(**changes):
 
 @pytest.mark.parametrize("sign", [-1, 0, 1])
 @pytest.mark.parametrize("share", [0.1, 0.5])
-@pytest.mark.parametrize("layer", [{}, {"relative_compliance": 0.3, "half_space_energy": 0.2}])
+@pytest.mark.parametrize(
+    "layer", [{}, {"solid": "layer", "relative_compliance": 0.3, "half_space_energy": 0.2}]
+)
 def test_threshold_is_the_inverse_of_the_share(share, sign, layer):
-    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6, **layer)
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.6, eta=sign, **layer)
     ranges = np.array([1e-4, 0.1, 0.5, 1.0])
-    length = surface.threshold(ranges, share, sign)
-    assert surface.share(length, ranges, sign) == pytest.approx(share, rel=1e-6)
+    length = surface.threshold(ranges, share)
+    assert surface.share(length, ranges) == pytest.approx(share, rel=1e-6)
+
+
+def test_thresholds_of_tough_pairs_go_with_the_energy_alone():
+    """If the mean wave number is the same over q0."""
+    heights = np.array([0.8, 1.0, 1.25])
+    surface = Roughness(h_rms=heights, q0=1 / heights**2, elastic_energy=0.6)
+    assert np.ptp(np.log(surface.threshold(1e-4))) < 1e-3
 
 
 @pytest.mark.parametrize("thickness", [10e-6, 20e-6])
@@ -58,9 +67,10 @@ def test_laws_are_told_apart_by_element():
         for ask in ("share", "tension", "distance", "zone"):
             found = getattr(both, ask)(np.full(2, 0.01), 0.1)
             assert found[place] == pytest.approx(getattr(alone, ask)(0.01, 0.1), rel=1e-12)
-        lengths = both.threshold(0.1, deviation=1)
-        assert lengths[place] == pytest.approx(alone.threshold(0.1, deviation=1), rel=1e-9)
-        assert alone.share(lengths[place], 0.1, 1) == pytest.approx(0.1, rel=1e-6)
+        high = alone.deviating(1)
+        lengths = both.deviating(1).threshold(0.1)
+        assert lengths[place] == pytest.approx(high.threshold(0.1), rel=1e-9)
+        assert high.share(lengths[place], 0.1) == pytest.approx(0.1, rel=1e-6)
 
 
 def test_simulated_hard_pairs_keep_what_is_predicted():
@@ -118,9 +128,15 @@ def test_limits_are_wider_for_surfaces_with_a_direction():
     for name in ("separation_limits", "pull_off_limits"):
         wide, narrow = (np.ptp(np.log(getattr(each, name))) for each in (found, alike))
         assert wide > 1.1 * narrow
-    surface = Roughness(unlike.h_rms, 1.0, unlike.elastic_energy(), anisotropy_error_factor=UNLIKE)
-    length = surface.threshold(TOUGH["range"], 0.2, 1)
-    assert surface.share(length, TOUGH["range"], 1) == pytest.approx(0.2, rel=1e-6)
+    surface = Roughness(
+        h_rms=unlike.h_rms,
+        q0=1.0,
+        elastic_energy=unlike.elastic_energy(),
+        anisotropy_error_factor=UNLIKE,
+        eta=1,
+    )
+    length = surface.threshold(TOUGH["range"], 0.2)
+    assert surface.share(length, TOUGH["range"]) == pytest.approx(0.2, rel=1e-6)
 
 
 def test_two_rough_solids_are_one_surface_of_their_sum():
@@ -157,18 +173,28 @@ def test_bad_arguments_are_named(name, bad):
         predict(rough(), **(TOUGH | {name: bad}))
 
 
+@pytest.mark.parametrize(("factor", "lasts"), [(0.98, False), (1.02, True)])
+def test_full_contact_lasts_if_the_strength_exceeds_its_tension(factor, lasts):
+    surface = Roughness(h_rms=1.0, q0=1.0, elastic_energy=0.5, rms_slope=1.0, eta=1)
+    strength = factor * LASTING / 2
+    held = surface.tension(0.1 * strength, 0.1, pressed=2.1)
+    assert (held == pytest.approx(strength)) == lasts
+
+
 def test_fast_separation_multiplies_the_high_limits_alone():
     slow = Roughness(h_rms=1.0, q0=1.0, elastic_energy=1.0, rms_slope=3.0)
     fast = replace(slow, instant_ratio=4.0)
     length, range_ = 0.8, 0.05
-    for sign, factor in ((-1, 1), (0, 1), (0.5, 2), (1, 4), (2, 4)):
+    for eta, factor in ((-1, 1), (0, 1), (0.5, 2), (1, 4), (2, 4)):
+        quick = fast.deviating(eta)
         for quantity in (Roughness.share, Roughness.tension):
-            expected = factor * quantity(slow, length, range_, sign)
-            assert quantity(fast, length, range_, sign) == pytest.approx(expected, rel=1e-12)
-        at_threshold = fast.share(fast.threshold(range_, 0.2, sign), range_, sign)
+            expected = factor * quantity(slow.deviating(eta), length, range_)
+            assert quantity(quick, length, range_) == pytest.approx(expected, rel=1e-12)
+        at_threshold = quick.share(quick.threshold(range_, 0.2), range_)
         assert at_threshold == pytest.approx(0.2, rel=1e-6)
     strength = length / range_
-    assert replace(slow, instant_ratio=1e4).tension(length, range_, 1) == pytest.approx(strength)
+    fastest = replace(slow, instant_ratio=1e4, eta=1)
+    assert fastest.tension(length, range_) == pytest.approx(strength)
 
 
 def test_a_range_that_holds_always_has_the_least_threshold_in_any_unit():

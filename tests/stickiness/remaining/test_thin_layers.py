@@ -43,8 +43,10 @@ def predict_share(thickness, ratio, reach, energy, half_space_energy, sign):
         relative_compliance=layer.factor(1.0),
         flow=find_flow(layer, 1.0),
         half_space_energy=half_space_energy,
+        solid="layer",
+        eta=sign,
     )
-    return rough.share(ratio * energy, reach, sign)
+    return rough.share(ratio * energy, reach)
 
 
 def test_limits_hold_what_an_independent_minimiser_finds():

@@ -90,7 +90,7 @@ def test_limits_hold_at_a_range_that_the_grid_does_not_resolve(kind):
     assert 0.7 * share < low < share < high < 2 * share
     signs = np.array([-1.0, 0.0, 1.0])
     between = states.share_between(
-        np.full(3, length), np.full(3, range_), law="exponential", deviation=signs
+        np.full(3, length), np.full(3, range_), law="exponential", eta=signs
     )
     assert np.all(np.diff(between) > 0)
     assert low <= between[0] <= share

@@ -14,7 +14,7 @@ from stickiness.entries import check_material
 from stickiness.pages.rows import describe_pair
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE
-from stickiness.verdicts import curves, pair_roughness
+from stickiness.verdicts import curves, meeting
 from stickiness.verdicts.judgement import LEAST_MODULUS
 from stickiness.verdicts.limits import LIMITS, read_limited
 
@@ -86,7 +86,7 @@ def judged():
     walls = {name: make_wall(rng, 60 * (name < ROUGH_MATERIAL)) for name in SURFACES}
     materials = {name: Material.from_entry(entry, walls) for name, entry in entries.items()}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(pair_roughness, "surface_a_v", lambda *_: A_V)
+        patch.setattr(meeting, "surface_a_v", lambda *_: A_V)
         for axis in ("MODULUS", "ROUGHNESS", "DWELL"):  # of curves, which take most of the time
             patch.setattr(curves, f"{axis}_FACTORS", np.ones(1))
         verdicts = judge(materials, walls, frequencies=np.geomspace(1e-4, 1e4, 5), thresholds=False)

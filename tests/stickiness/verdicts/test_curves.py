@@ -4,12 +4,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-import xarray as xr
-from helpers.analysed import fix_a_v
+from helpers.analysed import wall
 
-from stickiness import Material, Surface, judge
+from stickiness import Material, judge
 from stickiness.remaining import predict
-from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import Layer
 from stickiness.solids.moduli import Prony, Table
 from stickiness.spectrum import SelfAffine
@@ -34,19 +32,10 @@ def make_spectrum(h_rms):
 
 @cache
 def make_surface(drawn):
-    """Surface between two spectra, with spectra drawn around its middle if it was measured."""
-    surface = Surface.from_spectrum(*map(make_spectrum, HEIGHTS))
-    if drawn:
-        h_rms = np.random.default_rng(1).lognormal(np.log(1.2e-6), 0.35, DRAWS)
-        energy = make_spectrum(HEIGHTS[0]).elastic_energy() * (h_rms / HEIGHTS[0]) ** 2
-        surface = Surface(
-            surface.data.assign(
-                h_rms_draws=("draw", h_rms),
-                q0_draws=("draw", np.full(DRAWS, Q0)),
-                elastic_energy_draws=("draw", energy),
-            )
-        )
-    return fix_a_v(surface)
+    """Surface between two spectra, with spectra drawn around the first if it was measured."""
+    smooth, rough = HEIGHTS
+    band = {"longest": 2 * np.pi / Q0, "shortest": 2e-3 * np.pi / Q0}
+    return wall(smooth, draws=DRAWS * drawn, apart=rough / smooth, scatter=0.35, **band)
 
 
 def judge_on_surface(materials, drawn, frequencies=(1.0,)):
@@ -100,39 +89,6 @@ def test_at_the_pair_itself_curves_are_what_is_stored(drawn, thickness, axis, di
     assert (slow > 0.01).all()
     assert (slow < 0.99).all()
     assert (float(low.sel(material="layer")) == 0) == (thickness == THIN)
-
-
-def test_curves_cross_the_wanted_share_at_the_threshold(drawn):
-    tape = follow(drawn).sel(material="tape")
-    low, value, high = thresholds = tape.plane_strain_modulus_threshold.values
-    assert low < value < high
-    # The limits of thresholds and of shares are those of different draws.
-    at_thresholds = np.diag(judge_at(thresholds, drawn))
-    np.testing.assert_allclose(at_thresholds, DEFAULT_SHARE, rtol=0.02 if drawn else 1e-6)
-    np.testing.assert_allclose(thresholds, tape.margin * TAPE.plane_strain_modulus)
-    # On a measured surface the limits have the errors of the spectrum and of the model.
-    assert (tape.error_of_spectrum > 0.1) == drawn
-
-
-def test_every_material_has_its_own_law(drawn):
-    hard = TAPE.replace(youngs_modulus=100e9, range=30e-9)
-    laws = ("exponential", "van_der_waals")
-    materials = {law: hard.replace(law=law) for law in laws} | {"none": hard}
-    dataset = judge_on_surface(materials, drawn, FREQUENCIES)
-    length = hard.work_of_adhesion / hard.plane_strain_modulus
-    for law in laws:
-        expected = predict(make_spectrum(HEIGHTS[-1]), length, 3e-8, law=law).separation
-        value = float(dataset.remaining.sel(material=law, limit="value"))
-        assert drawn or value == pytest.approx(expected, rel=1e-9)
-    short = dataset.sel(material="exponential")
-    tail = dataset.sel(material="van_der_waals")
-    low, value, high = tail.remaining.values / short.remaining.values
-    assert min(low, value) > 5
-    assert high > 2
-    names = ["remaining", "remaining_by_modulus", "pull_off"]
-    xr.testing.assert_equal(
-        dataset[names].sel(material="none", drop=True), short[names].drop_vars("material")
-    )
 
 
 @pytest.mark.parametrize("place", [0, 10, 20, 32])

@@ -8,11 +8,10 @@ import pytest
 from stickiness import Material, Surface, judge, surface
 from stickiness.measured.levelling import detrend
 from stickiness.remaining.height_simulation import simulate_heights
-from stickiness.remaining.solid_response import find_stiffening
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.judgement import BY_SHAPED_THEORY, BY_SIMULATION
-from stickiness.verdicts.pair_roughness import combine_roughness
+from stickiness.verdicts.meeting import find_roughness
 
 Q0 = 6e4  # [1/m]
 SIDE = 8 * np.pi / Q0  # [m]
@@ -37,8 +36,7 @@ def wall(heights):
 
 
 def test_a_layer_meets_states_of_its_own(wall, heights):
-    rough = combine_roughness(TAPE, wall)
-    states = rough.scenarios.roughness.simulated.whole
+    states = find_roughness(TAPE, wall).simulated.whole
     # Full contact takes the energy of the layer, which is far above that of the half-space.
     half_space = wall.simulated.whole.full_contact_energy
     assert states.full_contact_energy > 3 * half_space
@@ -48,8 +46,8 @@ def test_a_layer_meets_states_of_its_own(wall, heights):
 
 def test_materials_of_one_layer_share_a_simulation(wall):
     stiffer = TAPE.replace(youngs_modulus=1e6)
-    first = combine_roughness(TAPE, wall).scenarios.roughness.simulated
-    assert combine_roughness(stiffer, wall).scenarios.roughness.simulated is first
+    first = find_roughness(TAPE, wall).simulated
+    assert find_roughness(stiffer, wall).simulated is first
 
 
 def test_what_is_written_simulates_the_same(wall, tmp_path):
@@ -68,15 +66,6 @@ def test_verdicts_say_what_decided(wall):
     verdicts = judge(materials, {"wall": wall}, curves=False, thresholds=False)
     codes = verdicts.decided_by.sel(surface="wall").values.tolist()
     assert codes == [BY_SIMULATION, BY_SHAPED_THEORY, BY_SHAPED_THEORY]
-
-
-def test_unresolved_waves_are_as_stiff_as_on_the_layer():
-    """Waves far longer than the layer is thick cost (3/2)/k^3 times what they do alone."""
-    rough = SelfAffine(hurst=0.8, q0=1.0, q1=1.001, h_rms=1.0)
-    thin = Layer(1e-2, 0.5)
-    stiffening = find_stiffening(thin, rough, lowest=np.pi / 4.0)
-    assert stiffening == pytest.approx(1.5 / 1e-2**3, rel=5e-3)
-    assert find_stiffening(Layer(100.0, 0.5), rough, lowest=np.pi / 4.0) == pytest.approx(1.0)
 
 
 def test_states_on_a_layer_bound_its_energy(wall):

@@ -26,29 +26,6 @@ def read(**texts):
 
 
 @pytest.mark.parametrize(
-    ("texts", "modulus", "depends_on_rate"),
-    [
-        ({"plane_strain_modulus": "2 MPa"}, 2e6, False),
-        ({"youngs_modulus": "3 MPa", "poisson_ratio": 0.5}, 4e6, False),
-        (
-            {"youngs_modulus_prony": SERIES_TEXTS, "poisson_ratio": 0.5},
-            SERIES.storage(1.0) / 0.75,
-            True,
-        ),
-        (
-            {"youngs_modulus_table": TABLE_TEXTS, "poisson_ratio": 0},
-            np.sqrt(50e3 * 0.5e6),
-            True,
-        ),
-    ],
-)
-def test_modulus_in_every_form(texts, modulus, depends_on_rate):
-    material = read(**texts)
-    assert material.plane_strain_modulus == pytest.approx(modulus)
-    assert material.depends_on_rate == depends_on_rate
-
-
-@pytest.mark.parametrize(
     ("texts", "expected"),
     [
         ({"youngs_modulus": "0.1 MPa"}, TAPE),
@@ -107,6 +84,8 @@ def test_materials_are_read_from_a_file(tmp_path):
 def test_a_dwell_decides_by_the_relaxed_modulus():
     at_once = TAPE.replace(youngs_modulus_prony=SERIES)
     rested = at_once.replace(dwell=10.0)
+    assert at_once.depends_on_rate
+    assert not TAPE.depends_on_rate
     assert at_once.plane_strain_modulus == pytest.approx(SERIES.storage(1.0) / 0.75)
     assert at_once.instant_ratio == 1
     assert rested.plane_strain_modulus == pytest.approx(SERIES.relaxation(10.0) / 0.75)

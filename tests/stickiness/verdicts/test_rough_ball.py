@@ -7,9 +7,9 @@ from limits import measure_balls
 from stickiness import Material, Surface, full_contact_energy, surface
 from stickiness.remaining import sphere
 from stickiness.solids import Layer
-from stickiness.spectrum import SelfAffine, Shells
+from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS
-from stickiness.verdicts.pair_roughness import combine_roughness
+from stickiness.verdicts.meeting import find_roughness
 from stickiness.verdicts.rough_ball import pull_off_of_ball
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -60,7 +60,7 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     # the DMT limit: up to 4/3 of JKR.
     assert ball.force < 4 / 3 * ball.smooth_force
     # The median of the draws without errors of the model, which widen the limits.
-    draws = combine_roughness(TAPE, measured).scenarios.draws
+    draws = find_roughness(TAPE, measured)
     length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus
     drawn = sphere.pull_off(draws, LARGE, length, TAPE.range).force * TAPE.plane_strain_modulus
     assert ball.force == pytest.approx(np.median(drawn), rel=1e-3)
@@ -107,30 +107,6 @@ def test_tips_on_a_map_have_the_force_of_a_sum_over_its_heights(radius):
     low, high = ball.force_limits
     assert np.mean((np.array(forces) > low) & (np.array(forces) < high)) >= 0.85
     assert 0.6 < ball.force / np.median(forces) < 1.5
-
-
-def test_only_shorter_waves_are_left():
-    rough = wall(1e-6)
-    q = 1e6
-    short = Surface.from_spectrum(rough).shorter(q)
-    expected = [np.sqrt(rough.variance_above(q)), rough.variance_above(q, 1) / 4]
-    found = [short.data.h_rms.values, short.data.elastic_energy.values]
-    np.testing.assert_allclose(found, np.outer(expected, [1, 1]), rtol=1e-6)
-    assert short.lost_curvature == pytest.approx(np.sqrt(rough.variance_below(q, 4)) / 2)
-    assert short.spectra[0].band[0] == pytest.approx(q)
-    assert short.spectra[0].h_rms == pytest.approx(expected[0], rel=1e-2)
-
-
-def test_no_wave_is_left_out_below_the_longest():
-    of_wall = Surface.from_spectrum(wall(1e-6))
-    assert of_wall.shorter(1e4) is of_wall
-    assert of_wall.shorter(1e9).rms_height < 1e-3 * of_wall.rms_height
-
-
-def test_shells_are_left_out_one_by_one():
-    shells = Surface.from_spectrum(Shells([1e5, 2e5, 4e5], [4e-12, 1e-12, 1e-13]))
-    assert shells.shorter(1.5e5).rms_height == pytest.approx(np.sqrt(1.1e-12))
-    assert shells.shorter(1e6).rms_height < 1e-3 * shells.rms_height
 
 
 def test_a_second_solid_with_nothing_but_low_short_waves_changes_nothing():

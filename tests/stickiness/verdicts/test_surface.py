@@ -15,8 +15,7 @@ from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import lattice_spectrum, realised_spectrum, synthesise
 from stickiness.traction_laws import Exponential
-from stickiness.verdicts.parametric import tabulate_ends
-from stickiness.verdicts.simulated_surface import stands_alone
+from stickiness.verdicts.surface_data import tabulate_ends
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -90,17 +89,6 @@ def test_two_rough_solids_may_change_places(measured):
 
 
 @pytest.mark.slow
-def test_draws_of_two_measurements_are_independent(measured):
-    """Those of a surface on itself are not: there all heights are sqrt(2) as high."""
-    other = synthesise(SelfAffine(**BAND, h_rms=1e-7), n=256, length=SIDE, seed=2)
-    other = Surface.from_heights(other, SIDE)
-    twice = verdict(measured, Material(**TAPE, surface=measured))
-    both = verdict(measured, Material(**TAPE, surface=other))
-    spread = np.diff(np.log(twice.modulus_threshold_limits))
-    assert np.diff(np.log(both.modulus_threshold_limits)) < spread
-
-
-@pytest.mark.slow
 def test_profiles_of_a_worn_surface_tell_what_remains_on_it():
     """Against simulation on the heights, of which profiles of 16 of the longest waves are cut."""
     count = 16
@@ -159,8 +147,8 @@ def test_strain_of_a_thin_incompressible_layer_is_finite(q0):
 def test_a_periodic_cell_keeps_the_direction_of_its_heights():
     ground = SelfAffine(**BAND, h_rms=1e-7, anisotropy=4.0)
     shells = lattice_spectrum(ground, length=2 * SIDE)
-    ends = Surface.from_spectrum(shells).scenarios.ends
-    assert ends.anisotropy_error_factor == pytest.approx(2.0)
+    columns = Surface.from_spectrum(shells).find_columns()
+    assert columns["anisotropy_error_factor"] == pytest.approx(2.0)
 
 
 @pytest.mark.slow
@@ -177,12 +165,6 @@ def test_masked_points_of_heights_count_as_missing():
         assert repr(masked) == repr(answer(of_missing, length=SIDE, **TAPE))
     complete = thresholds(heights, length=SIDE, **TAPE)
     assert masked.modulus.value == pytest.approx(complete.modulus.value, rel=0.02)
-
-
-@pytest.mark.parametrize(("longer", "alone"), [([0.02, 0.1], True), ([0.02, 0.12], False)])
-def test_heights_stand_alone_without_much_energy_in_longer_waves(longer, alone):
-    # At most a tenth of all energy: a ninth of that of the scan.
-    assert stands_alone(xr.Dataset({"longer_energy": ("draw", longer)})) == alone
 
 
 @pytest.mark.parametrize("unit", [1.0, 1e-6])

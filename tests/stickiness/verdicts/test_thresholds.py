@@ -86,10 +86,7 @@ def test_verdict_at_a_threshold_has_the_wanted_share(name):
                 judged = judge_again(question, value, material, wanted)
                 of_limit = value != threshold.value
                 shares = judged.remaining_limits if of_limit else (judged.remaining,)
-                # Energies on a skin are interpolated in the modulus to 1e-3; shares go with a power
-                # of 4 to 5 of these.
-                precision = 5e-3 if name == "aged" and question == "modulus" else 1e-3
-                assert min(np.abs(np.subtract(shares, wanted))) < precision * wanted
+                assert min(np.abs(np.subtract(shares, wanted))) < 1e-3 * wanted
                 tried += 1
     assert tried >= 6
     assert (answer.thickness is None) == (name in ("deep", "aged", "rested", "slow"))
@@ -182,8 +179,5 @@ def test_pressure_of_an_area_of_contact():
     small = thresholds(make_wall(), TAPE, contact_area=0.005).pressure.value
     expected = 0.005 * np.sqrt(np.pi * 5 / 72) * make_spectrum().rms_slope
     assert small / TAPE.plane_strain_modulus == pytest.approx(expected, rel=1e-3)
-    layer = TAPE.replace(solid=Layer(2e-6, 0.5))
-    thin = thresholds(make_wall(), layer, contact_area=area).pressure
-    assert thin.low / thin.value < 0.6 < pressure.low / pressure.value
     with pytest.raises(ValueError, match="contact_area must be in 0.005 to 0.35, got 5"):
         thresholds(make_wall(), TAPE, contact_area=5)

@@ -9,14 +9,10 @@ import xarray as xr
 from stickiness import Material, Surface, repulsive, surface
 from stickiness.entries import check_surface
 from stickiness.measured import periodic
+from stickiness.measured.measurement import Measurement
 from stickiness.measured.topography import Profile, Topography
-from stickiness.pages.surface_page import overlap
-from stickiness.remaining.measurement import RESOLVED
-from stickiness.repulsive import subpixel
-from stickiness.spectrum import SelfAffine
-from stickiness.verdicts import pressed_heights
-from stickiness.verdicts.measured_surface import Measurement, read_measurements
-from stickiness.verdicts.pressed_heights import (
+from stickiness.pages import pressed_heights
+from stickiness.pages.pressed_heights import (
     ATTRACTED,
     OPEN,
     TOUCHING,
@@ -24,6 +20,11 @@ from stickiness.verdicts.pressed_heights import (
     MeasuredMap,
     picture_contact,
 )
+from stickiness.pages.surface_page import overlap
+from stickiness.remaining.measurement import RESOLVED
+from stickiness.repulsive import subpixel
+from stickiness.spectrum import SelfAffine
+from stickiness.verdicts.rough_surface import read_measurements
 
 SIDE, Q0 = 1e-4, 2 * np.pi * 4 / 1e-4
 Q1 = 4 * Q0

@@ -9,7 +9,6 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from stickiness.entries import list_measurements
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
 from stickiness.measured.psd import Taper
@@ -105,11 +104,6 @@ class Measurement:
                 f"{FEWEST_POINTS[1]}"
             )
         return doubt
-
-
-def read_measurements(entry: Mapping[str, Any]) -> tuple[Measurement, ...]:
-    """Read every measurement of a checked entry of a measured surface."""
-    return tuple(Measurement.from_entry(each) for each in list_measurements(entry))
 
 
 def find_spectra(measurements: Sequence[Measurement]) -> list[tuple[MeasuredSpectrum, str]]:

@@ -1,0 +1,204 @@
+"""Errors of predictions of what remains: what each of them is proportional to, written once.
+
+Every error of the share that remains is taken as an error of the work of adhesion: a limit of the
+share is its value at the work of adhesion times exp(error). An error is a half-width that was
+measured, times a unit that says how it grows from one surface or solid to another. The library
+multiplies both, and adds errors in quadrature. The rule `calibrate_limits` divides what simulations
+are off by the same units, and takes quantiles: those are the half-widths, see `calibration`.
+
+Limits are written with `eta`, an error of the model in units of its limits: -1 and 1 at the low and
+the high limit, 0 at the value. It is a column of `roughness.Roughness`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stickiness.limited import Limited
+from stickiness.remaining.calibration import find_spread
+
+Roughness = Any  #: of `roughness`, which imports this module
+FADING = 2  #: power of the ratio of adhesion to the onset with which an error of the share fades
+
+
+@dataclass(frozen=True)
+class ErrorLaw:
+    """How an error grows. Its size is a row of the table of limits."""
+
+    kind: str  #: of prediction, as in the table
+    quantity: str
+    source: str  #: committed table that it is calibrated on
+    unit: Callable[..., ArrayLike]  #: what it is proportional to
+    label: str = ""  #: on pages
+
+    @property
+    def spread(self) -> Limited[float]:
+        """Middle and limits, in the unit."""
+        return find_spread(self.kind, self.quantity)
+
+    def half_width(self, *known: ArrayLike | Roughness) -> NDArray:
+        """Half-width of the limits, by what the unit needs to know."""
+        return np.asarray(self.unit(*known)) * self.spread.high
+
+
+def between(spread: Limited, eta: ArrayLike) -> NDArray:
+    """Place between value and limits at `eta`."""
+    return np.interp(np.asarray(eta), (-1, 0, 1), (spread.low, spread.value, spread.high))
+
+
+def raise_limit(eta: ArrayLike) -> NDArray:
+    """0 up to the value, 1 at the high limit: for what may only add."""
+    return np.clip(eta, 0.0, 1.0)
+
+
+def find_limits(model: Any, evaluate: Callable[[Any], Any]) -> Limited[Any]:
+    """Value and limits of what is evaluated of a model that has `deviating`, as `Roughness` has."""
+    return Limited(*(evaluate(model.deviating(eta)) for eta in (0.0, -1.0, 1.0)))
+
+
+# Errors of ln of the work of adhesion, where the share is predicted from a spectrum.
+
+
+def _weigh_cell(waves: float) -> Callable[[Roughness], NDArray]:
+    """Weight of cells of so many waves a side, by which contacts of other sizes lie between."""
+    cells = (1.0, 2.0, 4.0)
+    is_this = np.equal(cells, waves).astype(float)
+    return lambda rough: np.interp(np.log(rough.waves), np.log(cells), is_this)
+
+
+def _lose_compliance(rough: Roughness) -> NDArray:
+    """How much less a solid yields than a half-space."""
+    return np.maximum(1 - np.asarray(rough.relative_compliance), 0.0)
+
+
+def _of(solid: str, unit: Callable[[Roughness], ArrayLike]) -> Callable[[Roughness], NDArray]:
+    """A unit that is zero on other solids."""
+    return lambda rough: np.where(np.equal(rough.solid, solid), unit(rough), 0.0)
+
+
+#: By the longest waves along a side of the contact: one of few is one realisation.
+CELLS = {
+    waves: ErrorLaw(kind, "ln_work", source, unit=_weigh_cell(waves), label=label)
+    for waves, kind, source, label in (
+        (1, "one wave", "remaining.csv", "cell 1 × 1"),
+        (2, "two waves", "heights.csv", "cell 2 × 2"),
+        (4, "spectrum", "heights.csv", "spectrum"),
+    )
+}
+#: By the solid: the further from a half-space the less certain, on a film alike everywhere.
+SOLIDS = tuple(
+    ErrorLaw(kind, "ln_work", "solids.csv", unit=unit, label=label)
+    for kind, label, unit in (
+        ("layer", "layer", _of("layer", lambda rough: _lose_compliance(rough) * (1 - rough.flow))),
+        ("film", "layer on a film", _of("film", lambda rough: 1.0)),
+        ("thin", "thin layer", _of("layer", lambda rough: rough.flow)),
+        ("skin", "skin", _of("skin", _lose_compliance)),
+    )
+)
+#: Where waves were not measured, to which a skin is stiff. How much of the energy they are thought
+#: to hold tells little of the error.
+COATED = ErrorLaw(
+    *("coated", "ln_work", "coated.csv"),
+    unit=_of("skin", lambda rough: np.greater(rough.unresolved, 0.0)),
+    label="skin on a map",
+)
+#: By the ln of the factor that the skewness of the heights makes.
+SKEWNESS = ErrorLaw("skewness", "ln_work", "heights.csv", unit=np.abs, label="with skewness")
+
+
+def find_theory_error(rough: Roughness, extrapolated: ArrayLike) -> NDArray:
+    """Error of ln of the work of adhesion by theory; `extrapolated` is that beyond simulations."""
+    # Between cells of two sizes the error lies between theirs.
+    of_waves = sum(law.half_width(rough) for law in CELLS.values())
+    of_solid = sum(np.square(law.half_width(rough)) for law in (*SOLIDS, COATED))
+    independent = np.sqrt(np.square(of_waves) + of_solid + np.square(extrapolated))
+    return np.hypot(independent * rough.anisotropy_error_factor, rough.shape_error)
+
+
+#: Where next to nothing remains the error of the share is absolute, and fades with the adhesion, by
+#: its ratio to that of the onset.
+WEAK = ErrorLaw(
+    "spectrum", "share", "heights.csv", unit=lambda ratio: np.minimum(ratio, 1.0) ** FADING
+)
+
+#: Logarithms of works and of pull-offs over those by the energy gained.
+APPROACH, SEPARATION, TENSION = (
+    ErrorLaw("spectrum", quantity, "remaining.csv", unit=np.ones_like)
+    for quantity in ("ln_approach", "ln_separation", "ln_tension")
+)
+
+# Errors where contact is simulated on the heights.
+
+#: Waves that lack cost their energy, and more where contact is sparse: by the energy that lacks
+#: over that of the others, and by the share of the work of adhesion that is lost.
+UNRESOLVED = ErrorLaw(
+    *("states", "unresolved", "unresolved.csv"),
+    unit=lambda lacking, lost: np.sqrt(np.log1p(lacking)) * np.power(lost, 3),
+)
+#: Place of a share between both bounds at a range shorter than the one simulated, by the strength
+#: of the adhesion over the energy of full contact and by the ratio of ranges.
+PLACE = ErrorLaw(
+    *("states", "place", "ranges.csv"),
+    unit=lambda strength, ratio: strength * np.maximum(1 - np.asarray(ratio), 0.0) ** 2,
+)
+#: Of a share on the same heights, see `find_states_error`.
+STATES = ErrorLaw("states", "share", "heights.csv", unit=np.ones_like)
+STATES_TENSION = ErrorLaw("states", "ln_tension", "pull_offs.csv", unit=np.ones_like)
+#: Exponent of the ratio of ranges, with which the distance falls over which attraction acts.
+SHORTENING = ErrorLaw("states", "shortening", "pull_offs.csv", unit=lambda ratio: -np.log(ratio))
+#: Of a map, by the rms distance of the thresholds of its quarters from its own, and at least.
+PATCH = ErrorLaw("patch", "ln_work", "patches.csv", unit=np.asarray, label="map")
+PATCH_LEAST = ErrorLaw("patch", "least", "patches.csv", unit=np.ones_like)
+
+
+def find_patch_error(distance: float) -> float:
+    """Error of ln of the work of adhesion by what the quarters of a map differ from it."""
+    return float(np.hypot(PATCH_LEAST.half_width(distance), PATCH.half_width(distance)))
+
+
+def find_states_error(share: NDArray) -> NDArray:
+    """Error of a share by states: absolute, but none of which next to nothing remains."""
+    error = STATES.spread.high
+    return error * share / (share + error)
+
+
+def find_needed_error(share: NDArray, missed: NDArray) -> NDArray:
+    """Absolute error with which `find_states_error` is what a share was missed by."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        needed = share * missed / (share - missed)
+    return np.select([missed == 0, missed < share], [0.0, needed], np.inf)
+
+
+# Errors of contacts that are larger than a scan, and of balls.
+
+
+def weigh_doublings(ratio: ArrayLike) -> NDArray:
+    """Size of an error to which every doubling of the contact adds, over that of one doubling."""
+    return np.sqrt(np.maximum(np.log2(ratio), 0.0))
+
+
+#: Of Gaussian heights, by the side of the contact over that of the scan.
+LARGER = ErrorLaw("larger", "ln_work", "larger.csv", unit=weigh_doublings, label="larger contact")
+#: Of others, by how unlike these they are, too.
+UNLIKE = ErrorLaw(
+    *("larger non-Gaussian", "ln_work", "larger.csv"),
+    unit=lambda ratio, unlikeness: weigh_doublings(ratio) * unlikeness,
+    label="larger, not Gaussian",
+)
+#: Of ln of the force, by ln of the factor that roughness takes from it.
+BALL = ErrorLaw(
+    *("ball", "ln_force", "balls.csv"),
+    unit=lambda lost: np.sqrt(np.maximum(lost, 0.0)),
+    label="ball",
+)
+
+#: Independent heights in a zone of contact that is one wave wide.
+SUMMITS = ErrorLaw("ball", "summits", "balls.csv", unit=np.ones_like)
+
+#: Those with a name on pages, in their order there.
+SHOWN = (CELLS[4], CELLS[2], CELLS[1], SKEWNESS, *SOLIDS, COATED, PATCH, LARGER, UNLIKE, BALL)
