@@ -1,10 +1,11 @@
 """Errors of predictions of what remains: what each of them is proportional to, written once.
 
-Every error of the share that remains is taken as an error of the work of adhesion: a limit of the
-share is its value at the work of adhesion times exp(error). An error is a half-width that was
-measured, times a unit that says how it grows from one surface or solid to another. The library
-multiplies both, and adds errors in quadrature. The rule `calibrate_limits` divides what simulations
-are off by the same units, and takes quantiles: those are the half-widths, see `calibration`.
+Most are errors of the work of adhesion: a limit of the share is its value at the work of adhesion
+times exp(error). Where next to nothing remains, errors are of the share itself. An error is a
+half-width that was measured, times a unit that says how it grows from one surface or solid to
+another. The library multiplies both, and adds errors in quadrature. The rule `calibrate_limits`
+divides what simulations are off by the same units, and takes quantiles: those are the half-widths,
+see `calibration`.
 
 Limits are written with `eta`, an error of the model in units of its limits: -1 and 1 at the low and
 the high limit, 0 at the value. It is a column of `roughness.Roughness`.
@@ -23,12 +24,11 @@ from stickiness.limited import Limited
 from stickiness.remaining.calibration import find_spread
 
 Roughness = Any  #: of `roughness`, which imports this module
-FADING = 2  #: power of the ratio of adhesion to the onset with which an error of the share fades
 
 
 @dataclass(frozen=True)
 class ErrorLaw:
-    """How an error grows. Its size is a row of the table of limits."""
+    """How an error, or what is found with one, grows. Its size is a row of the table of limits."""
 
     kind: str  #: of prediction, as in the table
     quantity: str
@@ -103,7 +103,9 @@ SOLIDS = tuple(
 #: Where waves were not measured, to which a skin is stiff. How much of the energy they are thought
 #: to hold tells little of the error.
 COATED = ErrorLaw(
-    *("coated", "ln_work", "coated.csv"),
+    kind="coated",
+    quantity="ln_work",
+    source="coated.csv",
     unit=_of("skin", lambda rough: np.greater(rough.unresolved, 0.0)),
     label="skin on a map",
 )
@@ -123,7 +125,10 @@ def find_theory_error(rough: Roughness, extrapolated: ArrayLike) -> NDArray:
 #: Where next to nothing remains the error of the share is absolute, and fades with the adhesion, by
 #: its ratio to that of the onset.
 WEAK = ErrorLaw(
-    "spectrum", "share", "heights.csv", unit=lambda ratio: np.minimum(ratio, 1.0) ** FADING
+    kind="spectrum",
+    quantity="share",
+    source="heights.csv",
+    unit=lambda ratio: np.minimum(ratio, 1.0) ** 2,
 )
 
 #: Logarithms of works and of pull-offs over those by the energy gained.
@@ -137,13 +142,17 @@ APPROACH, SEPARATION, TENSION = (
 #: Waves that lack cost their energy, and more where contact is sparse: by the energy that lacks
 #: over that of the others, and by the share of the work of adhesion that is lost.
 UNRESOLVED = ErrorLaw(
-    *("states", "unresolved", "unresolved.csv"),
+    kind="states",
+    quantity="unresolved",
+    source="unresolved.csv",
     unit=lambda lacking, lost: np.sqrt(np.log1p(lacking)) * np.power(lost, 3),
 )
 #: Place of a share between both bounds at a range shorter than the one simulated, by the strength
 #: of the adhesion over the energy of full contact and by the ratio of ranges.
 PLACE = ErrorLaw(
-    *("states", "place", "ranges.csv"),
+    kind="states",
+    quantity="place",
+    source="ranges.csv",
     unit=lambda strength, ratio: strength * np.maximum(1 - np.asarray(ratio), 0.0) ** 2,
 )
 #: Of a share on the same heights, see `find_states_error`.
@@ -186,13 +195,17 @@ def weigh_doublings(ratio: ArrayLike) -> NDArray:
 LARGER = ErrorLaw("larger", "ln_work", "larger.csv", unit=weigh_doublings, label="larger contact")
 #: Of others, by how unlike these they are, too.
 UNLIKE = ErrorLaw(
-    *("larger non-Gaussian", "ln_work", "larger.csv"),
+    kind="larger non-Gaussian",
+    quantity="ln_work",
+    source="larger.csv",
     unit=lambda ratio, unlikeness: weigh_doublings(ratio) * unlikeness,
     label="larger, not Gaussian",
 )
 #: Of ln of the force, by ln of the factor that roughness takes from it.
 BALL = ErrorLaw(
-    *("ball", "ln_force", "balls.csv"),
+    kind="ball",
+    quantity="ln_force",
+    source="balls.csv",
     unit=lambda lost: np.sqrt(np.maximum(lost, 0.0)),
     label="ball",
 )

@@ -63,8 +63,6 @@ THRESHOLD_TOLERANCE = 1e-9  #: of their logarithm
 SOFTEST = 1e-6
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
 UNLIKE = 2.0
-
-
 SHARED = ("simulated", "response")  #: fields that all rows have in common
 
 
@@ -113,26 +111,19 @@ class Roughness:
 
     @classmethod
     def of(
-        cls,
-        family: SpectrumFamily,
-        solid: Solid = HALF_SPACE,
-        *,
-        q0: NDArray,
-        told: float = np.inf,
-        **known: Any,
+        cls, family: SpectrumFamily, solid: Solid = HALF_SPACE, *, q0: NDArray, **known: Any
     ) -> Roughness:
         """Roughness of a family of n spectra on a solid, rows ``(n,)``.
 
-        `q0` are the wave numbers of their longest waves, `known` other columns. The slope is that
-        of waves up to one that is `told`: what drawn spectra have beyond is unknown.
+        `q0` are the wave numbers of their longest waves. Other columns that are `known` take the
+        place of those that follow from the spectra.
         """
-        return cls(
-            h_rms=np.sqrt(family.variance()),
-            q0=q0,
-            rms_slope=np.sqrt((family if told == np.inf else family.up_to(told)).variance(2)),
+        of_spectra = {
+            "h_rms": np.sqrt(family.variance()),
+            "rms_slope": np.sqrt(family.variance(2)),
             **find_columns(family, solid, q0),
-            **known,
-        )
+        }
+        return cls(q0=q0, **of_spectra | known)
 
     def deviating(self, eta: float | NDArray) -> Self:
         """Return the same with another error of the model, which replaces the one there is."""
@@ -205,9 +196,9 @@ class Roughness:
     ) -> NDArray:
         """Share by the spectrum; `error` of ln of the work of adhesion replaces the theory's."""
         length = np.asarray(adhesion_length)
-        # Below a skin on a map it is the energy of full contact that is not known.
-        known_to = np.exp(np.multiply(self.eta, COATED.half_width(self)))
-        full_contact_share = 1 - 1 / self._energy_ratio(length * known_to)
+        # Below a skin on a map the energy of full contact is not known either.
+        energy_factor = np.exp(np.multiply(self.eta, COATED.half_width(self)))
+        full_contact_share = 1 - 1 / self._energy_ratio(length * energy_factor)
 
         # A limit is the value at another work of adhesion, and another height of the summits.
         error = self._find_error(length, range) if error is None else error

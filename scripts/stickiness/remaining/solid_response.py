@@ -31,9 +31,8 @@ def find_columns(family: SpectrumFamily, solid: Solid, q0: Any) -> dict[str, Any
     response = SolidResponse(family, solid, q0)
     is_split = name_solid(solid) in ("film", "skin")  # of two solids, which differ in modulus
     return {
-        "elastic_energy": family.energy(solid),
+        **response.find(),
         "half_space_energy": family.energy(),
-        "relative_compliance": response.find_compliance(),
         "flow": find_flow(solid, q0),
         "solid": name_solid(solid),
         "response": response if is_split else None,
@@ -53,22 +52,24 @@ class SolidResponse:
     solid: Solid
     q0: NDArray  #: of the longest waves, ``(n,)``
 
-    def find_compliance(self, modulus: NDArray | float = 1.0, rows: Any = slice(None)) -> NDArray:
-        """Compliance over that of a half-space: S of the longest waves, see `solids`.
+    def find(self, modulus: Any = 1.0, rows: Any = slice(None)) -> dict[str, NDArray]:
+        """Energy over E*, and compliance over that of a half-space, with E* times a `modulus`.
 
-        A skin is stiff to short waves, which then store most of the energy. The mean of 1/S of all
-        waves, weighted by the energy of a half-space, stands for them.
+        The compliance is S of the longest waves, see `solids`. A skin is stiff to short waves,
+        which then store most of the energy. The mean of 1/S of all waves, weighted by the energy of
+        a half-space, stands for them.
         """
+        family = self.family.take(rows)
+        energy = family.energy(self.solid, modulus)
         if isinstance(self.solid, Skin):
-            family = self.family.take(rows)
-            return family.energy() / family.energy(self.solid, modulus)
-        return np.asarray(self.solid.factor(self.q0[rows], modulus) * np.ones(self.q0[rows].shape))
+            compliance = family.energy() / energy
+        else:
+            longest = self.q0[rows]
+            compliance = self.solid.factor(longest, modulus) * np.ones(longest.shape)
+        return {"elastic_energy": energy, "relative_compliance": compliance}
 
     def change(self, rows: Any, modulus: Any) -> dict[str, NDArray]:
         """Factors on energy over E* and on compliance, if E* is multiplied by a `modulus`."""
-        family = self.family.take(rows)
-        compliance = self.find_compliance(1.0, rows)
-        return {
-            "elastic_energy": family.energy(self.solid, modulus) / family.energy(self.solid),
-            "relative_compliance": self.find_compliance(modulus, rows) / compliance,
-        }
+        changed = self.find(modulus, rows)
+        unchanged = self.find(1.0, rows)
+        return {name: changed[name] / unchanged[name] for name in changed}

@@ -33,7 +33,9 @@ class SpectrumFamily:
     """
 
     q: NDArray  #: wave numbers [1/length], ``(m,)``
-    area: NDArray  #: of every ring [1/length^2], ``(m,)``; 1 of a shell, whose psd is its variance
+    #: Of every ring [1/length^2], ``(m,)``; 1 of the waves of a periodic cell, whose psd is their
+    #: variance
+    area: NDArray
     psd: NDArray  #: C of every surface [length^4], ``(n, m)``
     #: The same as functions of the wave number, if they are known, and between which of these
     spectra: tuple[Spectrum, ...] = ()
@@ -53,6 +55,11 @@ class SpectrumFamily:
             return cls(q[-1:], area[-1:], np.array(rest), averaged, (lowest, highest))
         psd = np.array([spectrum.sample(lowest, highest)[2] for spectrum in averaged])
         return cls(q, area, psd, averaged, (lowest, highest))
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether the spectra are draws, known in the rings alone."""
+        return not self.spectra
 
     @property
     def count(self) -> int:
@@ -102,7 +109,7 @@ class SpectrumFamily:
 
     def _cut(self, low: float, high: float) -> SpectrumFamily:
         """Waves between two wave numbers; of a ring that holds an end, a part."""
-        if self.spectra:
+        if not self.is_drawn:
             band = max(low, self.band[0]), min(high, self.band[1])
             return SpectrumFamily.of(*self.spectra, lowest=band[0], highest=band[1])
         psd = self.psd * self._find_inside(low, high)
@@ -131,13 +138,13 @@ class SpectrumFamily:
     @property
     def highest(self) -> float:
         """Wave number beyond which there are no waves."""
-        if self.spectra:
+        if not self.is_drawn:
             return max(spectrum.band[1] for spectrum in self.spectra)
         return float(self._edges[1].max())
 
     def take(self, rows: NDArray | slice) -> SpectrumFamily:
         """Some of the surfaces, or all in another order."""
-        spectra = np.array(self.spectra, dtype=object)[rows] if self.spectra else ()
+        spectra = () if self.is_drawn else np.array(self.spectra, dtype=object)[rows]
         return SpectrumFamily(self.q, self.area, self.psd[rows], tuple(spectra), self.band)
 
     def between(self, places: NDArray) -> SpectrumFamily:
@@ -148,7 +155,7 @@ class SpectrumFamily:
 
     def __add__(self, other: SpectrumFamily) -> SpectrumFamily:
         """Family of pairs of rough solids, whose roughness is independent and adds."""
-        if self.spectra and other.spectra:
+        if not (self.is_drawn or other.is_drawn):
             both = zip(self.spectra, other.spectra, strict=True)
             whole = SpectrumFamily.of(*(combine(first, second) for first, second in both))
             return whole._cut(*self.band)

@@ -74,9 +74,9 @@ def meet(material: Material, surface: Surface, wanted_share: float) -> Meeting:
         rms_curvature = np.hypot(rms_curvature, own.data.rms_curvature.values)
 
     # What the surface may be, and by how much the model may err there.
-    rough = find_roughness(material, surface)
     family = find_family(material, surface)
-    is_drawn = family.spectra == ()
+    is_drawn = family.is_drawn
+    rough = find_roughness(material, surface, family)
     at_ends = rough
     if is_drawn:
         q0 = float(surface.data.q0) if own is None else float(np.median(rough.q0))
@@ -120,7 +120,7 @@ def make_pair(material: Material, rough: Roughness, wanted_share: float) -> Pair
 
 
 def deviate(rough: Roughness, is_drawn: bool) -> Roughness:
-    """Rows with an error of the model: of each draw one, of both ends none, the low and the high.
+    """Rows with errors of the model: a random one for each draw; both ends at eta = 0, -1 and 1.
 
     `limits` knows what a row stands for by its place.
     """
@@ -156,19 +156,17 @@ def _align(material: Material, surface: Surface) -> tuple[Surface, Surface, NDAr
     return first, second, rows
 
 
-def find_roughness(material: Material, surface: Surface, above: float = 0.0) -> Roughness:
-    """Roughness that a material meets, a row for each of `find_family`, without errors."""
+def find_roughness(
+    material: Material, surface: Surface, family: SpectrumFamily, above: float = 0.0
+) -> Roughness:
+    """Roughness that a material meets, a row for each spectrum of a family, without errors."""
     solid = material.solid
-    family = find_family(material, surface, above)
     if material.surface is None:
         columns = surface.find_columns(above)
     else:
         columns = _add_columns(*_align(material, surface), solid, above)
-    rms_slope = columns.pop("rms_slope", None)
     rough = Roughness.of(family, solid, **columns)
-    if rms_slope is not None:
-        rough = replace(rough, rms_slope=rms_slope)
-    if not family.spectra:
+    if family.is_drawn:
         measured = family.up_to(_find_cutoff(material, surface))
         rough = replace(rough, unresolved=1 - measured.energy(solid) / rough.elastic_energy)
     if rough.simulated is None or solid == HALF_SPACE:

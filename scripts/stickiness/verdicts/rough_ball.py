@@ -149,7 +149,8 @@ class BallContact:
 
     def shorter(self, q: float) -> BallContact:
         """The same where the ball meets the waves from a wave number on [1/m]."""
-        rough = find_roughness(self.material, self.surface, above=q)
+        family = find_family(self.material, self.surface, above=q)
+        rough = find_roughness(self.material, self.surface, family, above=q)
         longer = find_family(self.material, self.surface).below(q)
         # Half of the Laplacian of the waves that are left out.
         curvature = np.median(np.sqrt(longer.variance(4))) / 2

@@ -337,6 +337,11 @@ class Surface:
         """Every spectrum that the surface may have: those drawn, or that of both ends."""
         return read_family(self.data) if self.draw_count else SpectrumFamily.of(*self.spectra)
 
+    @property
+    def _told(self) -> SpectrumFamily:
+        """The waves that were measured or told; what draws have beyond is unknown."""
+        return self.family.up_to(float(self.data.q1)) if self.draw_count else self.family
+
     def find_family(self, above: float) -> SpectrumFamily:
         """The same without waves below a wave number [1/m]."""
         if not above:
@@ -356,7 +361,7 @@ class Surface:
         columns = {
             "q0": np.maximum(q0, above),
             "q1": q1,
-            "told": q1 if self.draw_count else np.inf,
+            "rms_slope": np.sqrt(self._told.variance(2)),
             "anisotropy_error_factor": find_anisotropy_error_factor(
                 float(data.get("axis_ratio", 1.0))
             ),
@@ -377,7 +382,7 @@ class Surface:
             ends = [self.family.q[psd > 0].max() for psd in self.family.psd]
             columns["q1"] = max(q1, float(np.median(ends)))
         return columns | {
-            "told": np.inf,
+            "rms_slope": np.sqrt(kept.variance(2)),
             "shape": shape - lost,
             "shape_error": np.hypot(columns["shape_error"], lost),
             "simulated": None,

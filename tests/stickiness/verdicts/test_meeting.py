@@ -25,6 +25,11 @@ VISCOUS = Material(
 )
 
 
+def meet_roughness(material, surface):
+    """Roughness that a material meets, without errors."""
+    return find_roughness(material, surface, find_family(material, surface))
+
+
 def meet_all(material, surface):
     """All that a material and a surface may be, together."""
     return meet(material, surface, DEFAULT_SHARE)
@@ -263,7 +268,7 @@ def test_roughness_of_both_solids_adds():
 
 def test_what_is_unresolved_is_told_by_the_coarser_of_two_measurements():
     fine, coarse = wall(draws=4), wall(draws=4, shortest=6e-7)
-    both = find_roughness(TAPE.replace(surface=coarse), fine)
+    both = meet_roughness(TAPE.replace(surface=coarse), fine)
     assert (both.unresolved > 0.01).all()
 
 
@@ -287,7 +292,7 @@ def test_solids_of_very_different_scale_are_not_judged():
 
 @pytest.mark.parametrize(("axis_ratio", "factor"), [(1.0, 1), (4.0, 2)])
 def test_a_direction_widens_limits(axis_ratio, factor):
-    rough = find_roughness(TAPE, wall(axis_ratio=axis_ratio))
+    rough = meet_roughness(TAPE, wall(axis_ratio=axis_ratio))
     assert rough.anisotropy_error_factor == factor
 
 
@@ -295,10 +300,10 @@ def test_skewed_heights_of_two_solids_add_as_third_cumulants():
     shape = {"shape": 0.8, "shape_error": 0.4}
     plateau = wall(**shape)
     gaussian = wall()
-    alone = find_roughness(TAPE, plateau)
-    first = find_roughness(TAPE.replace(surface=gaussian), plateau)
-    second = find_roughness(TAPE.replace(surface=plateau), gaussian)
-    twice = find_roughness(TAPE.replace(surface=plateau), plateau)
+    alone = meet_roughness(TAPE, plateau)
+    first = meet_roughness(TAPE.replace(surface=gaussian), plateau)
+    second = meet_roughness(TAPE.replace(surface=plateau), gaussian)
+    twice = meet_roughness(TAPE.replace(surface=plateau), plateau)
     assert alone.shape == pytest.approx(0.8)
     # The skewness of one of two equal heights counts 1/sqrt(8).
     assert first.shape == pytest.approx(np.full(2, 0.8 / np.sqrt(8)))
@@ -312,9 +317,9 @@ def test_skewed_heights_of_two_solids_add_as_third_cumulants():
 @pytest.mark.parametrize("own", [{"apart": 1.0}, {"draws": 5}])
 def test_draws_of_two_solids_and_layers_keep_the_shape_of_heights(own):
     plateau = wall(draws=8, shape=0.8, shape_error=0.4)
-    both = find_roughness(TAPE.replace(surface=wall(**own)), plateau)
+    both = meet_roughness(TAPE.replace(surface=wall(**own)), plateau)
     assert both.shape == pytest.approx(np.full(8, 0.8 / np.sqrt(8)))
-    layer = find_roughness(put_on_layer(40e-6), plateau)
+    layer = meet_roughness(put_on_layer(40e-6), plateau)
     assert layer.shape == 0.8
 
 

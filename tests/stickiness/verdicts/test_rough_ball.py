@@ -9,7 +9,7 @@ from stickiness.remaining import sphere
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS
-from stickiness.verdicts.meeting import find_roughness
+from stickiness.verdicts.meeting import find_family, find_roughness
 from stickiness.verdicts.rough_ball import pull_off_of_ball
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -60,7 +60,7 @@ def test_limits_on_measured_heights_are_those_of_the_draws():
     # the DMT limit: up to 4/3 of JKR.
     assert ball.force < 4 / 3 * ball.smooth_force
     # The median of the draws without errors of the model, which widen the limits.
-    draws = find_roughness(TAPE, measured)
+    draws = find_roughness(TAPE, measured, find_family(TAPE, measured))
     length = TAPE.work_of_adhesion / TAPE.plane_strain_modulus
     drawn = sphere.pull_off(draws, LARGE, length, TAPE.range).force * TAPE.plane_strain_modulus
     assert ball.force == pytest.approx(np.median(drawn), rel=1e-3)
