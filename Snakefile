@@ -41,6 +41,7 @@ include: "rules/fits.smk"
 include: "rules/cases.smk"
 include: "rules/adhesion.smk"
 include: "rules/real_surfaces.smk"
+include: "rules/campaigns.smk"
 include: "rules/remaining.smk"
 include: "rules/limits.smk"
 include: "rules/criteria.smk"
@@ -65,10 +66,10 @@ TARGETS = {
     + expand(f"{RESULTS}/contact/ensembles/{{case}}.nc", case=SIMULATED_CASES),
     "stability": rules.plot_stability.output.png,
     "dmt_error": rules.tabulate_dmt_error.output,
-    "remaining_measured": rules.tabulate_remaining.output.table,
-    "heights_measured": rules.tabulate_heights.output.table,
+    "remaining_measured": campaign_table("remaining"),
+    "heights_measured": campaign_table("heights"),
     "limits_calibrated": [rules.calibrate_limits.output.table, rules.plot_limits.output.png],
-    "limits_measured": expand(rules.tabulate_limits.output, limits_kind=SIMULATED_SETS),
+    "limits_measured": [campaign_table(name) for name in LIMIT_TABLES],
     "tradeoff": [rules.tabulate_tradeoff.output.table, rules.plot_tradeoff.output.png],
 }
 

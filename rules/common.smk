@@ -75,9 +75,9 @@ COMPLETE = [
 ]
 
 RESULTS = f"{config['results']}/{config['fidelity']}"
-TRADEOFF = f"{config['results']}/tradeoff"
-REMAINING = f"{config['results']}/remaining"
-LIMITS = f"{config['results']}/limits"
+CAMPAIGN_RESULTS = config["results"]  # the same at every fidelity
+TRADEOFF = f"{CAMPAIGN_RESULTS}/tradeoff"
+LIMITS = f"{CAMPAIGN_RESULTS}/limits"
 for folder in (Path(RESULTS), *Path(RESULTS).parents):
     if folder.exists() and not folder.is_dir():
         sys.exit(f"{folder} must be a folder: move this file, or set `results` in {load.USER}")

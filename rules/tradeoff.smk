@@ -18,18 +18,11 @@ PRESETS = {
 
 wildcard_constraints:
     trade_case=choices([*TRADE_SURFACES, *ADHESIVE_SURFACES]),
-    trade_map=choices(TRADE["verdicts"]["maps"]),
 
 
 def trade_set(wildcards):
     """The part of the configuration that a surface belongs to."""
     return TRADE_SETS[wildcards.trade_case]
-
-
-def verdict_points(wildcards):
-    """Points a side of the grids on which contact is simulated for verdicts."""
-    verdicts = TRADE["verdicts"]
-    return [*verdicts["points"], *verdicts["finest"].get(wildcards.trade_map, [])]
 
 
 rule measure_contact:
@@ -82,29 +75,6 @@ rule measure_adhesion:
         "../scripts/tradeoff/measure_adhesion.py"
 
 
-rule measure_verdicts:
-    output:
-        f"{TRADEOFF}/verdicts/{{trade_map}}.nc",
-    log:
-        f"{TRADEOFF}/logs/measure_verdicts/verdicts/{{trade_map}}.log",
-    benchmark:
-        f"{TRADEOFF}/benchmarks/measure_verdicts/verdicts/{{trade_map}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        mem_mb=3000,
-    params:
-        map=lambda wildcards: TRADE["verdicts"]["maps"][wildcards.trade_map],
-        law=TRADE["verdicts"]["law"],
-        points=verdict_points,
-        energies=TRADE["verdicts"]["energies"],
-        code=source_hash("tradeoff/measure_verdicts.py"),
-    message:
-        "Measure what settings of verdicts cost: {wildcards.trade_map}"
-    script:
-        "../scripts/tradeoff/measure_verdicts.py"
-
-
 rule tabulate_tradeoff:
     input:
         contact=expand(
@@ -114,7 +84,7 @@ rule tabulate_tradeoff:
         adhesive=expand(rules.measure_adhesion.output.states, trade_case=ADHESIVE_SURFACES),
         pull_off=expand(rules.measure_adhesion.output.pull_off, trade_case=ADHESIVE_SURFACES),
         validation=expand(rules.measure_contact.output, trade_case=TRADE["validation"]["surfaces"]),
-        verdicts=expand(rules.measure_verdicts.output, trade_map=TRADE["verdicts"]["maps"]),
+        verdicts=campaign_table("verdicts"),
         heights=HEIGHTS_TABLE,
         template=project_file("report/tradeoff.md.j2"),
     output:

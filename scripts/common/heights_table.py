@@ -7,9 +7,9 @@ from common import committed
 #: Columns that predict the share that remains; each but the bound has `_low` and `_high` beside it.
 PREDICTED = ("theory", "shaped", "states")
 COLUMNS = (
-    *("set", "hurst", "magnification", "window", "points", "seed", "transform"),
-    *("prescribed_skewness", "skewness", "kurtosis", "full_contact_energy", "rms_slope"),
-    *("energy_ratio", "zone", "range", "adhesion_length", "lacking", "simulated", "bound"),
+    *("set", "role", "family", "hurst", "height_skewness", "points", "waves", "shortest", "seed"),
+    *("skewness", "kurtosis", "full_contact_energy", "rms_slope", "lacking"),
+    *("energy_ratio", "zone", "range", "adhesion_length", "simulated", "bound"),
     *(f"{name}{ending}" for name in PREDICTED for ending in ("", "_low", "_high")),
     *("seconds_simulated", "seconds_bound", "seconds_states", "seconds_theory"),
 )
@@ -17,15 +17,17 @@ GAUSSIAN = "Gaussian"
 
 
 def read(path):
-    """Read the table with kinds of rows; errors as of `committed.read`."""
-    words = {"keep_default_na": False, "na_values": [""]}  # only an empty cell is none
-    return add_kind(committed.read(path, COLUMNS, "heights_measured", **words))
+    """Read the table with its band and kinds of rows; errors as of `committed.read`.
 
-
-def add_kind(table):
-    """Add whether heights are Gaussian, transformed or skewed at an exact spectrum."""
-    kind = np.where(table["transform"].notna(), "transformed", GAUSSIAN)
-    return table.assign(kind=np.where(table.prescribed_skewness != 0, "skewed", kind))
+    Heights are Gaussian, transformed point by point, or skewed at an exact spectrum.
+    """
+    table = committed.read(path, COLUMNS, "heights_measured")
+    kind = np.where(table.family == "gaussian", GAUSSIAN, "transformed")
+    return table.assign(
+        magnification=table.points / table.waves / table.shortest,
+        window=table.waves,
+        kind=np.where(table.height_skewness.notna(), "skewed", kind),
+    )
 
 
 def compare(table, name, wanted_share, least_share=0.05):

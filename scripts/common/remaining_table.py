@@ -3,11 +3,10 @@
 from common import committed
 
 COLUMNS = (
-    *("set", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
+    *("set", "role", "hurst", "magnification", "window", "points", "seed", "full_contact_energy"),
     *("rms_slope", "energy_ratio", "pressed", "zone", "range", "adhesion_length"),
     *("approach", "separation", "bound"),
-    *("pull_off", "pixels_in_zone", "predicted", "predicted_low", "predicted_high"),
-    "predicted_pull_off",
+    *("pull_off", "pixels_in_zone", "predicted", "predicted_pull_off"),
 )
 
 
@@ -17,5 +16,5 @@ def read(path):
     return table.assign(
         wide=table.window > 1,  # cells of two by two of the longest waves or more
         weak=table["set"].str.contains("weak"),  # from weak to tough adhesion
-        held=table["set"].str.contains("_held"),  # nothing was fitted to these rows
+        held=table.role == "unseen",
     )

@@ -157,6 +157,36 @@ def skewed_down(cell: Cell, hurst: float = 0.8, skewness: float = -SKEWNESS) -> 
     return self_affine(cell, hurst, skewness=skewness)
 
 
+def squared(cell: Cell, hurst: float = 0.8) -> NDArray:
+    """Squares of Gaussian heights: peaks on a plain."""
+    return np.square(self_affine(cell, hurst))
+
+
+def squared_down(cell: Cell, hurst: float = 0.8) -> NDArray:
+    """The same upside down."""
+    return -squared(cell, hurst)
+
+
+def exponential(cell: Cell, hurst: float = 0.8) -> NDArray:
+    """Exponentials of Gaussian heights: high peaks."""
+    return np.exp(self_affine(cell, hurst))
+
+
+def exponential_down(cell: Cell, hurst: float = 0.8) -> NDArray:
+    """The same upside down: deep pits."""
+    return -exponential(cell, hurst)
+
+
+def tops_cut(cell: Cell, hurst: float = 0.8) -> NDArray:
+    """Gaussian heights, flat from half an rms height on."""
+    return np.minimum(self_affine(cell, hurst), 0.5)
+
+
+def valleys_cut(cell: Cell, hurst: float = 0.8) -> NDArray:
+    """Gaussian heights, flat below half an rms height under the mean."""
+    return np.maximum(self_affine(cell, hurst), -0.5)
+
+
 def plateau_honed(cell: Cell, cut: float = 0.3, softness: float = 0.05) -> NDArray:
     """Crossed grooves, and then tops cut softly at `cut` rms heights."""
     heights = self_affine(cell) - 2 * crossed_grooves(cell)
@@ -305,7 +335,8 @@ def ground(cell: Cell, hurst: float = 0.8, anisotropy: float = 4.0) -> NDArray:
 FAMILIES: dict[str, Callable[..., NDArray]] = {
     function.__name__: function
     for function in (
-        *(gaussian, skewed_up, skewed_down, plateau_honed, terraced, scratched, dimpled),
+        *(gaussian, skewed_up, skewed_down, squared, squared_down, exponential, exponential_down),
+        *(tops_cut, valleys_cut, plateau_honed, terraced, scratched, dimpled),
         *(cobbled, beaded, turned, printed, bifractal, rolloff, ground),
     )
 }

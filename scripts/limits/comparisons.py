@@ -12,9 +12,16 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
-from common import heights_table, limits_table, remaining_table
+import campaigns.balls
+import campaigns.coated
+import campaigns.larger
+import campaigns.patches
+import campaigns.pull_offs
+import campaigns.ranges
+import campaigns.solids
+import campaigns.unresolved
+from common import committed, heights_table, remaining_table
 from common.conventions import Q0
-from limits.measure_balls import make_ball
 from stickiness.entries.material import Material
 from stickiness.limited import Limited
 from stickiness.remaining import errors
@@ -27,6 +34,17 @@ from stickiness.verdicts.meeting import meet
 from stickiness.verdicts.rough_ball import BallContact, find_contact
 from stickiness.verdicts.rough_surface import Surface
 
+#: Columns of the tables behind limits, by their names.
+SIMULATED = {
+    "solids": campaigns.solids.COLUMNS,
+    "patches": campaigns.patches.COLUMNS,
+    "ranges": campaigns.ranges.COLUMNS,
+    "pull_offs": campaigns.pull_offs.COLUMNS,
+    "unresolved": campaigns.unresolved.COLUMNS,
+    "larger": campaigns.larger.COLUMNS,
+    "coated": campaigns.coated.COLUMNS,
+    "balls": campaigns.balls.COLUMNS,
+}
 #: Fields of `Roughness` of which rows may tell, but for the elastic energy.
 MODELLED = (
     *("q1", "rms_slope", "waves", "shape", "shape_error"),
@@ -134,22 +152,19 @@ class ShareByTheory(Comparison):
 
 
 def read_tables(paths) -> dict[str, pd.DataFrame]:
-    """Read committed tables, by their names, with the role of every row."""
+    """Read committed tables, by their names."""
     tables = {Path(path).stem: path for path in paths}
     remaining = remaining_table.read(tables["remaining"])
-    role = np.where(remaining.held, "unseen", "fitted")
     return {
-        "heights": add_roles(heights_table.read(tables["heights"])),
-        "remaining": remaining.assign(role=role, simulated=remaining.bound),
-        **{kind: limits_table.read(tables[kind], kind) for kind in limits_table.COLUMNS},
+        "heights": heights_table.read(tables["heights"]).dropna(subset="simulated"),
+        "remaining": remaining.assign(simulated=remaining.bound),
+        **{kind: read_table(tables[kind], kind) for kind in SIMULATED},
     }
 
 
-def add_roles(heights):
-    """Add which sets are fitted: every second pair, since cells of two sizes alternate."""
-    order = {name: place for place, name in enumerate(heights["set"].unique())}
-    is_fitted = heights["set"].map(order) // 2 % 2 == 0
-    return heights.assign(role=np.where(is_fitted, "fitted", "unseen")).dropna(subset="simulated")
+def read_table(path, kind):
+    """Read one of the tables behind limits, with the columns of its campaign."""
+    return committed.read(path, SIMULATED[kind], "limits_measured")
 
 
 def predict(quantity, rows, **given):
@@ -355,8 +370,8 @@ def predict_force(ball, summits):
 @cache
 def touch_ball(law, tabor, hurst, skewness, shortest, waves, height):
     """Contact of a ball with the surface of a user who knows its spectrum and its skewness."""
-    zone = BALL_RANGE / make_ball(law, tabor).law.range
-    ball = make_ball(law, tabor, zone)
+    zone = BALL_RANGE / campaigns.balls.make_ball(law, tabor).law.range
+    ball = campaigns.balls.make_ball(law, tabor, zone)
     rough = Surface.from_spectrum(ball.rough(waves, height, shortest, hurst))
     shape, shape_error = find_height_shape(skewness)
     surface = Surface(rough.data.assign(shape=shape, shape_error=shape_error))

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from common import heights_table, limits_table, tradeoff_table
+from common import heights_table, tradeoff_table
 from common.conventions import LOAD
 from limits import comparisons
 from limits.calibrate_limits import COVERAGE, MOST_RATIO, summarise_pull_offs
@@ -51,7 +51,7 @@ class Compared(NamedTuple):
 
 def page() -> str:
     """Return the page with its tables."""
-    names = ("heights", "remaining", *limits_table.COLUMNS)
+    names = ("heights", "remaining", *comparisons.SIMULATED)
     tables = comparisons.read_tables(find_table(name) for name in names)
     shares = [
         *compare_shapes(tables["heights"]),

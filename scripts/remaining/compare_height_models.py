@@ -1,16 +1,16 @@
 """What remains of adhesion by every model, on surfaces of one spectrum with different heights."""
 
-import time
 from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 from scipy import stats
 
+from campaigns.heights import bound_share, press
+from common.clock import time_task
 from common.conventions import Q0, annotate
 from common.job import start
 from common.model_surfaces import cell_size, grid_points, make_heights, skewness_of, waves_across
-from remaining.measure_heights import bound_share, press
 from stickiness import datasets, surface
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.remaining import height_simulation
@@ -104,13 +104,6 @@ def compare(setting, params):
             "limit": ["low", "value", "high"],
         },
     )
-
-
-def time_task(task, *arguments):
-    """Return what a task returns, and the processor time [s] it took."""
-    began = time.process_time()
-    result = task(*arguments)
-    return result, time.process_time() - began
 
 
 def find_shortest_range(adhesion_length, pixel):

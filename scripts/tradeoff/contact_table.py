@@ -5,6 +5,7 @@ from functools import cache
 
 import numpy as np
 
+from common.clock import time_task
 from common.contact_curves import SOLVED_FROM
 from common.conventions import FIT_MEASURED, GAPS_MEASURED
 from common.derived_quantities import derive, quote
@@ -18,7 +19,7 @@ from stickiness.accuracy.settings import COARSE_SEEDS, SEEDS
 from stickiness.persson.theory import Persson
 from stickiness.repulsive import richardson
 from stickiness.surface import lattice_spectrum
-from tradeoff.measuring import SETTINGS, split_loads, time_task
+from tradeoff.measuring import SETTINGS, split_loads
 
 DESCRIBED_SEEDS = 2048
 REPETITIONS = 60  # of means that are drawn

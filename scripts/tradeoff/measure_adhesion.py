@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from common.adhesion_sets import LEAST, STRONGEST, scaled_law, solve_at_gap
+from common.clock import time_task
 from common.job import start
 from common.model_surfaces import cell_size, grid_points
 from stickiness import adhesive, dmt
@@ -100,9 +101,7 @@ def solve_states(surface, adhesion, pixels, tolerance, seed):
             values["attraction_dmt"][i, k] = attraction
             if attraction > STRONGEST * contact.mean_pressure:
                 continue
-            state, seconds = measuring.time_task(
-                solve_at_gap, heights, length, law, contact, tolerance
-            )
+            state, seconds = time_task(solve_at_gap, heights, length, law, contact, tolerance)
             values["seconds"][i, k] = seconds
             values["external_pressure"][i, k] = state.mean_pressure
             values["repulsive_area"][i, k] = state.repulsive_area_fraction
@@ -130,7 +129,7 @@ def separate(surface, adhesion, pixels, tolerance, seed):
         )
         return min(point.state.mean_pressure for point in path if point.event != "pull-off")
 
-    timed = [measuring.time_task(find_lowest, law) for law in laws]
+    timed = [time_task(find_lowest, law) for law in laws]
     limit = np.full(len(laws), np.nan)
     per_decade = 10  # of these loads
     decades = 4  # of loads below the largest, for the pull-off by the DMT sum

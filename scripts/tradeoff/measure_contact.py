@@ -10,6 +10,7 @@ from itertools import product
 
 import numpy as np
 
+from common.clock import time_task
 from common.contact_curves import COARSE, CONTACT_VARIABLES, DESCRIBED_FROM, SOLVED_FROM, load_curve
 from common.conventions import logarithmic_grid
 from common.job import start
@@ -58,8 +59,8 @@ def main(job):
         *product([COARSE], [usual], coarse),
     ]
     describe = partial(multilevel.descriptors, model_spectrum(surface), length)
-    waves, seconds = measuring.time_task(describe, coarse)
-    other_waves, other_seconds = measuring.time_task(describe, described)
+    waves, seconds = time_task(describe, coarse)
+    other_waves, other_seconds = time_task(describe, described)
     dataset = measuring.record(wanted, solve).assign(
         long_waves=(("coarse_seed", "descriptor"), waves),
         other_long_waves=(("other", "descriptor"), other_waves),

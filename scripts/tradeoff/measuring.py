@@ -2,12 +2,12 @@
 
 import logging
 import statistics
-import time
 
 import numpy as np
 import xarray as xr
 
 from common import conventions
+from common.clock import time_task
 from common.model_surfaces import grid_points
 from common.model_surfaces import make_heights as make_surface
 from stickiness import datasets
@@ -65,10 +65,3 @@ def make_heights(surface, pixels, seed):
 def split_loads(quantity, errors):
     """Errors of single surfaces by quantity and load."""
     return {(quantity, load): errors.sel(pressure=load).values for load in errors.pressure.values}
-
-
-def time_task(task, *arguments):
-    """Return what a task returns, and the processor time [s] it took."""
-    begin = time.process_time()
-    result = task(*arguments)
-    return result, time.process_time() - begin

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from common import heights_table, remaining_models
+import campaigns.verdicts
+from common import committed, heights_table, remaining_models
 from common import tradeoff_table as summary
 from common.conventions import annotate
 from common.job import start
@@ -61,7 +62,7 @@ def main(job):
     table = annotate(rows.rename_axis("row").to_xarray(), **TRADEOFF_VARIABLES)
     datasets.write(table, job.output.dataset, title=title, parameters=parameters)
     medians = rows.groupby(summary.KEYS, sort=False)[["error", "cost"]].median().reset_index()
-    verdicts = pd.concat([datasets.read(path).to_dataframe() for path in job.input.verdicts])
+    verdicts = committed.read(job.input.verdicts, campaigns.verdicts.COLUMNS, "tradeoff")
     medians = pd.concat([medians, condense_verdicts(verdicts)], ignore_index=True)
     with datasets.whole_file(job.output.summary) as path:
         summary.write(path, medians)
@@ -76,7 +77,7 @@ def main(job):
         job.output.table,
         tables=summary.tables(medians),
         verdicts=summary.list_verdicts(medians),
-        maps=len(job.input.verdicts),
+        maps=verdicts["set"].nunique(),
         energies=job.params.energies,
         asked=job.params.presets,
         presets=presets,

@@ -15,7 +15,7 @@ def condense_verdicts(verdicts):
     Parameters
     ----------
     verdicts : DataFrame
-        A row for every pair, way and grid, with the variables of `measure_verdicts`.
+        A row for every pair, way and grid, with the columns of the campaign `verdicts`.
 
     Returns
     -------
@@ -40,11 +40,11 @@ def condense_verdicts(verdicts):
     ways = known.way.unique()
     order = pd.Categorical(known.way, ways, ordered=True)
     rows = []
-    for (way, points), part in known.groupby([order, "points"], observed=True):
+    for (way, grid), part in known.groupby([order, "grid"], observed=True):
         cost = part.seconds.median()
         for quantity, condense in QUANTITIES.items():
             error = float(condense(part[quantity]))
-            rows.append((summary.VERDICT, quantity, way, str(points), error, cost))
+            rows.append((summary.VERDICT, quantity, way, str(grid), error, cost))
     return pd.DataFrame(rows, columns=[*summary.KEYS, "error", "cost"])
 
 

@@ -10,7 +10,8 @@ POINTS = 64
 WAVES = 2
 SHORTEST = 4
 LEANING_DOWN = {"skewed_down", "plateau_honed", "dimpled", "scratched", "cobbled", "printed"}
-LEANING_UP = {"skewed_up", "beaded", "turned"}
+LEANING_DOWN |= {"squared_down", "exponential_down", "tops_cut"}
+LEANING_UP = {"skewed_up", "beaded", "turned", "squared", "exponential", "valleys_cut"}
 
 
 @pytest.fixture(scope="module", params=FAMILIES)

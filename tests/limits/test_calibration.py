@@ -6,20 +6,17 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from helpers.campaigns import CAMPAIGNS, read
 from helpers.entries import complete
 
-from common import heights_table, limits_table
+from common import heights_table
 from common.config import load
 from common.config.campaigns import LimitCampaign
-from limits import calibrate_limits, comparisons
+from limits import calibrate_limits
 from stickiness import datasets
 from stickiness.remaining import calibration
 
 ROOT = Path(__file__).parents[2]
-TABLES = (
-    *("heights", "remaining", "solids", "patches", "ranges", "pull_offs", "unresolved"),
-    *("larger", "coated", "balls"),
-)
 LEAST = 0.82  #: share of the unseen simulations of a kind within limits of 90 %
 #: Median ratio of both limits of the threshold, on unseen surfaces, that limits may not exceed.
 WIDEST = {
@@ -54,7 +51,7 @@ def calibrated(tmp_path_factory):
     )
     campaign = complete(LimitCampaign, **load.load(ROOT / load.CAMPAIGNS["limits"]))
     job = SimpleNamespace(
-        input=[ROOT / f"config/{table}.csv" for table in TABLES],
+        input=[ROOT / f"config/{table}.csv" for table in CAMPAIGNS],
         output=output,
         params=SimpleNamespace(touching=campaign["touching"]),
     )
@@ -103,7 +100,7 @@ def test_limits_of_balls_hold_nine_in_ten_of_what_nothing_was_fitted_to(calibrat
 
 
 def test_states_tell_shares_within_their_limits_however_little_remains():
-    heights = comparisons.add_roles(heights_table.read(ROOT / "config/heights.csv"))
+    heights = heights_table.read(ROOT / "config/heights.csv").dropna(subset="simulated")
     rows = heights[(heights.window == 4) & (heights.role == "unseen")]
     error = calibration.find_spread("states", "share").high
     is_inside = calibrate_limits.find_share_error(rows) <= error
@@ -112,8 +109,23 @@ def test_states_tell_shares_within_their_limits_however_little_remains():
     assert is_inside[rows.simulated.to_numpy() < 0.01].mean() > 0.9
 
 
+def test_exponents_and_errors_of_pull_offs_are_found():
+    """Distances that fall with the root of the range, but for 10 % at every second work."""
+    rows = pd.DataFrame({"range_ratio": np.tile([1.0, 0.5, 0.25], 40), "distance": 2.0})
+    rows = rows.assign(role="fitted", share=0.2, path_share=0.2, adhesion_length=0.1)
+    rows = rows.assign(energy_ratio=0.5)
+    factor = np.repeat([1.1, 1 / 1.1], 60)
+    rows["pull_off"] = 0.1 * 0.2 / (2.0 * np.sqrt(rows.range_ratio)) * factor
+    shortening, fitted = calibrate_limits.fit_pull_offs(rows)
+    assert shortening[0] == pytest.approx(0.5, abs=0.01)
+    assert abs(fitted.error) == pytest.approx(np.log(1.1), abs=0.02)
+    full = rows.assign(energy_ratio=2.0)
+    _, fitted = calibrate_limits.fit_pull_offs(pd.concat([rows, full]))
+    assert len(fitted.rows) == len(rows)  # full contact is left out
+
+
 def test_limits_of_pull_offs_hold_nine_in_ten_of_what_nothing_was_fitted_to():
-    table = limits_table.read(ROOT / "config/pull_offs.csv", "pull_offs")
+    table = read("pull_offs")
     _, fitted = calibrate_limits.fit_pull_offs(table)
     unseen = fitted.rows.assign(error=fitted.error).query("role == 'unseen'")
     spread = calibration.find_spread("states", "ln_tension")

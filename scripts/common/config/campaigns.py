@@ -88,8 +88,11 @@ class Validation(MeasuredSurfaces):
     accuracies: f.Several[f.Share]
 
 
+Grid = Annotated[int, Field(ge=32, multiple_of=4)]
 Family = Literal[
-    *("gaussian", "skewed_up", "skewed_down", "plateau_honed", "terraced", "scratched", "dimpled"),
+    *("gaussian", "skewed_up", "skewed_down", "squared", "squared_down"),
+    *("exponential", "exponential_down", "tops_cut", "valleys_cut"),
+    *("plateau_honed", "terraced", "scratched", "dimpled"),
     *("cobbled", "beaded", "turned", "printed", "bifractal", "rolloff", "ground"),
 ]
 
@@ -99,29 +102,25 @@ class Topography(Section):
 
     family: Family = needed("name in common.topographies.FAMILIES, which takes long to load")
     hurst: f.Hurst = optional("of a family that has one, if not its own")
-    points: Annotated[int, Field(ge=32, multiple_of=4)]
+    points: Grid
     waves: Annotated[int, Field(ge=1)] = needed("longest waves along a side")
     shortest: Annotated[float, Field(ge=2)] = needed("shortest wave in pixels")
 
 
-class TradeMap(Topography):
-    """A map on which verdicts are made."""
+class VerdictSet(Topography):
+    """Maps on which verdicts are made."""
 
-    seed: f.Index
+    seeds: f.Several[f.Index]
+    finest: f.Several[Grid] = optional("further grids on which contact is simulated")
 
 
 class VerdictTrade(Section):
     """Verdicts on maps in several ways, beside full simulation on their whole grid."""
 
     law: f.Law
-    points: f.Several[Annotated[int, Field(ge=32, multiple_of=4)]] = needed(
-        "of the grids on which contact is simulated, along a side"
-    )
-    finest: f.Names[f.Several[Annotated[int, Field(ge=32, multiple_of=4)]]] = needed(
-        "further grids, by map"
-    )
+    grids: f.Several[Grid] = needed("on which contact is simulated, by their points along a side")
     energies: Values = needed("works of adhesion over the energy of full contact of the map")
-    maps: f.Names[TradeMap]
+    sets: f.Names[VerdictSet]
 
 
 class Tradeoff(Section):
@@ -153,9 +152,16 @@ class Tradeoff(Section):
         return self
 
 
-class SimulatedSet(ModelSurface):
+Role = Annotated[
+    Literal["fitted", "unseen"],
+    Field(description="whether limits are fitted to a set, or compared with it afterwards"),
+]
+
+
+class SimulatedSet(GaussianSurface):
     """A surface on which adhesion is simulated."""
 
+    role: Role
     points: Annotated[int, Field(ge=32, multiple_of=2)]
     seeds: f.Several[f.Index]
 
@@ -191,12 +197,17 @@ class Remaining(Section):
     sets: f.Names[RemainingSet]
 
 
-class HeightSet(SimulatedSet):
-    """A surface on which the energy at zero load is simulated."""
+class TopographySet(Topography):
+    """Synthetic topographies of one family."""
 
-    transform: Literal["squared", "-squared", "valleys cut", "tops cut", "exp", "-exp"] = optional(
-        "what is done to the heights, point by point; waves beyond the band are left out"
-    )
+    role: Role
+    seeds: f.Several[f.Index]
+
+
+class HeightSet(TopographySet):
+    """Topographies on which the energy at zero load is simulated."""
+
+    height_skewness: float = optional("of a family that has one, if not its own")
 
 
 class HeightCampaign(Section):
@@ -208,10 +219,6 @@ class HeightCampaign(Section):
     sets: f.Names[HeightSet]
 
 
-Role = Annotated[
-    Literal["fitted", "unseen"],
-    Field(description="whether limits are fitted to a set, or compared with it afterwards"),
-]
 SolidKind = Literal["layer", "film", "thin", "skin"]
 
 
@@ -221,7 +228,6 @@ class SolidSet(SimulatedSet):
     one_of = (("backing", "skin_modulus_ratio and skin_poisson"),)
 
     kind: SolidKind = needed("class of solids")
-    role: Role
     thickness: f.Positive = needed("of the layer or of the skin")
     poisson: f.Poisson = needed("Poisson's ratio of the layer, or below the skin")
     backing: Literal["bonded", "slip", "film"] = optional("what a layer lies on")
@@ -250,13 +256,6 @@ class SolidCampaign(Section):
         "widths of the cohesive zone on a half-space, in pixels, by class"
     )
     sets: f.Names[SolidSet]
-
-
-class TopographySet(Topography):
-    """Synthetic topographies of one family."""
-
-    role: Role
-    seeds: f.Several[f.Index]
 
 
 class Patches(Section):
@@ -310,10 +309,9 @@ class UnresolvedCampaign(Section):
     sets: f.Names[TopographySet]
 
 
-class LargerSet(TopographySet):
+class LargerSet(HeightSet):
     """Topographies whose patches are judged for contact with all of it."""
 
-    height_skewness: float = optional("of a family that has one, if not its own")
     parts: f.Several[f.Count] = needed("patches along a side, of every size")
 
 

@@ -108,7 +108,7 @@ KNOWN = {"value": "1 um", "known": "read"}
             },
         ),
         ("config", {"model_surfaces/H0.7_zeta64/heights": {"skewness": -1.0}}),
-        ("remaining", {"sets/H0.8_zeta32_4x4/heights": {"skewness": 1}}),
+        ("heights", {"sets/H0.5_zeta16_skewed_up1/height_skewness": 1.5}),
         ("config", {"cases/mine": {"surface": "H0.7_zeta64", "pressures": [0.1], "accuracy": 0.1}}),
     ],
 )

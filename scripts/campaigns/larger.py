@@ -1,16 +1,22 @@
-"""What scans tell of a larger contact: thresholds of patches, judged for the whole surface."""
+"""What scans tell of a larger contact: thresholds of patches, judged for the whole surface.
+
+Patches are judged in the way of users. Heights and ranges are over h_rms, wave numbers over q0,
+energies and adhesion lengths over q0 h_rms^2. Predictions are made without the error of what a scan
+does not tell of a larger contact.
+"""
 
 import logging
+from itertools import product
 
 import numpy as np
 from scipy import stats
 
+from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.patches import cut, measure_whole
+from campaigns.trial_thresholds import SHARES, describe_thresholds
 from common.conventions import Q0
 from common.job import start
-from common.limits_table import JUDGED, SHARES
 from common.topographies import make_set
-from limits.measure_patches import cut, measure_whole
-from limits.measuring import write_rows
 from stickiness.entries.material import Material
 from stickiness.verdicts.judgement import judge
 from stickiness.verdicts.limits import read_limited
@@ -23,20 +29,41 @@ WORK_OF_ADHESION = 0.05  # J/m^2
 SHORTEST_FITTED = 4.0  # pixels: a fit goes up to half the Nyquist wave number
 
 
-def main(job):
-    write_rows(job, measure)
+JUDGED = ("10", "30")  # thresholds that are judged
+LIMIT_TEXTS = {"value": "value", "low": "low limit", "high": "high limit"}
+COLUMNS = OF_TOPOGRAPHY | {
+    "height_skewness": "of the surface, if not that of its family",
+    "parts": "patches along a side",
+    "patch": "number",
+    "skewness": "of the patch",
+    "is_judged": "0 where a patch has no verdict",
+    "found_hurst": "Hurst exponent fitted to the patch",
+    "found_rolloff": "wave number of the roll-off fitted to the patch",
+    "is_simulated": "1 where states simulated on the patch decide",
+    "longer": "share of the energy in waves longer than the patch",
+    "shape": "of the heights, as a verdict takes it from their skewness",
+    "unevenness": "of the roughness from place to place",
+    **{
+        f"{limit}_{ending}": f"{text} of threshold_{ending} of the surface, predicted"
+        for ending, (limit, text) in product(JUDGED, LIMIT_TEXTS.items())
+    },
+    "whole_skewness": "of the surface",
+    "whole_full_contact_energy": "elastic energy of full contact of the surface",
+    "range": "of the attraction",
+    **describe_thresholds("whole_threshold", "on the surface"),
+}
 
 
-def measure(setting, seed, campaign):
+def measure(setting, seed, shared):
     """Rows of all patches, beside what remains on the whole surface."""
     heights = make_set(setting, seed)
-    side = setting["waves"] * 2 * np.pi / Q0
-    range_ = campaign["range"]
+    side = find_side(setting)
+    range_ = shared["range"]
     thresholds, of_whole = measure_whole(heights, side, range_)
     pixel = side / setting["points"]
     shortest = min(setting["shortest"], SHORTEST_FITTED) * pixel
     for parts in setting["parts"]:
-        patches = cut(heights, parts, 1, campaign["count"])
+        patches = cut(heights, parts, 1, shared["count"])
         for number, patch in enumerate(patches):
             row = judge_patch(patch, side / parts, side, shortest, range_, thresholds)
             yield {"parts": parts, "patch": number, **row, **of_whole}
@@ -101,4 +128,4 @@ def judge_threshold(surface, log_length, name, range_):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

@@ -1,37 +1,44 @@
-"""Pull-off at the ranges of simulated states and at shorter ones, simulated on finer grids."""
+"""Pull-off at the ranges of simulated states and at shorter ones, simulated on finer grids.
+
+`points` and `shortest` are of the coarse grid of the states. Heights and ranges are over h_rms,
+energies and adhesion lengths over q0 h_rms^2, shares over the work of adhesion.
+"""
 
 import logging
 
 import numpy as np
 
+from campaigns.measuring import find_side, main
+from campaigns.ranges import OF_REFINED, at_work, refine
 from common.conventions import Q0
 from common.job import start
 from common.topographies import make_set
-from limits.measure_ranges import at_work, refine
-from limits.measuring import write_rows
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.measurement import measure as follow_path
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.repulsive.solver import ConvergenceError
 
+COLUMNS = OF_REFINED | {
+    "share": "that is predicted to remain at this range",
+    "distance": "work that remains over the largest tension, of the states at their own range",
+    "path_share": "largest gain of energy on a path at given mean gaps on the finer grid",
+    "pull_off": "largest tension on that path over E*",
+}
 
-def main(job):
-    write_rows(job, measure)
 
-
-def measure(setting, seed, campaign):
+def measure(setting, seed, shared):
     """Rows of all works of adhesion and ranges: states pulled off on a grid, paths on finer ones.
 
     States are pulled by a growing tension, paths part at given mean gaps.
     """
     heights = make_set(setting, seed)
-    length = setting["waves"] * 2 * np.pi / Q0
+    length = find_side(setting)
     states = find_trial_states(heights, length)
     rough = judge_states(states, length / setting["points"])
-    for law, fine, row in refine(heights, states, setting, campaign):
+    for law, fine, row in refine(heights, states, setting, shared):
         work = law.adhesion_length
-        path_share, pull_off = part(fine, length, law, campaign)
+        path_share, pull_off = part(fine, length, law, shared)
         yield {
             **row,
             "share": rough.share(work, law.range),
@@ -54,17 +61,17 @@ def judge_states(states, pixel):
     )
 
 
-def part(heights, length, law, campaign):
+def part(heights, length, law, shared):
     """Share gained and largest tension where surfaces are pressed and part at given mean gaps."""
     try:
         found = follow_path(
             heights,
             length,
             law,
-            squeeze=campaign["squeeze"],
+            squeeze=shared["squeeze"],
             tol=ADHESION_TOLERANCE,
             half_grid=False,
-            steps=campaign["steps"],
+            steps=shared["steps"],
         )
     except ConvergenceError as error:
         logging.info("%s: %s", law, error)
@@ -73,4 +80,4 @@ def part(heights, length, law, campaign):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

@@ -1,23 +1,21 @@
 """What verdicts cost and leave open: rows by hand, a small map, and the committed table."""
 
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 from helpers.entries import complete
 
+from campaigns import verdicts
+from campaigns.verdicts import CONTACT, SPECTRUM, STATES
 from common import tradeoff_table as summary
-from common.config.campaigns import TradeMap
-from common.topographies import make_set
-from tradeoff import measure_verdicts
-from tradeoff.measure_verdicts import CONTACT, SPECTRUM, STATES
+from common.config.campaigns import VerdictSet
 from tradeoff.verdict_table import condense_verdicts
 
 ROOT = Path(__file__).parents[2]
 pytestmark = pytest.mark.filterwarnings("ignore::stickiness.plausibility.PlausibilityWarning")
-SMALL = complete(TradeMap, family="gaussian", points=64, waves=2, shortest=4.0, seed=3)
+SMALL = complete(VerdictSet, family="gaussian", points=64, waves=2, shortest=4.0, seeds=[3])
 
 
 def test_rows_of_verdicts_by_hand():
@@ -30,8 +28,8 @@ def test_rows_of_verdicts_by_hand():
         (0.01, 0.00, 0.03, 0.01, 5.0),
         (0.01, 0.00, 0.03, np.nan, 9.0),
     ]
-    verdicts = pd.DataFrame(pairs, columns=columns).assign(way=STATES, points=64)
-    medians = condense_verdicts(verdicts)
+    rows = pd.DataFrame(pairs, columns=columns).assign(way=STATES, grid=64)
+    medians = condense_verdicts(rows)
     assert list(medians) == [*summary.KEYS, "error", "cost"]
     (row,) = summary.list_verdicts(medians)
     assert row == pytest.approx(
@@ -51,10 +49,9 @@ def test_rows_of_verdicts_by_hand():
 
 @pytest.fixture(scope="module")
 def judged():
-    heights = measure_verdicts.H_RMS * make_set(SMALL, SMALL["seed"])
-    params = SimpleNamespace(points=[32, 64], energies=[0.3, 1.0], law="exponential")
-    rows = pd.DataFrame(measure_verdicts.judge_map(heights, SMALL, params))
-    return rows.set_index(["way", "points", "energy_ratio"]).sort_index()
+    shared = {"grids": [32, 64], "energies": [0.3, 1.0], "law": "exponential"}
+    rows = pd.DataFrame(verdicts.measure(SMALL, 3, shared))
+    return rows.set_index(["way", "grid", "energy_ratio"]).sort_index()
 
 
 def test_every_way_and_grid_is_judged(judged):
@@ -77,7 +74,7 @@ def test_contact_without_adhesion_bounds_what_states_find(judged):
 
 def test_states_on_the_whole_map_find_the_truth(judged):
     """The map is periodic, and simulated beside its mirror images."""
-    whole = judged.loc[STATES].xs(64, level="points")
+    whole = judged.loc[STATES].xs(64, level="grid")
     assert whole.remaining.values == pytest.approx(whole.simulated.values, abs=0.05)
     assert whole.simulated.between(whole.low, whole.high).all()
 

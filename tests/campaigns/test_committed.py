@@ -1,73 +1,73 @@
-"""The committed tables behind the limits of verdicts, against the campaign that made them."""
+"""The committed tables of campaigns, against the configuration that made them."""
 
-from pathlib import Path
 from typing import get_args
 
 import numpy as np
 import pytest
-from helpers.entries import complete
+from helpers.campaigns import CAMPAIGNS, read
 
-from common import limits_table
-from common.config import load
-from common.config.campaigns import Family, LimitCampaign
+from campaigns.trial_thresholds import SHARES
+from common.config.campaigns import Family
 from common.topographies import FAMILIES
 
-ROOT = Path(__file__).parents[2]
-CAMPAIGN = complete(LimitCampaign, **load.load(ROOT / load.CAMPAIGNS["limits"]))
-KINDS = tuple(limits_table.COLUMNS)
-CLASS = dict.fromkeys(KINDS, "family") | {"solids": "kind", "balls": "tabor"}
-
-
-def read(kind):
-    return limits_table.read(ROOT / f"config/{kind}.csv", kind)
+#: Columns of which every class is fitted and unseen.
+CLASS = dict.fromkeys(CAMPAIGNS, "family") | {"solids": "kind", "balls": "tabor"}
+#: The sets of one campaign hold seeds that others have, too.
+SHARED_SEEDS = ("remaining",)
 
 
 def test_all_families_can_be_configured():
     assert get_args(Family) == tuple(FAMILIES)
 
 
-def rows_of_set(kind, entry):
-    """Rows that one seed of a set gives."""
-    campaign = CAMPAIGN[kind]
-    if kind == "solids":
-        return len(campaign["energies"]) * len(campaign["pixels_in_zone"][entry["kind"]])
-    if kind == "patches":
-        return sum(size["count"] for size in campaign["patches"])
-    if kind == "unresolved":
-        return len(campaign["strides"]) * len(campaign["ranges"])
-    if kind == "larger":
-        return len(entry["parts"]) * campaign["count"]
-    if kind == "coated":
-        return sum(len(solid["energies"]) for solid in campaign["solids"].values())
-    if kind == "balls":
-        return len(entry["waves"]) * len(entry["heights"]) * entry["places"]
-    return None  # as many works of adhesion as have such shares
+def rows_of_seed(name, setting):
+    """Fewest and most rows that one seed of a set gives."""
+    campaign = CAMPAIGNS[name]
+    count = {
+        "heights": lambda: len(campaign["energies"]) * len(campaign["pixels_in_zone"]),
+        "solids": lambda: (
+            len(campaign["energies"]) * len(campaign["pixels_in_zone"][setting["kind"]])
+        ),
+        "patches": lambda: sum(size["count"] for size in campaign["patches"]),
+        "unresolved": lambda: len(campaign["strides"]) * len(campaign["ranges"]),
+        "larger": lambda: len(setting["parts"]) * campaign["count"],
+        "coated": lambda: sum(len(solid["energies"]) for solid in campaign["solids"].values()),
+        "balls": lambda: len(setting["waves"]) * len(setting["heights"]) * setting["places"],
+    }
+    if name in count:
+        return [count[name]()] * 2
+    if name == "remaining":  # without those whose cohesive zone the grid does not resolve
+        ranges = setting["zones"] or setting["ranges"]
+        return 1, len(setting["energies"]) * len(ranges) * len(setting["squeezes"] or [1])
+    # As many works of adhesion as have such shares.
+    most = campaign["works"] * len(setting["refinements"])
+    return most / 5, most
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_table_has_the_sets_of_the_campaign(kind):
-    table = read(kind)
-    sets = CAMPAIGN[kind]["sets"]
+@pytest.mark.parametrize("name", CAMPAIGNS)
+def test_table_has_the_sets_of_the_campaign(name):
+    table = read(name)
+    sets = CAMPAIGNS[name]["sets"]
     assert set(table["set"]) == set(sets)
-    for name, rows in table.groupby("set"):
-        entry = sets[name]
-        assert set(rows.role) == {entry["role"]}
-        assert set(rows.seed) == set(entry["seeds"])
-        assert set(rows[CLASS[kind]]) == {entry[CLASS[kind]]}
-        wanted = rows_of_set(kind, entry)
-        if wanted is not None:
-            assert len(rows) == wanted * len(entry["seeds"])
-        else:
-            most = CAMPAIGN[kind]["works"] * len(entry["refinements"]) * len(entry["seeds"])
-            assert most / 5 <= len(rows) <= most
+    for each, rows in table.groupby("set"):
+        setting = sets[each]
+        for column in setting.keys() & set(table.columns) - {"waves"}:
+            if isinstance(setting[column], str | float | int):
+                assert set(rows[column]) == {setting[column]}
+        assert set(rows.seed) == set(setting["seeds"])
+        fewest, most = np.multiply(rows_of_seed(name, setting), len(setting["seeds"]))
+        assert fewest <= len(rows) <= most
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_class_is_fitted_and_unseen(kind):
-    table = read(kind)
+@pytest.mark.parametrize("name", CAMPAIGNS)
+def test_every_class_is_fitted_and_unseen(name):
+    table = read(name)
+    assert set(table.role) == {"fitted", "unseen"}
+    if name in SHARED_SEEDS:
+        return
     sets = table.drop_duplicates("set")
     assert 0.4 < np.mean(sets.role == "fitted") < 0.6
-    assert (table.groupby(CLASS[kind]).role.nunique() == 2).all()
+    assert (table.groupby(CLASS[name]).role.nunique() == 2).all()
     # No realisation is in both.
     assert (table.groupby("seed").role.nunique() == 1).all()
 
@@ -87,7 +87,7 @@ def test_shares_on_solids_are_possible():
 def test_thresholds_of_patches_are_possible():
     table = read("patches")
     for prefix in ("threshold", "whole_threshold"):
-        thresholds = table[[f"{prefix}_{share}" for share in limits_table.SHARES]].values
+        thresholds = table[[f"{prefix}_{share}" for share in SHARES]].values
         assert not (np.diff(thresholds, axis=1) <= 0).any()
     # Full contact keeps 1 - U/w.
     highest = np.log(table.full_contact_energy / 0.4)

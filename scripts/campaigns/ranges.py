@@ -1,48 +1,63 @@
-"""What remains at ranges shorter than those of simulated states, simulated on finer grids."""
+"""What remains at ranges shorter than those of simulated states, simulated on finer grids.
+
+`points` and `shortest` are of the coarse grid of the states. Heights and ranges are over h_rms,
+energies and adhesion lengths over q0 h_rms^2, shares over the work of adhesion.
+"""
 
 import numpy as np
 
-from common.conventions import Q0
+from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
 from common.job import start
 from common.topographies import make_set
-from limits.measuring import write_rows
 from stickiness import surface
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
 
+#: Columns of what is simulated on finer grids, at the range of the states and at shorter ones.
+OF_REFINED = OF_TOPOGRAPHY | {
+    "full_contact_energy": "elastic energy of full contact on the coarse grid",
+    "adhesion_length": "work of adhesion over the modulus",
+    "energy_ratio": "work of adhesion over full_contact_energy",
+    "range": "of the attraction",
+    "range_ratio": "range over that of the states at this work",
+    "finer": "points along a side of the finer grid over those of the coarse one",
+}
+COLUMNS = OF_REFINED | {
+    "is_between": "1 for works of adhesion between two that were simulated",
+    "bound": "share that remains in the deepest of the states at this range",
+    "chord": "share between those of the states at their own ranges",
+    "simulated": "share that remains on the finer grid",
+}
 
-def main(job):
-    write_rows(job, measure)
 
-
-def measure(setting, seed, campaign):
+def measure(setting, seed, shared):
     """Rows of all works of adhesion and ranges, by states on a grid and by finer ones."""
     heights = make_set(setting, seed)
-    length = setting["waves"] * 2 * np.pi / Q0
+    length = find_side(setting)
     states = find_trial_states(heights, length, pull=False)
     lengths = [0, *states.simulated_length]
     gains = [0, *states.simulated_length * states.simulated_share]
-    for law, fine, row in refine(heights, states, setting, campaign):
+    for law, fine, row in refine(heights, states, setting, shared):
         work = law.adhesion_length
         yield {
             **row,
-            "bound": states.share(np.array([work]), np.array([law.range]), campaign["law"])[0],
+            "bound": states.share(np.array([work]), np.array([law.range]), shared["law"])[0],
             "chord": np.interp(work, lengths, gains) / work,
             "simulated": share_at_zero_load(fine, length, law, tol=ADHESION_TOLERANCE),
         }
 
 
-def refine(heights, states, setting, campaign):
+def refine(heights, states, setting, shared):
     """Laws at the ranges of states and at shorter ones, finer grids, and what rows tell of both."""
     grids = {
         finer: surface.resample(heights, finer * heights.shape[0])
         for finer in {refinement["finer"] for refinement in setting["refinements"]}
     }
-    for work, is_between in choose_works(states, campaign["shares"], campaign["works"]):
+    for work, is_between in choose_works(states, shared["shares"], shared["works"]):
         own_range = at_work(states, states.simulated_range, work)
         for refinement in setting["refinements"]:
-            law = LAWS[campaign["law"]](work, refinement["ratio"] * own_range)
+            law = LAWS[shared["law"]](work, refinement["ratio"] * own_range)
             row = {
                 "full_contact_energy": states.full_contact_energy,
                 "adhesion_length": work,
@@ -75,4 +90,4 @@ def choose_works(states, shares, most):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

@@ -3,8 +3,7 @@
 import numpy as np
 from scipy import optimize
 
-from common.limits_table import SHARES
-
+SHARES = {"3": 0.03, "10": 0.1, "30": 0.3, "60": 0.6}  # by the ends of the names of columns
 LOWEST = 1e-9  # adhesion lengths over the energy of full contact
 HIGHEST = 1e3
 
@@ -27,6 +26,15 @@ def find_log_threshold(states, share, range_):
 def find_log_thresholds(states, range_):
     """Thresholds of all shares, by the ends of their columns."""
     return {ending: find_log_threshold(states, share, range_) for ending, share in SHARES.items()}
+
+
+def describe_thresholds(name, where):
+    """Texts of the columns of thresholds, by their names."""
+    return {
+        f"{name}_{ending}": f"ln of the adhesion length at which {share:.0%} remains {where}; none "
+        "where so much remains at any"
+        for ending, share in SHARES.items()
+    }
 
 
 def name_columns(name, found):

@@ -1,36 +1,67 @@
-"""What patches of a surface tell of it: works of adhesion at which shares remain, by simulation."""
+"""What patches of a surface tell of it: works of adhesion at which shares remain, by simulation.
+
+States are simulated on the heights of a patch as on those of a measured map. Heights and ranges are
+over h_rms, energies and adhesion lengths over q0 h_rms^2, shares over the work of adhesion.
+"""
 
 from itertools import product
 
 import numpy as np
 from scipy import fft, stats
 
+from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.trial_thresholds import (
+    SHARES,
+    describe_thresholds,
+    find_log_thresholds,
+    name_columns,
+    share_on,
+)
 from common.conventions import Q0
 from common.job import start
-from common.limits_table import OF_QUARTERS
 from common.topographies import make_set
-from limits.measuring import write_rows
-from limits.trial_thresholds import find_log_thresholds, name_columns, share_on
 from stickiness.measured.levelling import detrend
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.remaining.standard_heights import standardise
 
+OF_QUARTERS = ("10", "30")  # thresholds that are kept of the quarters of a patch
+COLUMNS = OF_TOPOGRAPHY | {
+    "patch_waves": "longest waves along a side of the patch",
+    "patch": "number",
+    "h_rms": "rms height of the patch",
+    "skewness": "of the patch",
+    "kurtosis": "of the patch",
+    "independent_areas": "1 over the mean square of the autocorrelation",
+    "mean_cube": "of the autocorrelation",
+    "full_contact_energy": "elastic energy of full contact of the patch",
+    "whole_skewness": "of the surface",
+    "whole_kurtosis": "of the surface",
+    "whole_full_contact_energy": "elastic energy of full contact of the surface",
+    "range": "of the attraction",
+    **describe_thresholds("threshold", "on the patch"),
+    **describe_thresholds("whole_threshold", "on the surface"),
+    **{
+        f"share_{ending}": f"share on the patch where {share:.0%} remains on the surface"
+        for ending, share in SHARES.items()
+    },
+    **{
+        f"q{number}_{ending}": f"threshold_{ending} of a quarter of the patch"
+        for ending, number in product(OF_QUARTERS, range(1, 5))
+    },
+}
 
-def main(job):
-    write_rows(job, measure)
 
-
-def measure(setting, seed, campaign):
+def measure(setting, seed, shared):
     """Rows of all patches, beside what remains on the whole surface."""
     heights = make_set(setting, seed)
     waves = setting["waves"]
     wavelength = 2 * np.pi / Q0
-    thresholds, of_whole = measure_whole(heights, waves * wavelength, campaign["range"])
-    for size in campaign["patches"]:
+    thresholds, of_whole = measure_whole(heights, find_side(setting), shared["range"])
+    for size in shared["patches"]:
         patches = cut(heights, waves, size["waves"], size["count"])
         for number, patch in enumerate(patches):
             side = size["waves"] * wavelength
-            row = measure_patch(patch, side, thresholds, campaign["range"])
+            row = measure_patch(patch, side, thresholds, shared["range"])
             yield {"patch_waves": size["waves"], "patch": number, **row, **of_whole}
 
 
@@ -97,4 +128,4 @@ def find_autocorrelation(heights):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

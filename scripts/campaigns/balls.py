@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from campaigns.measuring import OF_SET, SEED, main
 from common.job import start
-from limits.measuring import write_rows
 from stickiness import adhesive, surface
 from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS, TractionLaw, find_strength
@@ -25,6 +25,20 @@ STEP = 0.08  # of the mean gap, over the square of the contact radius over that 
 MOST_STEPS = 400
 GONE = 0.02  # force over JKR's below which a ball without contact has pulled off
 TOLERANCE = 1e-4
+COLUMNS = OF_SET | {
+    "tabor": "Tabor's parameter; 0 of rigid solids, whose tractions are summed",
+    "law": "traction law",
+    "hurst": "Hurst exponent",
+    "skewness": "of the heights",
+    "shortest": "shortest wave",
+    "side": "of the cell",
+    "points": "of the grid, along a side",
+    **SEED,
+    "waves": "longest waves across the zone of a smooth ball",
+    "height": "rms height over w over the strength of the law",
+    "place": "that the ball touches",
+    "simulated": "pull-off force over that of a smooth ball; none where a ball did not pull off",
+}
 
 
 class Ball(NamedTuple):
@@ -56,10 +70,6 @@ def make_ball(law: str, tabor: float, zone: float = 1.0) -> Ball:
         reach = zone**2 / (2 * radius)
         adhesion = np.sqrt((tabor * reach) ** 3 / radius)
     return Ball(zone, radius, LAWS[law](adhesion, reach * find_strength(law)), reach)
-
-
-def main(job):
-    write_rows(job, measure)
 
 
 def measure(setting, seed, _):
@@ -134,4 +144,4 @@ def pull_off_force(shape: NDArray, side: float, law: TractionLaw) -> float:
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

@@ -1,7 +1,8 @@
-"""Judge a map in three ways on several grids, beside full simulation, and time every verdict.
+"""Verdicts on a map made in three ways on several grids, beside full simulation, with their times.
 
 The spectrum alone, contact without adhesion, and states with adhesion tell more of what remains,
-one after the other, and take longer. Grids thin the map before contact is simulated on it.
+one after the other, and take longer. Grids thin the map before contact is simulated on it. Shares
+are over the work of adhesion.
 """
 
 import logging
@@ -9,20 +10,19 @@ import warnings
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 
 import stickiness
-from common.conventions import annotate
+from campaigns.measuring import OF_TOPOGRAPHY, main
+from common.clock import time_task
 from common.job import start
 from common.topographies import make_set
-from stickiness import datasets, surface
+from stickiness import surface
 from stickiness.plausibility import PlausibilityWarning
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, press, simulate_standard
 from stickiness.remaining.standard_heights import standardise
 from stickiness.remaining.zero_load import share_at_zero_load
 from stickiness.traction_laws import LAWS
 from stickiness.verdicts.simulated_surface import tabulate_simulated
-from tradeoff.measuring import time_task
 
 SIDE = 1e-4  # of every map [m]
 H_RMS = 3e-7  # [m]
@@ -31,41 +31,35 @@ PIXELS_IN_ZONE = 2  # width of the cohesive zone on the grid of the map, which s
 SPECTRUM = "spectrum"
 CONTACT = "contact without adhesion"
 STATES = "states with adhesion"
-VERDICT_VARIABLES = {
-    "row": "verdict",
+COLUMNS = OF_TOPOGRAPHY | {
     "way": "what the verdict rests on",
-    "points": "of the grid along a side, without its mirror images",
+    "grid": "points along a side of the grid of the verdict, without its mirror images",
     "energy_ratio": "work of adhesion over elastic energy of full contact of the map",
-    "range": ("m", "range of the attraction"),
+    "range": ("m", "of the attraction"),
     "seconds": ("s", "processor time of what the verdict rests on, and of the verdict"),
     "remaining": "share that remains by the verdict",
     "low": "low limit of that share",
     "high": "high limit of that share",
-    "simulated": ("1", "share that remains by simulation on the map", "not converged"),
+    "simulated": "share that remains by simulation on the map",
 }
 
 
-def main(job):
-    setting = job.params.map
-    heights = H_RMS * make_set(setting, setting["seed"])
+def measure(setting, seed, shared):
+    """Rows of all ways, grids and works of adhesion."""
+    heights = H_RMS * make_set(setting, seed)
     with warnings.catch_warnings():
         # The heights are made up: their slopes and ranges are no concern.
         warnings.simplefilter("ignore", PlausibilityWarning)
-        rows = list(judge_map(heights, setting, job.params))
-    dataset = annotate(pd.DataFrame(rows).rename_axis("row").to_xarray(), **VERDICT_VARIABLES)
-    title = "verdicts on one map in three ways, beside full simulation"
-    datasets.write(
-        dataset, job.output[0], title=title, parameters={**setting, "law": job.params.law}
-    )
+        yield from judge_map(heights, setting, shared)
 
 
-def judge_map(heights, setting, params):
-    """Rows of all ways, grids and works of adhesion."""
+def judge_map(heights, setting, shared):
+    """Judge a map in every way on every grid, at every work of adhesion."""
     points = heights.shape[0]
     spectrum = surface.realised_spectrum(heights, SIDE)
     pairs = [
-        make_pair(ratio * spectrum.elastic_energy(), heights, params.law)
-        for ratio in params.energies
+        make_pair(ratio * spectrum.elastic_energy(), heights, shared["law"])
+        for ratio in shared["energies"]
     ]
     # The end of the band is told: a map does not tell whether finer waves follow.
     shortest = setting["shortest"] * SIDE / points
@@ -74,25 +68,24 @@ def judge_map(heights, setting, params):
 
     of_pairs = [
         {"energy_ratio": ratio, "range": law.range, "simulated": simulate(heights, law)}
-        for ratio, (_, law) in zip(params.energies, pairs, strict=True)
+        for ratio, (_, law) in zip(shared["energies"], pairs, strict=True)
     ]
     spectrum, seconds_spectrum = time_task(surface.realised_spectrum, heights, SIDE)
-    logging.info("by the spectrum: %.3g s", seconds_spectrum)
     wall = stickiness.Surface.from_spectrum(spectrum)
     yield from judge_pairs(wall, pairs, of_pairs, SPECTRUM, points, seconds_spectrum)
-    for most_points in params.points:
-        standard = standardise(heights, (SIDE, SIDE), most_points=most_points)
+    for grid in (*shared["grids"], *(setting["finest"] or ())):
+        standard = standardise(heights, (SIDE, SIDE), most_points=grid)
         _, seconds_contact = time_task(press_parts, standard)
         simulated, seconds_states = time_task(simulate_standard, standard)
         logging.info(
-            "%d points: contact %.3g s, states %.3g s", most_points, seconds_contact, seconds_states
+            "%d points: contact %.3g s, states %.3g s", grid, seconds_contact, seconds_states
         )
         wall = replace_states(measured, keep_contact(simulated))
-        for row in judge_pairs(wall, pairs, of_pairs, CONTACT, most_points, seconds_contact):
+        for row in judge_pairs(wall, pairs, of_pairs, CONTACT, grid, seconds_contact):
             # Attraction may make any contact: only the low limit is known.
             yield row | {"high": 1.0}
         wall = replace_states(measured, simulated)
-        yield from judge_pairs(wall, pairs, of_pairs, STATES, most_points, seconds_states)
+        yield from judge_pairs(wall, pairs, of_pairs, STATES, grid, seconds_states)
 
 
 def make_pair(adhesion_length, heights, law):
@@ -114,14 +107,14 @@ def simulate(heights, law):
     return share_at_zero_load(heights, SIDE, law, tol=ADHESION_TOLERANCE)
 
 
-def judge_pairs(wall, pairs, of_pairs, way, points, seconds):
+def judge_pairs(wall, pairs, of_pairs, way, grid, seconds):
     """Rows of one way and grid, whose surface took so many seconds."""
     for (material, _), known in zip(pairs, of_pairs, strict=True):
         verdict, seconds_verdict = time_task(stickiness.verdict, wall, material)
         low, high = verdict.remaining_limits
         yield {
             "way": way,
-            "points": points,
+            "grid": grid,
             **known,
             "seconds": seconds + seconds_verdict,
             "remaining": verdict.remaining,
@@ -162,4 +155,4 @@ def replace_states(measured, simulated):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

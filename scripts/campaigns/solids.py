@@ -1,13 +1,18 @@
-"""Adhesion that remains at zero load on a layer or below a skin, simulated on one rough surface."""
+"""Adhesion that remains at zero load on a layer or below a skin, simulated on one rough surface.
+
+Heights are Gaussian. Lengths along the surface and thicknesses are over 1/q0, wave numbers over q0,
+heights and ranges over h_rms, energies and adhesion lengths over q0 h_rms^2, shares over the work
+of adhesion.
+"""
 
 from itertools import product
 
 import numpy as np
 
+from campaigns.measuring import OF_MODEL_SURFACE, main
 from common.conventions import Q0
 from common.job import start
 from common.model_surfaces import cell_size, make_heights
-from limits.measuring import write_rows
 from stickiness import surface
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.zero_load import share_at_zero_load
@@ -18,8 +23,28 @@ from stickiness.traction_laws import LAWS
 TOLERANCE = 3e-3  # of thin layers; the energy of a state is off by the square of it
 
 
-def main(job):
-    write_rows(job, measure)
+COLUMNS = OF_MODEL_SURFACE | {
+    "kind": "layer on a rigid base, film (layer on a film), thin (incompressible and bonded), skin",
+    "thickness": "of the layer or the skin",
+    "poisson": "Poisson's ratio of the layer, or below the skin",
+    "backing": "what the layer lies on",
+    "film_modulus_ratio": "Young's modulus of the film over the layer's",
+    "film_poisson": "Poisson's ratio of the film",
+    "film_thickness": "thickness of the film",
+    "skin_modulus_ratio": "Young's modulus of the skin over that below",
+    "skin_poisson": "Poisson's ratio of the skin",
+    "full_contact_energy": "elastic energy of full contact on the solid",
+    "half_space_energy": "the same on a half-space",
+    "rms_slope": "rms gradient",
+    "q1": "largest wave number",
+    "relative_compliance": "over that of a half-space",
+    "flow": "how far a layer is squeezed out rather than compressed, 0 to 1",
+    "energy_ratio": "work of adhesion over full_contact_energy",
+    "pixels_in_zone": "of the cohesive zone that sets the range, for that ratio on a half-space",
+    "adhesion_length": "work of adhesion over the modulus",
+    "range": "of the attraction",
+    "simulated": "share that remains in the deepest state of four starts",
+}
 
 
 def make_solid(setting):
@@ -38,7 +63,7 @@ def make_solid(setting):
     return Layer(thickness, poisson, film)
 
 
-def measure(setting, seed, campaign):
+def measure(setting, seed, shared):
     """Rows of all works of adhesion and ranges, with what theory needs to know of the surface."""
     heights = make_heights(setting, setting["points"], seed)
     length = cell_size(setting)
@@ -54,13 +79,13 @@ def measure(setting, seed, campaign):
         "relative_compliance": rough.relative_compliance,
         "flow": rough.flow,
     }
-    widths = campaign["pixels_in_zone"][setting["kind"]]
+    widths = shared["pixels_in_zone"][setting["kind"]]
     # As numbers of numpy, whose powers differ from Python's in the last bit.
-    for ratio, pixels in product(np.array(campaign["energies"]), widths):
+    for ratio, pixels in product(np.array(shared["energies"]), widths):
         adhesion_length = ratio * of_surface["full_contact_energy"]
         # Solids that are stiff to long waves would attract across the whole gap at such a zone.
         range_ = np.sqrt(pixels * pixel * ratio * of_surface["half_space_energy"])
-        law = LAWS[campaign["law"]](adhesion_length, range_)
+        law = LAWS[shared["law"]](adhesion_length, range_)
         yield {
             **of_surface,
             "energy_ratio": ratio,
@@ -72,4 +97,4 @@ def measure(setting, seed, campaign):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))

@@ -2,6 +2,8 @@
 
 What remains at zero load is simulated on the whole surface. Beside it stands what a user learns of
 its map, on which waves that an instrument does not resolve are filtered out and points are thinned.
+Lengths along the surface and thicknesses are over 1/q0, heights and ranges over h_rms, energies and
+adhesion lengths over q0 h_rms^2, shares over the work of adhesion.
 """
 
 import logging
@@ -9,12 +11,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from campaigns.larger import HEIGHT_UNIT, LENGTH_UNIT, LIMIT_TEXTS, WORK_OF_ADHESION
+from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.solids import TOLERANCE, make_solid
 from common.conventions import Q0
 from common.job import start
 from common.topographies import limit_band, make_set
-from limits.measure_larger import HEIGHT_UNIT, LENGTH_UNIT, WORK_OF_ADHESION
-from limits.measure_solids import TOLERANCE, make_solid
-from limits.measuring import write_rows
 from stickiness import surface
 from stickiness.entries.material import Material
 from stickiness.remaining.trial_states import DEFAULT_SHARE
@@ -28,24 +30,48 @@ LEAST_SHARE = 0.002  # that tells of a work of adhesion
 SHORTEST_SEEN = 4.0  # shortest wave that a map shows, in its own pixels
 
 
-def main(job):
-    write_rows(job, measure)
+COLUMNS = OF_TOPOGRAPHY | {
+    "stride": "the map has every so many-th point, and no waves shorter than four of its pixels",
+    "solid": "as in the configuration of the campaign",
+    "thickness": "of the layer or the skin",
+    "poisson": "Poisson's ratio of the layer, or below the skin",
+    "backing": "what the layer lies on",
+    "skin_modulus_ratio": "Young's modulus of the skin over that below",
+    "skin_poisson": "Poisson's ratio of the skin",
+    "energy_ratio": "work of adhesion over full_contact_energy",
+    "pixels_in_zone": "of the cohesive zone that sets the range, for that ratio on a half-space",
+    "adhesion_length": "work of adhesion over the modulus",
+    "range": "of the attraction",
+    "full_contact_energy": "elastic energy of full contact of the surface on the solid",
+    "half_space_energy": "the same on a half-space",
+    "map_full_contact_energy": "elastic energy of full contact of the map on the solid",
+    "map_half_space_energy": "the same on a half-space",
+    "simulated": "share that remains on the surface in the deepest state of all starts",
+    "is_judged": "0 where a map has no verdict",
+    "is_simulated": "1 where states simulated on the map decide",
+    "unresolved": "share of the energy in waves that the map lacks, as drawn",
+    **{
+        limit: f"{text} of ln of the adhesion length that keeps the simulated share, by a verdict "
+        "on the map with the end of the waves told, without the error of skins on maps"
+        for limit, text in LIMIT_TEXTS.items()
+    },
+}
 
 
-def measure(setting, seed, campaign):
+def measure(setting, seed, shared):
     """Rows of all solids and works of adhesion, simulated and predicted from the map."""
     heights = make_set(setting, seed)
     length = find_side(setting)
     pixel = length / setting["points"]
     spectrum = surface.realised_spectrum(heights, length)
-    shown, _ = scan(heights, setting)
+    shown = scan(heights, setting)
     of_map = surface.realised_spectrum(shown, length)
     judged = Surface.from_heights(
         shown * HEIGHT_UNIT,
         length * LENGTH_UNIT,
         extend_to=setting["shortest"] * pixel * LENGTH_UNIT,
     )
-    for name, entry in campaign["solids"].items():
+    for name, entry in shared["solids"].items():
         solid = make_solid(entry)
         energies = {
             "full_contact_energy": spectrum.elastic_energy(solid),
@@ -58,7 +84,7 @@ def measure(setting, seed, campaign):
             adhesion_length = ratio * energies["full_contact_energy"]
             # As on a half-space: the solids would have a range of many heights.
             range_ = float(np.sqrt(zone * ratio * energies["half_space_energy"]))
-            law = LAWS[campaign["law"]](adhesion_length, range_)
+            law = LAWS[shared["law"]](adhesion_length, range_)
             share = simulate(heights, length, law, solid)
             yield {
                 "solid": name,
@@ -119,19 +145,14 @@ def make_material(entry, law):
     )
 
 
-def find_side(setting):
-    """Side of the surface of a set, and of its map."""
-    return setting["waves"] * 2 * np.pi / Q0
-
-
 def scan(heights, setting):
-    """Heights of the map that an instrument shows of a surface, and their side.
+    """Heights of the map that an instrument shows of a surface.
 
     The map has every so many-th point, the `stride` of the set. Waves shorter than four of its
     pixels are filtered out before, sharply.
     """
     points = len(heights) // setting["stride"]
-    return limit_band(heights, points, points / SHORTEST_SEEN), find_side(setting)
+    return limit_band(heights, points, points / SHORTEST_SEEN)
 
 
 def simulate(heights, length, law, solid):
@@ -144,4 +165,4 @@ def simulate(heights, length, law, solid):
 
 
 if __name__ == "__main__":
-    main(start(globals()))
+    main(globals(), start(globals()))
