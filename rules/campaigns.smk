@@ -65,11 +65,12 @@ rule measure:
     params:
         setting=setting_of,
         shared=shared_by_sets,
-        code=lambda wildcards: source_hash(f"campaigns/{wildcards.campaign}.py"),
+        code=source_hash("campaigns/measure.py"),
+        code_of_campaign=lambda wildcards: source_hash(f"campaigns/{wildcards.campaign}.py"),
     message:
         "Simulate {wildcards.campaign}: {wildcards.set}, seed {wildcards.seed}"
     script:
-        "../scripts/campaigns/{wildcards.campaign}.py"
+        "../scripts/campaigns/measure.py"
 
 
 def measured_files(wildcards):

@@ -11,8 +11,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from campaigns.measuring import OF_SET, SEED, main
-from common.job import start
+from campaigns.columns import OF_SET, SEED
 from stickiness import adhesive, surface
 from stickiness.spectrum import SelfAffine
 from stickiness.traction_laws import LAWS, TractionLaw, find_strength
@@ -141,7 +140,3 @@ def pull_off_force(shape: NDArray, side: float, law: TractionLaw) -> float:
             if state.repulsive_area_fraction == 0 and force < GONE * jkr:
                 return best
     return np.nan
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -11,11 +11,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from campaigns.columns import OF_TOPOGRAPHY, find_side
 from campaigns.larger import HEIGHT_UNIT, LENGTH_UNIT, LIMIT_TEXTS, WORK_OF_ADHESION
-from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
 from campaigns.solids import TOLERANCE, make_solid
 from common.conventions import Q0
-from common.job import start
 from common.topographies import limit_band, make_set
 from stickiness import surface
 from stickiness.entries.material import Material
@@ -162,7 +161,3 @@ def simulate(heights, length, law, solid):
     except ValueError as error:
         logging.info("%s: %s", law, error)
         return np.nan
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -12,10 +12,9 @@ import numpy as np
 from scipy import stats
 from scipy.special import erfinv
 
-from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.columns import OF_TOPOGRAPHY, find_side
 from common.clock import time_task
 from common.conventions import Q0
-from common.job import start
 from common.topographies import make_set
 from stickiness import repulsive, surface
 from stickiness.remaining.height_shape import find_height_shape
@@ -140,7 +139,3 @@ def predict(models, law):
         if name == "theory":
             row["seconds_theory"] = seconds
     return row
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

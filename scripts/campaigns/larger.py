@@ -11,11 +11,10 @@ from itertools import product
 import numpy as np
 from scipy import stats
 
-from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.columns import OF_TOPOGRAPHY, find_side
 from campaigns.patches import cut, measure_whole
 from campaigns.trial_thresholds import SHARES, describe_thresholds
 from common.conventions import Q0
-from common.job import start
 from common.topographies import make_set
 from stickiness.entries.material import Material
 from stickiness.verdicts.judgement import judge
@@ -125,7 +124,3 @@ def judge_threshold(surface, log_length, name, range_):
         f"{limit}_{name}": float(np.log(WORK_OF_ADHESION / (modulus * unit)))
         for limit, modulus in moduli.items()
     }
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 from scipy import fft, stats
 
-from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.columns import OF_TOPOGRAPHY, find_side
 from campaigns.trial_thresholds import (
     SHARES,
     describe_thresholds,
@@ -18,7 +18,6 @@ from campaigns.trial_thresholds import (
     share_on,
 )
 from common.conventions import Q0
-from common.job import start
 from common.topographies import make_set
 from stickiness.measured.levelling import detrend
 from stickiness.remaining.height_simulation import find_trial_states
@@ -125,7 +124,3 @@ def find_autocorrelation(heights):
     """Autocorrelation of periodic heights, 1 at no shift."""
     power = np.abs(fft.fft2(heights - heights.mean())) ** 2
     return fft.ifft2(power).real * power.size / power.sum()
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -8,10 +8,9 @@ import logging
 
 import numpy as np
 
-from campaigns.measuring import find_side, main
+from campaigns.columns import find_side
 from campaigns.ranges import OF_REFINED, at_work, refine
 from common.conventions import Q0
-from common.job import start
 from common.topographies import make_set
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
 from stickiness.remaining.measurement import measure as follow_path
@@ -77,7 +76,3 @@ def part(heights, length, law, shared):
         logging.info("%s: %s", law, error)
         return np.nan, np.nan
     return found.bound, found.pull_off
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -6,8 +6,7 @@ energies and adhesion lengths over q0 h_rms^2, shares over the work of adhesion.
 
 import numpy as np
 
-from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
-from common.job import start
+from campaigns.columns import OF_TOPOGRAPHY, find_side
 from common.topographies import make_set
 from stickiness import surface
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
@@ -87,7 +86,3 @@ def choose_works(states, shares, most):
     )
     chosen = np.unique(np.rint(np.linspace(0, log_works.size - 1, most)).astype(int))
     return [(float(np.exp(log_works[i])), int(i % 2)) for i in chosen]
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -10,9 +10,8 @@ from itertools import product
 
 import numpy as np
 
-from campaigns.measuring import OF_MODEL_SURFACE, main
+from campaigns.columns import OF_MODEL_SURFACE
 from common.conventions import Q0
-from common.job import start
 from common.model_surfaces import cell_size, make_heights
 from stickiness import surface
 from stickiness.plausibility import PlausibilityWarning
@@ -110,7 +109,3 @@ def follow(heights, length, law, squeeze, half_grid):
         low, high = getattr(measured, f"{name}_limits")
         found[f"{name}_grid_error"] = (high - low) / 2
     return found
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -9,9 +9,8 @@ from itertools import product
 
 import numpy as np
 
-from campaigns.measuring import OF_MODEL_SURFACE, main
+from campaigns.columns import OF_MODEL_SURFACE
 from common.conventions import Q0
-from common.job import start
 from common.model_surfaces import cell_size, make_heights
 from stickiness import surface
 from stickiness.remaining.roughness import Roughness
@@ -94,7 +93,3 @@ def measure(setting, seed, shared):
             "range": range_,
             "simulated": share_at_zero_load(heights, length, law, solid=solid, tol=TOLERANCE),
         }
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

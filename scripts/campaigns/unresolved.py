@@ -5,9 +5,8 @@ Heights and ranges are over h_rms, energies and adhesion lengths over q0 h_rms^2
 
 import numpy as np
 
-from campaigns.measuring import OF_TOPOGRAPHY, find_side, main
+from campaigns.columns import OF_TOPOGRAPHY, find_side
 from campaigns.trial_thresholds import describe_thresholds, find_log_thresholds, name_columns
-from common.job import start
 from common.topographies import make_set
 from stickiness.remaining.height_simulation import find_trial_states
 
@@ -40,7 +39,3 @@ def measure(setting, seed, shared):
                 **name_columns("full", find_log_thresholds(full, range_)),
                 **name_columns("thinned", at_full_energy),
             }
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -12,9 +12,8 @@ from dataclasses import replace
 import numpy as np
 
 import stickiness
-from campaigns.measuring import OF_TOPOGRAPHY, main
+from campaigns.columns import OF_TOPOGRAPHY
 from common.clock import time_task
-from common.job import start
 from common.topographies import make_set
 from stickiness import surface
 from stickiness.plausibility import PlausibilityWarning
@@ -152,7 +151,3 @@ def replace_states(measured, simulated):
     states = tabulate_simulated(simulated)
     others = measured.data.drop_vars(list(states.data_vars))
     return stickiness.Surface(others.merge(states))
-
-
-if __name__ == "__main__":
-    main(globals(), start(globals()))

@@ -1,6 +1,6 @@
 """Rows of a campaign on their way to a table, and one seed of each measured again."""
 
-import importlib
+from importlib import import_module
 from itertools import islice
 from types import SimpleNamespace
 
@@ -10,7 +10,7 @@ import pytest
 from helpers.campaigns import CAMPAIGNS, read
 from helpers.jobs import make_job
 
-from campaigns import heights, measuring, tabulate
+from campaigns import heights, measure, tabulate
 from common import committed, heights_table, remaining_table
 
 COLUMNS = {
@@ -22,7 +22,7 @@ COLUMNS = {
 }
 
 
-def measure(setting, seed, shared):
+def measure_lengths(setting, seed, shared):
     """Two rows, of which the second one lacks a word."""
     yield {"length": shared["factor"] * setting["number"] * seed, "word": "long"}
     yield {"length": np.nan}
@@ -32,12 +32,14 @@ def measure(setting, seed, shared):
 def path(tmp_path):
     """Table of two sets."""
     files = []
-    names = {"__doc__": "Lengths.\n\nOf two sets.\n", "COLUMNS": COLUMNS, "measure": measure}
+    lengths = SimpleNamespace(
+        __doc__="Lengths.\n\nOf two sets.\n", COLUMNS=COLUMNS, measure=measure_lengths
+    )
     for name, number in (("one", 1.5), ("two", 2.0)):
         files.append(tmp_path / name / "seed3.nc")
         params = {"setting": {"role": "unseen", "number": number}, "shared": {"factor": 2}}
         wildcards = {"campaign": "lengths", "set": name, "seed": "3"}
-        measuring.main(names, make_job(files[-1], params, wildcards))
+        measure.measure(make_job(files[-1], params, wildcards), lengths)
     table = tmp_path / "lengths.csv"
     params = SimpleNamespace(target="lengths_measured")
     tabulate.main(SimpleNamespace(input=files, output=[table], params=params))
@@ -105,13 +107,13 @@ SLOW = ("patches", "larger", "coated", "heights")
 )
 def test_one_seed_is_that_of_the_committed_table(name):
     chosen, count = SMALL[name]
-    module = importlib.import_module(f"campaigns.{name}")
+    module = import_module(f"campaigns.{name}")
     campaign = CAMPAIGNS[name]
     setting = campaign["sets"][chosen]
     seed = setting["seeds"][0]
     rows = list(islice(module.measure(setting, seed, campaign), count))
     of_set = {**setting, "set": chosen, "seed": seed}
-    made = measuring.make_dataset(rows, of_set, module.COLUMNS, module.__doc__).to_dataframe()
+    made = measure.make_dataset(rows, of_set, module).to_dataframe()
     table = read(name)
     known = table[(table["set"] == chosen) & (table.seed == seed)].head(count)
     for column in module.COLUMNS:
