@@ -20,7 +20,7 @@ def find_project():
         sys.exit(f"{rules_folder}: give the Snakefile as a path, or use a newer Snakemake")
     git = ["git", "-C", str(clone)]
     ref = f"{rules_folder.ref}^{{commit}}"
-    commit = subprocess.check_output([*git, "rev-parse", ref], text=True).strip()
+    commit = subprocess.check_output([*git, "rev-parse", ref], encoding="utf-8").strip()
     copy = Path(f"{clone}-{commit}")
     if not copy.exists():
         with tempfile.TemporaryDirectory(dir=copy.parent) as folder:

@@ -10,7 +10,10 @@ from stickiness.accuracy.model_choice import COLUMNS
 
 
 def main(job):
-    with datasets.whole_file(job.output[0]) as temporary, temporary.open("w", newline="") as file:
+    with (
+        datasets.whole_file(job.output[0]) as temporary,
+        temporary.open("w", newline="", encoding="utf-8") as file,
+    ):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
         for path in job.input.adhesive:

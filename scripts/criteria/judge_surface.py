@@ -43,7 +43,8 @@ def write_contact_laws(verdicts, label, output):
         laws.append({"material": cell.material_label.item()} | StickinessVerdict(cell).to_dict())
     contents = {"version": __version__, "surface": label, "pairs": laws}
     with datasets.whole_file(output) as path:
-        path.write_text(json.dumps(contents, indent=1, ensure_ascii=False, allow_nan=False))
+        text = json.dumps(contents, indent=1, ensure_ascii=False, allow_nan=False)
+        path.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import signal
 import traceback
 import warnings
 from collections import Counter
+from contextlib import contextmanager
 from itertools import product
 from pathlib import Path
 
@@ -74,17 +75,29 @@ RESULTS = {
 }
 
 
-def expire(*_):
-    """Stop a point that takes too long."""
-    raise TimeoutError(f"took more than {TIME_LIMIT:g} s")
+@contextmanager
+def stopped_after(seconds):
+    """Stop what takes more processor time, on systems that have a timer for it: not on Windows."""
+
+    def expire(*_):
+        raise TimeoutError(f"took more than {seconds:g} s")
+
+    if not hasattr(signal, "setitimer"):
+        yield
+        return
+    before = signal.signal(signal.SIGPROF, expire)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def probe_point(probe, **point):
     """Outcome of one point, its largest error over the tolerance, and a message or a check."""
-    before = signal.signal(signal.SIGPROF, expire)
-    signal.setitimer(signal.ITIMER_PROF, TIME_LIMIT)
     try:
-        with warnings.catch_warnings():
+        with stopped_after(TIME_LIMIT), warnings.catch_warnings():
             warnings.simplefilter("error")
             warnings.simplefilter("ignore", PlausibilityWarning)  # coarse grids are the point
             names, excess = zip(*probe(**point), strict=True)
@@ -95,9 +108,6 @@ def probe_point(probe, **point):
         in_library = Path(last.filename).is_relative_to(Path(stickiness.__file__).parent)
         outcome = REFUSED if isinstance(error, ValueError) and in_library else FAILED
         return outcome, np.nan, f"{type(error).__name__}: {error}"
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
-        signal.signal(signal.SIGPROF, before)
     # A NaN must not hide behind a comparison that is false.
     excess = np.where(np.isfinite(excess), excess, np.inf)
     worst = int(np.argmax(excess))

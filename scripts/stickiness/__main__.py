@@ -1,7 +1,6 @@
 """Say whether a material sticks to a measured surface, and make a page with the reasons."""
 
 import argparse
-import fcntl
 import json
 import logging
 import os
@@ -19,12 +18,14 @@ from pathlib import Path
 from typing import Any, NoReturn, TextIO
 
 from stickiness import __version__
-from stickiness.formatting import printable
+from stickiness.formatting import printable, relative_path
 
 SURFACE = "surface"  #: name of the one that is judged, in files
 TEXTS = tomllib.loads(Path(__file__).with_name("command.toml").read_text(encoding="utf-8"))
 #: Options by the keys of the configuration, for which they stand.
 SIDES = ("length", "pixel_size")  #: keys of one value or two
+#: Names that Windows keeps for devices.
+DEVICES = re.compile(r"con|prn|aux|nul|(com|lpt)[0-9¹²³]", re.IGNORECASE)
 OPTIONS = {key: option for group in ("material", "surface") for key, option in TEXTS[group].items()}
 
 
@@ -287,7 +288,7 @@ def analyse(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     from stickiness import Surface, entries
 
     # Texts name the file, and should not tell of the machine.
-    file = os.path.relpath(options.file) if options.file.is_absolute() else options.file
+    file = relative_path(options.file, Path()) if options.file.is_absolute() else options.file
     described = {
         "label": name_page(options.file),
         "source": printable(options.file.name),
@@ -366,7 +367,7 @@ def make_page(
     # The first deep material is pulled off, or else the first.
     pulled = min(materials.values(), key=lambda material: material.solid != HALF_SPACE)
     picture = picture_contact(surface, pulled)
-    source = os.path.relpath(options.file.resolve(), options.output.resolve())
+    source = relative_path(options.file.resolve(), options.output.resolve())
     parameters = without_texts(entry) | {"file": source}
     contents = {
         "surface": surface.data,
@@ -374,64 +375,59 @@ def make_page(
         "contact": picture.contact,
         "pull_off": picture.pull_off,
     }
-    with hold_folder(options.output):
-        try:
-            name = find_name(options.output, name_page(options.file), source)
-            files = {each: options.output / name / f"{each}.nc" for each in contents}
-            for each, path in files.items():
-                title = f"{each.replace('_', ' ')} of {name}"
-                datasets.write(contents[each], path, title=title, parameters=parameters)
-            page = options.output / f"{name}.html"
-            write_surface_page(
-                page,
-                entry=entry,
-                surface=surface.data,
-                verdicts=verdicts,
-                picture=picture,
-                files=files,
-            )
-        except OSError as error:
-            fail(f"no page: --output {options.output}: {error}")
+    name = claim_name(options.output, name_page(options.file), source)
+    try:
+        files = {each: options.output / name / f"{each}.nc" for each in contents}
+        for each, path in files.items():
+            title = f"{each.replace('_', ' ')} of {name}"
+            datasets.write(contents[each], path, title=title, parameters=parameters)
+        page = options.output / f"{name}.html"
+        write_surface_page(
+            page,
+            entry=entry,
+            surface=surface.data,
+            verdicts=verdicts,
+            picture=picture,
+            files=files,
+        )
+    except OSError as error:
+        with suppress(OSError):
+            (options.output / name).rmdir()  # where nothing could be written
+        fail(f"no page: --output {options.output}: {error}")
     return page
 
 
 def name_page(file: Path) -> str:
-    """Return the name of a file without its ending, unless that is a number, as of scan.001."""
-    return printable(file.name if file.suffix[1:].isdigit() else file.stem)
+    """Return the name of a file without its ending, unless that is a number, as of scan.001.
+
+    Windows keeps some names for devices: these get a line below.
+    """
+    name = printable(file.name if file.suffix[1:].isdigit() else file.stem)
+    return f"{name}_" if DEVICES.fullmatch(name.split(".")[0].rstrip()) else name
 
 
-def find_name(folder: Path, stem: str, source: str) -> str:
+def claim_name(folder: Path, stem: str, source: str) -> str:
     """Return the name of a page: that of the file, with a number if another file has it.
 
-    `source` is the path of the file from the folder, which the data of a page record.
+    `source` is the path of the file from the folder, which the data of a page record. The folder
+    of a new name is made at once, so that no other run takes the same.
     """
     from stickiness import datasets
 
     for number in count(1):
         name = stem if number == 1 else f"{stem}-{number}"
-        if not (folder / name).exists() and not (folder / f"{name}.html").exists():
-            return name
+        try:
+            if not (folder / f"{name}.html").exists():
+                with suppress(FileExistsError):
+                    (folder / name).mkdir(parents=True)
+                    return name
+        except OSError as error:
+            fail(f"--output {folder} cannot be written ({error.strerror}); give another folder")
         with suppress(datasets.DatasetError):
             data = datasets.read(folder / name / "surface.nc")
             if datasets.parameters(data).get("file") == source:
                 return name
     raise AssertionError("numbers do not end")
-
-
-@contextmanager
-def hold_folder(folder: Path) -> Iterator[None]:
-    """Let one run of the command at a time write to a folder, where the file system has locks."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        descriptor = os.open(folder, os.O_RDONLY)
-    except OSError as error:
-        fail(f"--output {folder} cannot be written ({error.strerror}); give another folder")
-    try:
-        with suppress(OSError):
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(descriptor)
 
 
 def check_output(folder: Path) -> None:

@@ -1,8 +1,10 @@
 """Numbers as text for readers: rounded to what is known, with powers of ten and SI prefixes."""
 
 import math
+import os
 import re
 from collections.abc import Callable, Sequence
+from pathlib import Path
 
 NOTHING = "–"
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -20,6 +22,14 @@ Write = Callable[[Sequence[float]], tuple[list[str], str]]  # texts of values, a
 def printable(text: str) -> str:
     """Text without what terminals obey instead of showing it."""
     return _UNPRINTABLE.sub("", text)
+
+
+def relative_path(path: Path, folder: Path) -> str:
+    """Path from a folder; on another drive, where there is none, the whole path."""
+    try:
+        return os.path.relpath(path, folder)
+    except ValueError:
+        return str(path.absolute())
 
 
 def number(value: float, digits: int = 3) -> str:

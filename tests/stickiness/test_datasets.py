@@ -1,6 +1,5 @@
 """NetCDF between stages: whole or not at all, checked when read."""
 
-import resource
 
 import numpy as np
 import pytest
@@ -89,6 +88,7 @@ def test_a_full_disk_leaves_the_old_file_and_says_so(dataset, tmp_path):
     larger = xr.Dataset({"height": (("x", "y"), np.random.default_rng(1).normal(size=(200, 200)))})
     datasets.annotate(larger, height=("1", "height"))
     message = r"file\.nc: could not be written .*make room and run the same command again"
+    resource = pytest.importorskip("resource")
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, hard))  # refuses what goes beyond
     try:

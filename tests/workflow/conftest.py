@@ -1,6 +1,5 @@
 """The workflow in a folder, driven through its command line, and one complete run at tiny size."""
 
-import fcntl
 import json
 import os
 import subprocess
@@ -11,6 +10,7 @@ import pytest
 from helpers import served
 from helpers.copy_workflow import ROOT, copy_code, copy_workflow
 from helpers.dry_runs import dry_run, jobs, outputs
+from helpers.windows import AS_ON_WINDOWS
 
 TINY = ["--configfile", "config/config.yaml", "config/tiny.yaml"]
 
@@ -38,9 +38,10 @@ class Workflow:
             **options,
         )
 
-    def snakemake(self, *arguments):
+    def snakemake(self, *arguments, **environment):
         """Run to the end."""
-        return served.run("snakemake", self.folder, "-j2", *arguments, *TINY, together=True)
+        words = ["-j2", *arguments, *TINY]
+        return served.run("snakemake", self.folder, *words, together=True, **environment)
 
     def python(self, *words):
         """Run Python with the modules of this project."""
@@ -84,7 +85,12 @@ def fresh(tmp_path):
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory):
-    """The workflow after a complete run, one for all processes of tests; not to be changed."""
+    """The workflow after a complete run, one for all processes of tests; not to be changed.
+
+    Its scripts run as on Windows, without modules of POSIX or an encoding of the locale.
+    """
+    import fcntl  # here, so that other tests are found where there is none
+
     base = tmp_path_factory.getbasetemp()
     shared = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "finished"
     with shared.with_suffix(".lock").open("w") as lock:
@@ -93,7 +99,7 @@ def finished(tmp_path_factory):
         if not said.exists():
             shared.mkdir()
             copy_workflow(shared)
-            run = workflow.snakemake()
+            run = workflow.snakemake(**AS_ON_WINDOWS)
             said.write_text(json.dumps([run.returncode, run.stdout]), encoding="utf-8")
     code, stdout = json.loads(said.read_text(encoding="utf-8"))
     assert code == 0, stdout

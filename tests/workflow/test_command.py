@@ -1,11 +1,10 @@
 """``python -m stickiness``: from a file of heights to a verdict and a page, or to an error."""
 
 import errno
-import fcntl
 import json
+import ntpath
 import os
 import re
-import resource
 import shlex
 import shutil
 import subprocess
@@ -20,10 +19,12 @@ import xarray as xr
 from helpers import served
 from helpers.copy_workflow import ROOT
 from helpers.pages import Page
+from helpers.windows import AS_ON_WINDOWS
 
 import stickiness
 from stickiness import datasets
-from stickiness.__main__ import name_page
+from stickiness.__main__ import claim_name, name_page
+from stickiness.formatting import relative_path
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.verdict import StickinessVerdict
 
@@ -152,6 +153,8 @@ def test_several_materials_are_a_list_with_their_names(folder):
 
 def processor_time(command):
     """Processor time [s] of a command in a process of its own."""
+    import resource
+
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     command()
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -344,18 +347,42 @@ def test_the_help_fits_a_hundred_columns_and_its_values_have_units(folder):
     assert all(re.match(r"[\d.]+ [a-zA-Z]", value) for value in values)
 
 
-def test_a_page_waits_for_another_in_the_folder_and_needs_no_cache(folder, tmp_path):
-    output = tmp_path / "page"
-    output.mkdir()
-    arguments = ["wall#2.npy", "--tape", "tape.yaml", *SIZE, "--output", output]
-    other = os.open(output, os.O_RDONLY)
-    fcntl.flock(other, fcntl.LOCK_EX)
-    with pytest.raises(subprocess.TimeoutExpired):
-        run_alone(folder, *arguments, timeout=STARTS / 2)
-    assert os.listdir(output) == []
-    os.close(other)
+def test_a_page_needs_no_cache(folder, tmp_path):
+    arguments = ["wall#2.npy", "--tape", "tape.yaml", *SIZE, "--output", tmp_path]
     answer = run_alone(folder, *arguments, **dict.fromkeys(CACHES, "/proc/nowhere"))
     assert (answer.status, answer.errors) == (0, [])
+
+
+@pytest.mark.parametrize("encoding", ["cp437", "cp1252", "gbk"])
+def test_the_command_runs_as_on_windows(folder, tmp_path, encoding):
+    """Without modules of POSIX, in terminals of other encodings, in a folder of any name."""
+    output = tmp_path / "größer 厚"
+    arguments = ["wall#2.npy", "--tape", "tape.yaml", *SIZE, "--output", output]
+    command = [sys.executable, "-m", "stickiness", *map(str, arguments)]
+    environment = os.environ | AS_ON_WINDOWS | {"PYTHONIOENCODING": encoding}
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True)
+    assert done.returncode == 0, done.stderr
+    assert "sticks" in done.stdout.decode(encoding)
+    assert sorted(os.listdir(output)) == ["wall#2", "wall#2.html"]
+
+
+def test_pages_of_two_files_at_once_keep_apart(tmp_path):
+    """Whoever comes first has the name, and the same file gets its own page again."""
+    names = [claim_name(tmp_path, "wall", f"{folder}/wall.txt") for folder in "ab"]
+    assert names == ["wall", "wall-2"]
+    assert sorted(os.listdir(tmp_path)) == ["wall", "wall-2"]
+
+
+@pytest.mark.parametrize(
+    ("file", "name"), [("aux.txt", "aux_"), ("COM1.x.csv", "COM1.x_"), ("console.txt", "console")]
+)
+def test_names_of_devices_are_no_names_of_pages(file, name):
+    assert name_page(Path(file)) == name
+
+
+def test_what_lies_on_another_drive_has_its_whole_path(monkeypatch):
+    monkeypatch.setattr(os.path, "relpath", lambda *_: ntpath.relpath("D:\\a\\b", "C:\\c"))
+    assert relative_path(Path("/a/b"), Path("/c")) == "/a/b"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a file that is always full")

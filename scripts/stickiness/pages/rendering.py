@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import os
 import re
 import struct
 from collections.abc import Iterable
@@ -50,7 +49,8 @@ def make_environment(folder: str | Path, page: str | Path = "page") -> jinja2.En
     """Environment for the templates in a folder; links are relative to the folder of `page`."""
 
     def href(target: str | Path) -> str:
-        return quote(Path(os.path.relpath(target, Path(page).parent)).as_posix())
+        path = Path(formatting.relative_path(Path(target), Path(page).parent))
+        return path.as_uri() if path.is_absolute() else quote(path.as_posix())
 
     def limited(numbers: Iterable[float], unit: str) -> str:
         value, low, high = map(float, numbers)
