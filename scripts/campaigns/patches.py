@@ -7,7 +7,7 @@ over h_rms, energies and adhesion lengths over q0 h_rms^2, shares over the work 
 from itertools import product
 
 import numpy as np
-from scipy import fft, stats
+from scipy import stats
 
 from campaigns.columns import OF_TOPOGRAPHY, find_side
 from campaigns.trial_thresholds import (
@@ -20,6 +20,7 @@ from campaigns.trial_thresholds import (
 from common.conventions import Q0
 from common.topographies import make_set
 from stickiness.measured.levelling import detrend
+from stickiness.measured.psd import autocorrelation
 from stickiness.remaining.height_simulation import find_trial_states
 from stickiness.remaining.standard_heights import standardise
 
@@ -98,7 +99,7 @@ def measure_patch(patch, side, whole_thresholds, range_):
         )
         for part in (standard.whole, *standard.quarters)
     ]
-    autocorrelation = find_autocorrelation(standard.whole.heights)
+    correlation = autocorrelation(standard.whole.heights)
     thresholds = [find_log_thresholds(part, range_) for part in states]
     shares = {
         ending: share_on(states[0], log_length, range_)
@@ -108,8 +109,8 @@ def measure_patch(patch, side, whole_thresholds, range_):
         "h_rms": patch.std(),
         "skewness": stats.skew(patch, axis=None),
         "kurtosis": stats.kurtosis(patch, axis=None, fisher=False),
-        "independent_areas": 1 / np.mean(autocorrelation**2),
-        "mean_cube": np.mean(autocorrelation**3),
+        "independent_areas": 1 / np.mean(correlation**2),
+        "mean_cube": np.mean(correlation**3),
         "full_contact_energy": states[0].full_contact_energy,
         **name_columns("threshold", thresholds[0]),
         **name_columns("share", shares),
@@ -118,9 +119,3 @@ def measure_patch(patch, side, whole_thresholds, range_):
             for number, ending in product(range(1, 5), OF_QUARTERS)
         },
     }
-
-
-def find_autocorrelation(heights):
-    """Autocorrelation of periodic heights, 1 at no shift."""
-    power = np.abs(fft.fft2(heights - heights.mean())) ** 2
-    return fft.ifft2(power).real * power.size / power.sum()

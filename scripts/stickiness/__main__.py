@@ -83,6 +83,8 @@ def answer() -> None:
     balls = find_balls(surface, materials, radius)
     print_verdicts(verdicts, balls, as_json=options.json)
     if not options.json:
+        for steps in surface.steps:
+            say(f"Done to the heights of {steps}")
         for choice in surface.choices:
             source, others = choice.split(" | ")
             say(f"This is {source}; the file also holds {others} (--channel, --variable)")

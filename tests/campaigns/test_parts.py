@@ -71,13 +71,6 @@ def test_patches_stand_side_by_side(count, bumps):
         assert tile.mean() == pytest.approx(0, abs=1e-12)
 
 
-def test_autocorrelation_of_waves():
-    """One wave along a side: cos at every shift, whose square is a half and cube vanishes."""
-    wave = np.cos(2 * np.pi * np.arange(32) / 32)[:, None] + np.zeros(32)
-    autocorrelation = patches.find_autocorrelation(3 * wave + 1)
-    np.testing.assert_allclose(autocorrelation, wave, atol=1e-12)
-
-
 def test_works_are_those_of_the_states_and_between():
     states = find_trial_states(make_set(COARSE, 5), 4 * np.pi, pull=False)
     works = ranges.choose_works(states, shares=[0.0, 1.0], most=1000)

@@ -1,6 +1,5 @@
 """NetCDF between stages: whole or not at all, checked when read."""
 
-
 import numpy as np
 import pytest
 import xarray as xr

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
 from stickiness.measured.psd import Taper
-from stickiness.measured.topography import Profile, Topography
+from stickiness.measured.topography import Profile, Step, Topography
 
 FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
@@ -60,10 +60,11 @@ class Measurement:
         if levelled.periodic:
             taper = "without a taper" if window == "none" else f"with the taper {window}"
             remark = (
-                f"{levelled.source}: the file says that the heights are periodic; they were "
-                f"analysed less their mean and {taper} (to change it, give detrend or window)"
+                "the file says that the heights are periodic; they were analysed less their mean "
+                f"and {taper} (to change it, give detrend or window)"
             )
-            levelled = replace(levelled, remarks=(*levelled.remarks, remark))
+            step = Step("take for periodic", parameters={"window": window}, remark=remark)
+            levelled = replace(levelled, processing=(*levelled.processing, step))
         return cls(
             heights=levelled,
             window=window,

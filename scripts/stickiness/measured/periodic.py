@@ -110,13 +110,9 @@ def band_limited(
     nyquist = np.pi * min(n / side for n, side in zip(heights.shape, sides, strict=True))
     if not 0 < q_max < nyquist * (1 + 1e-9):
         raise ValueError(f"q_max must be in 0 < q <= {nyquist:.6g} (Nyquist), got {q_max!r}")
-    modes = fft.fft2(heights) / heights.size
-    # Indices of the modes along both axes, and those of waves up to `q_max`.
-    i, j = (np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape)
-    qx = 2 * np.pi * i / sides[0]
-    qy = 2 * np.pi * j / sides[1]
-    modes[np.hypot(qx[:, None], qy) > q_max] = 0.0
+    modes = _modes_below(heights, sides, q_max) / heights.size
     # A grid that resolves these, and the modes at their places on it.
+    i, j = (np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape)
     quarters = [int(np.ceil(side * q_max / (2 * np.pi) * pixels / 4)) for side in sides]
     mx, my = (4 * fft.next_fast_len(quarter, real=True) for quarter in quarters)
     keep_x = np.flatnonzero(np.abs(i) < mx / 2)
@@ -124,6 +120,22 @@ def band_limited(
     fine = np.zeros((mx, my), dtype=complex)
     fine[np.ix_(i[keep_x] % mx, j[keep_y] % my)] = modes[np.ix_(keep_x, keep_y)]
     return fft.ifft2(fine).real * fine.size
+
+
+def filter_waves(heights: NDArray, sides: tuple[float, float], q_max: float) -> NDArray:
+    """Periodic heights (nx, ny) without waves beyond `q_max`, on the same grid."""
+    return fft.ifft2(_modes_below(heights, sides, q_max)).real
+
+
+def _modes_below(heights: NDArray, sides: tuple[float, float], q_max: float) -> NDArray:
+    """Fourier transform of periodic heights, zero beyond a wave number."""
+    modes = fft.fft2(heights)
+    qx, qy = (
+        2 * np.pi * np.rint(fft.fftfreq(n, 1 / n)) / side
+        for n, side in zip(heights.shape, sides, strict=True)
+    )
+    modes[np.hypot(qx[:, None], qy) > q_max] = 0.0
+    return modes
 
 
 def shells(heights: ArrayLike, sides: tuple[float, float]) -> Shells:

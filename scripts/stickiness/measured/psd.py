@@ -189,6 +189,12 @@ def _transform(heights: NDArray, w: NDArray, cell: float) -> _Transform:
     )
 
 
+def autocorrelation(field: ArrayLike) -> NDArray:
+    """Autocorrelation about zero of a field that is periodic along every axis, 1 at no shift."""
+    correlation = fft.ifftn(np.abs(fft.fftn(field)) ** 2).real
+    return correlation / correlation.flat[0]
+
+
 def radial_average(spectrum: Modes, bins_per_decade: float = 10) -> RadialPSD:
     """Average a spectrum over logarithmic rings of ``|q|``; of a profile, C1 over intervals."""
     bins_per_decade = number("bins_per_decade", bins_per_decade)

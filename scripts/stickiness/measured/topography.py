@@ -7,9 +7,9 @@ run along y; such a matrix is transposed on reading.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from pathlib import Path
-from typing import Self, get_args
+from typing import Any, Self, get_args
 
 import numpy as np
 import xarray as xr
@@ -25,7 +25,28 @@ from stickiness.measured.scanning import Scan
 Size = Length | Sequence[Length] | None
 _CHOICES = {"missing": Missing, "spikes": Spikes, "scan": Scan}
 _MARK = 1.70141e38  # as Surfer and others mark missing points, or more
+# Names of steps that are counted.
+DROP_RIMS = "drop points beside missing ones"
+MASK_SPIKES = "mask spikes"
+FILL = "fill missing points"
+LEVEL = "level"
+_EVEN = 1e-3  # of a step, by which gaps between points of a profile may differ
 _UNITS_OF_LENGTH = ("m", "cm", "mm", "um", "nm", "angstrom", "pm", "inch", "mil")
+
+
+@dataclass(frozen=True)
+class Step:
+    """Something that was done to heights between their file and their spectrum."""
+
+    name: str  #: what was done to what
+    points: int = 0  #: how many it filled, or took out
+    parameters: Mapping[str, Any] = field(default_factory=dict)  #: arguments that call for it
+    remark: str = ""  #: what was found and done, if the caller did not ask for it
+
+    def __str__(self) -> str:
+        chosen = ", ".join(f"{key}: {value}" for key, value in self.parameters.items())
+        many = f"{self.points} point{'' if self.points == 1 else 's'}" if self.points else ""
+        return ", ".join(filter(None, (f"{self.name} ({chosen})" if chosen else self.name, many)))
 
 
 @dataclass(frozen=True)
@@ -35,17 +56,12 @@ class _Heights:
     heights: NDArray
     dx: float
     _: KW_ONLY
-    missing: int = 0  #: number of points that were missing and have been interpolated
-    cropped: float = 0.0  #: share of the measured points that was cut off to leave no missing ones
-    dropped: int = 0  #: number of points that were measured beside missing ones and not used
-    spikes: int = 0  #: number of points far off their neighbours, not used
+    processing: tuple[Step, ...] = ()  #: what was done to the heights, in order
     as_read: NDArray | None = None  #: heights [m] before anything was done to them
     unused: NDArray | None = None  #: whether a point that was read is masked, dropped or cut off
     doubts: tuple[str, ...] = ()  #: why no verdict should rest on the heights
     others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
     contradictions: tuple[str, ...] = ()  #: what the caller said otherwise than the file
-    remarks: tuple[str, ...] = ()  #: what was done to the heights that the caller did not ask for
-    trend: Detrend = "mean"  #: what was subtracted from the heights
     periodic: bool = False  #: whether the heights go on periodically, as the file says
 
     @property
@@ -54,9 +70,30 @@ class _Heights:
         return float(np.std(self.heights))
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """What was done to the heights that the caller did not ask for."""
+        source = self.source  # type: ignore[attr-defined]  # comes after dy in Topography
+        return tuple(f"{source}: {step.remark}" for step in self.processing if step.remark)
+
+    def count(self, name: str) -> int:
+        """Points that a step of `processing` filled or took out; 0 if it was not taken."""
+        return sum(step.points for step in self.processing if step.name == name)
+
+    def tell_steps(self) -> str:
+        """Steps that were taken, in a line; empty if the heights were levelled alone."""
+        source = self.source  # type: ignore[attr-defined]
+        is_told = any(step.name != LEVEL for step in self.processing)
+        return f"{source}: {'; '.join(map(str, self.processing))}" if is_told else ""
+
+    @property
     def missing_fraction(self) -> float:
-        """Share of the points that were missing."""
-        return self.missing / self.heights.size
+        """Share of the points that were missing or not used, and are interpolated."""
+        return self.count(FILL) / self.heights.size
+
+    @property
+    def cropped_fraction(self) -> float:
+        """Share of the measured points that was cut off to leave no missing ones."""
+        return 0.0 if self.as_read is None else 1 - self.heights.size / self.as_read.size
 
     @property
     def steps(self) -> tuple[float, ...]:
@@ -83,9 +120,10 @@ class _Heights:
 
     def h_rms_as_read(self) -> float:
         """Root mean square height with the points that were dropped or masked, levelled [m]."""
-        if self.as_read is None or not (self.dropped or self.spikes):
+        if self.as_read is None or not (self.count(DROP_RIMS) or self.count(MASK_SPIKES)):
             return self.h_rms
-        return levelling.rms_of_known(self.as_read, self.trend)
+        trends = [each.parameters["detrend"] for each in self.processing if each.name == LEVEL]
+        return levelling.rms_of_known(self.as_read, trends[-1] if trends else "mean")
 
     def detrended(self, kind: Detrend = "plane") -> Self:
         """Return the same measurement less its mean, plane (line) or quadratic trend.
@@ -93,22 +131,24 @@ class _Heights:
         "detect" chooses a plane, or a quadratic trend with a remark; see `levelling.find_form`. Of
         periodic heights it subtracts the mean alone, for less a plane they are periodic no more.
         """
-        remarks = self.remarks
+        remark = ""
         if kind == "detect":
             share = None if self.periodic else levelling.find_form(self.heights)
             kind = "mean" if self.periodic else "plane"
             if share is not None:
                 kind = "quadratic"
                 curvature = max(map(abs, levelling.find_curvatures(self.heights, self.steps)))
-                source = self.source  # type: ignore[attr-defined]  # comes after dy in Topography
-                remarks += (
-                    f"{source}: a curved form (radius {1 / curvature:.3g} m), which is "
-                    f"{100 * share:.3g} % of the variance of the heights, was subtracted; to keep "
-                    "it, give detrend: plane",
+                remark = (
+                    f"a curved form (radius {1 / curvature:.3g} m), which is {100 * share:.3g} % "
+                    "of the variance of the heights, was subtracted; to keep it, give detrend: "
+                    "plane"
                 )
         levelled = levelling.detrend(self.heights, kind)
         periodic = self.periodic and kind == "mean"
-        return replace(self, heights=levelled, trend=kind, remarks=remarks, periodic=periodic)
+        step = Step(LEVEL, parameters={"detrend": kind}, remark=remark)
+        return replace(
+            self, heights=levelled, processing=(*self.processing, step), periodic=periodic
+        )
 
 
 @dataclass(frozen=True)
@@ -272,13 +312,13 @@ def read(
         source=raw.source,
         scale=scale,
     )
-    remarks = tuple(f"{raw.source}: {remark}" for remark in raw.remarks)
+    reading = tuple(Step("read", remark=remark) for remark in raw.remarks)
     is_whole = measurement.heights.shape == heights.shape
     return replace(
         measurement,
         others=raw.others,
         contradictions=(*mark_notices, *unit_notices, *size_notices),
-        remarks=remarks + measurement.remarks,
+        processing=reading + measurement.processing,
         periodic=raw.periodic and is_whole,
     )
 
@@ -327,40 +367,50 @@ def from_array(
     >>> heights = 1e-6 * np.cos(0.1 * np.arange(32.0))[:, None] * np.ones(32)
     >>> heights[7, 5] = np.nan
     >>> wall = from_array(heights, steps=1e-6)
-    >>> wall.missing, wall.heights.shape
-    (1, (32, 32))
+    >>> [str(step) for step in wall.processing]
+    ['fill missing points (missing: fill), 1 point']
     """
     _check_options(max_missing, missing_rim, missing=missing, spikes=spikes, scan=scan)
-    heights, places, remarks = _arrange(heights, steps, source)
+    heights, places, done = _arrange(heights, steps, source)
 
-    # Spikes, scars and points beside missing ones are taken for missing.
+    # Points beside missing ones, scars and spikes are taken for missing.
     as_measured, dropped = levelling.without_rims(heights, missing_rim)
+    done.append(Step(DROP_RIMS, dropped, {"missing_rim": missing_rim}))
     mended = scanning.mend(as_measured, scan, scale)
-    is_scar = np.isnan(mended.heights) & ~np.isnan(as_measured)
+    done += [Step("mend the scan", 0, {"scan": scan}, remark) for remark in mended.remarks]
+    scarred = int(np.count_nonzero(np.isnan(mended.heights) & ~np.isnan(as_measured)))
     is_spike = np.zeros(heights.shape, dtype=bool)
     if spikes == "mask":
         is_spike = levelling.find_spikes(mended.heights)
+    masked = int(np.count_nonzero(is_spike))
+    done.append(Step(MASK_SPIKES, masked, {"spikes": spikes}))
     usable = np.where(is_spike, np.nan, mended.heights)
     unused = np.isnan(usable)
 
     # Missing points are cut off or filled.
-    kept = levelling.complete_rectangle(~unused, source) if missing == "crop" else ...
+    kept = (slice(None),) * heights.ndim
+    if missing == "crop":
+        kept = levelling.complete_rectangle(~unused, source)
     losses = {
         "points beside missing ones dropped": dropped,
-        "spikes masked": np.count_nonzero(is_spike),
-        "points of scars masked": np.count_nonzero(is_scar),
+        "spikes masked": masked,
+        "points of scars masked": scarred,
     }
     told = "".join(f", {count} {loss}" for loss, count in losses.items() if count)
     limit = 0.0 if missing == "refuse" else max_missing
     if heights.ndim == 1:
         places = places[kept]
     filled, missing_count = levelling.fill_missing(usable[kept], limit, source + told, places)
+    done.append(Step("cut off missing points", heights.size - filled.size, {"missing": missing}))
+    done.append(Step(FILL, missing_count, {"missing": missing}))
 
     # Heights of a profile are interpolated to even positions, and all are converted to metres.
     spacing = places
     largest_gap = 0.0
     if heights.ndim == 1:
         filled, spacing, largest_gap = _resample(filled, places, source)
+        if largest_gap > (1 + _EVEN) * spacing[0]:
+            done.append(Step("interpolate at even positions", filled.size))
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")
@@ -371,15 +421,11 @@ def from_array(
     doubts = [*mended.doubts, *doubt_values(known), *doubt_sizes(filled, spacing, are_whole)]
     is_cut_off = np.ones(heights.shape, dtype=bool)
     is_cut_off[kept] = False
-    record = {
-        "missing": missing_count,
-        "cropped": 1 - filled.size / heights.size,
-        "dropped": dropped,
-        "spikes": int(np.count_nonzero(is_spike)),
+    record: dict[str, Any] = {
+        "processing": tuple(step for step in done if step.points or step.remark),
         "as_read": heights * scale,
         "unused": (unused | is_cut_off) & np.isfinite(heights),
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),
-        "remarks": tuple(f"{source}: {remark}" for remark in (*remarks, *mended.remarks)),
     }
     if heights.ndim == 1:
         return Profile(filled, float(spacing[0]), source, largest_gap, **record)
@@ -388,8 +434,8 @@ def from_array(
 
 def _arrange(
     heights: ArrayLike, steps: ArrayLike, source: str
-) -> tuple[NDArray, NDArray, list[str]]:
-    """Heights in order, with the steps of a map or positions on a line, and remarks on copies."""
+) -> tuple[NDArray, NDArray, list[Step]]:
+    """Heights in order, with the steps of a map or positions on a line, and what was done."""
     known = with_gaps("heights", heights)
     if known.ndim not in (1, 2) or known.size == 0:
         raise ValueError(
@@ -401,26 +447,27 @@ def _arrange(
     return _keep_one_copy(known, spacing) if np.isfinite(known).any() else (known, spacing, [])
 
 
-def _keep_one_copy(heights: NDArray, steps: NDArray) -> tuple[NDArray, NDArray, list[str]]:
-    """Heights and steps of one tile, each point once, and remarks on what was left out.
+def _keep_one_copy(heights: NDArray, steps: NDArray) -> tuple[NDArray, NDArray, list[Step]]:
+    """Heights and steps of one tile, each point once, and what was done.
 
     Copies tell nothing more of the surface.
     """
-    remarks = []
+    done = []
     tile = levelling.find_tile(heights)
     if tile != heights.shape:
         copies = " x ".join(str(round(n / m)) for n, m in zip(heights.shape, tile, strict=True))
         points = " x ".join(map(str, tile))
         copied = f"the map is {copies} copies or mirror images of one tile of {points} points"
-        remarks.append(f"{copied}; one is used")
+        done.append(Step("keep one tile", remark=f"{copied}; one is used"))
         heights = heights[: tile[0], : tile[1]]
     repeats = levelling.find_repeats(heights)
     if max(repeats) > 1:
         times = " x ".join(map(str, repeats))
-        remarks.append(f"every point is repeated {times} times; it is used once")
+        remark = f"every point is repeated {times} times; it is used once"
+        done.append(Step("keep every point once", remark=remark))
         heights = heights[:: repeats[0], :: repeats[1]]
         steps = np.multiply(steps, repeats)
-    return heights, steps, remarks
+    return heights, steps, done
 
 
 def _check_options(max_missing: float, missing_rim: object, **choices: str) -> None:
@@ -466,7 +513,7 @@ def _resample(heights: NDArray, positions: NDArray, source: str) -> tuple[NDArra
     even = np.linspace(positions[0], positions[-1], len(positions))
     step = float(even[1] - even[0])
     gaps = np.diff(positions)
-    if np.ptp(gaps) > 1e-3 * step:
+    if np.ptp(gaps) > _EVEN * step:
         heights = np.interp(even, positions, heights)
     return heights, np.array([step]), float(gaps.max())
 

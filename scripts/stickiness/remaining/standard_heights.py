@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft
 
 from stickiness.measured import periodic
 from stickiness.remaining.full_contact import full_contact_energy
@@ -106,7 +105,8 @@ def standardise(
         return StandardMap(standard, part_sides, height_unit)
 
     mirrored = periodic.periodise(heights, "mirror")
-    resolved = _filter_waves(mirrored, steps, cutoff)
+    mirrored_sides = 2 * sides[0], 2 * sides[1]
+    resolved = periodic.filter_waves(mirrored, mirrored_sides, cutoff * (1 + _ROUNDING))
     if is_noise_beyond:
         heights = resolved[: heights.shape[0], : heights.shape[1]]
     half_x, half_y = (n // 2 for n in heights.shape)
@@ -115,7 +115,6 @@ def standardise(
         for along_x in (slice(None, half_x), slice(-half_x, None))
         for along_y in (slice(None, half_y), slice(-half_y, None))
     ]
-    mirrored_sides = 2 * sides[0], 2 * sides[1]
     return StandardHeights(
         whole=thin(heights),
         quarters=tuple(quarters),
@@ -123,13 +122,3 @@ def standardise(
         resolved_energy=full_contact_energy(resolved, 1.0, mirrored_sides, edges="given"),
         pixel=stride * max(steps),
     )
-
-
-def _filter_waves(heights: NDArray, steps: tuple[float, float], cutoff: float) -> NDArray:
-    """Periodic heights without waves beyond a wave number."""
-    qx, qy = (
-        2 * np.pi * fft.fftfreq(n, step) for n, step in zip(heights.shape, steps, strict=True)
-    )
-    modes = fft.fft2(heights)
-    modes[np.hypot(qx[:, None], qy) > cutoff * (1 + _ROUNDING)] = 0.0
-    return fft.ifft2(modes).real

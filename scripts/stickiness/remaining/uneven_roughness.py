@@ -11,7 +11,8 @@ from itertools import product
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy import fft
+
+from stickiness.measured.psd import autocorrelation
 
 ROUNDING = 1e-6  #: slope along an axis, over the steepest, below which there is none
 
@@ -47,7 +48,7 @@ def find_unevenness(heights: ArrayLike, lags: Sequence[int]) -> float:
         # The mean square of Gaussian values has the relative variance 2/n, with n the number of
         # independent ones, of which 1/n is the mean of the squared correlation. That of a sample is
         # twice as much, for its noise is as large.
-        chance += count * np.mean(_correlate(slope) ** 2) / len(slopes) ** 2
+        chance += count * np.mean(autocorrelation(slope) ** 2) / len(slopes) ** 2
     return float(np.sqrt(max(float(np.var(logs, ddof=1)) - chance, 0.0)))
 
 
@@ -62,9 +63,3 @@ def _halve(field: NDArray) -> list[NDArray]:
     middles = [points // 2 for points in field.shape]
     halves = [(slice(middle), slice(middle, None)) for middle in middles]
     return [field[part] for part in product(*halves)]
-
-
-def _correlate(field: NDArray) -> NDArray:
-    """Autocorrelation, 1 at no shift."""
-    correlation = fft.ifftn(np.abs(fft.fftn(field)) ** 2).real
-    return correlation / correlation.ravel()[0]

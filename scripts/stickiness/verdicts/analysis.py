@@ -20,7 +20,7 @@ from stickiness.measured.doubts import doubt_fit, doubt_pattern
 from stickiness.measured.instrument_spectrum import Cutoff, MeasuredSpectrum
 from stickiness.measured.measurement import Measurement, find_spectra
 from stickiness.measured.self_affine_fit import SelfAffineFit
-from stickiness.measured.topography import Profile, Topography
+from stickiness.measured.topography import DROP_RIMS, MASK_SPIKES, Profile, Topography
 from stickiness.plausibility import LIMITS
 from stickiness.remaining.height_shape import find_shape_of
 from stickiness.remaining.uneven_roughness import find_unevenness
@@ -144,9 +144,10 @@ def _tabulate(
 
 
 def _describe_files(heights: Sequence[Topography | Profile]) -> dict[str, str]:
-    """Which files hold the heights, where the user contradicts them, and what else they hold."""
+    """Which files hold the heights, what was done to these, and what else the files say."""
     return {
         "files": "; ".join(each.source for each in heights),
+        "steps": "\n".join(filter(None, (each.tell_steps() for each in heights))),
         "contradictions": "\n".join(line for each in heights for line in each.contradictions),
         "choices": "\n".join(
             f"{each.source} | {', '.join(each.others)}" for each in heights if each.others
@@ -284,9 +285,9 @@ def _describe_heights(
             "unevenness": find_unevenness(highest.heights, lags),
             "h_rms_as_read": first.h_rms_as_read(),
             "missing_fraction": max(heights.missing_fraction for heights in every),
-            "dropped_points": sum(heights.dropped for heights in every),
-            "masked_spikes": sum(heights.spikes for heights in every),
-            "cropped_fraction": max(heights.cropped for heights in every),
+            "dropped_points": sum(heights.count(DROP_RIMS) for heights in every),
+            "masked_spikes": sum(heights.count(MASK_SPIKES) for heights in every),
+            "cropped_fraction": max(heights.cropped_fraction for heights in every),
         }
     )
 

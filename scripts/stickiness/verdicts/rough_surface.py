@@ -304,6 +304,11 @@ class Surface:
         """What else the files hold, where one of several data sets was taken."""
         return tuple(filter(None, self.data.attrs.get("choices", "").split("\n")))
 
+    @property
+    def steps(self) -> tuple[str, ...]:
+        """What was done to measured heights in turn, if they were not levelled alone."""
+        return tuple(filter(None, self.data.attrs.get("steps", "").split("\n")))
+
     def __repr__(self) -> str:
         h_rms = sorted(self.data.h_rms.values)
         draws = f", {self.draw_count} draws" if self.draw_count else ""

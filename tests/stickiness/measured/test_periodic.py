@@ -73,6 +73,18 @@ def test_band_limited_heights_are_the_same_waves_on_a_finer_grid(q_max):
     assert found.q1 <= q_max * (1 + 1e-9)
 
 
+def test_filtered_heights_keep_the_waves_up_to_a_wave_number():
+    x, y = np.meshgrid(np.arange(48) / 48, np.arange(20) / 20, indexing="ij")
+    long = np.cos(2 * np.pi * (3 * x + y)) + 7
+    short = np.sin(2 * np.pi * 4 * y)
+    # Sides of 6 and 2.5: wave numbers over 2 pi of 0.64 and 1.6.
+    found = periodic.filter_waves(long + short, (6.0, 2.5), 2 * np.pi * 1.5)
+    np.testing.assert_allclose(found, long, atol=1e-12)
+    np.testing.assert_allclose(
+        periodic.filter_waves(long + short, (6.0, 2.5), 2 * np.pi * 1.7), long + short, atol=1e-12
+    )
+
+
 def test_shells_of_an_oblong_period_keep_height_and_slope():
     x, y = np.meshgrid(np.arange(48) / 48, np.arange(20) / 20, indexing="ij")
     h = 2 * np.cos(2 * np.pi * 3 * x) + np.sin(2 * np.pi * 2 * y)

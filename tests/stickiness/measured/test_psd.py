@@ -9,7 +9,13 @@ from scipy import optimize, special
 from stickiness import surface
 from stickiness.measured import levelling
 from stickiness.measured.instrument_spectrum import LOWEST_MODES, NYQUIST_SHARE
-from stickiness.measured.psd import RadialPSD, merge_rings, power_spectrum, radial_average
+from stickiness.measured.psd import (
+    RadialPSD,
+    autocorrelation,
+    merge_rings,
+    power_spectrum,
+    radial_average,
+)
 from stickiness.measured.self_affine_fit import FINE, ROLLOFF_AIC, fit_rings
 from stickiness.spectrum import SelfAffine
 
@@ -259,3 +265,11 @@ def test_a_plateau_is_kept_if_it_gains_more_than_its_parameter_costs(excess, is_
     dof = np.full(q.size, (ROLLOFF_AIC + 2 + excess) / gain)
     fit = fit_rings(RadialPSD(q, bent, dof), 1.0, 100.0, demand=False)
     assert (fit.q_rolloff is not None) == is_bent
+
+
+def test_autocorrelation_of_waves_is_their_cosine():
+    x, y = TAU * np.arange(48) / 48, TAU * np.arange(20) / 20
+    wave = np.cos(3 * x[:, None] + 2 * y + 1.3)
+    expected = np.cos(3 * x[:, None] + 2 * y)
+    np.testing.assert_allclose(autocorrelation(5 * wave), expected, atol=1e-12)
+    np.testing.assert_allclose(autocorrelation(5 * wave[:, 0]), np.cos(3 * x), atol=1e-12)

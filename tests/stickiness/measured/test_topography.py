@@ -56,7 +56,7 @@ def test_every_separator_and_comma_gives_the_same_heights(tmp_path, matrix, sepa
     path = write(tmp_path / "a.txt", matrix, separator, comma=comma)
     t = topography.read(path, pixel_size="2 nm", height_unit="um")
     np.testing.assert_allclose(t.heights, matrix.T * 1e-6, rtol=1e-15)
-    assert (t.dx, t.dy, t.missing) == (2e-9, 2e-9, 0)
+    assert (t.dx, t.dy, t.count(topography.FILL)) == (2e-9, 2e-9, 0)
 
 
 @pytest.mark.parametrize(
@@ -95,13 +95,13 @@ def test_uncommented_header_lines_and_missing_marks(tmp_path):
     t = topography.read(path, max_missing=0.2)
     # The missing one is the mean of its four neighbours 2, 4, 6, 8.
     np.testing.assert_allclose(t.heights, 1e-9 * np.arange(1, 10).reshape(3, 3).T)
-    assert t.missing == 1
+    assert t.count(topography.FILL) == 1
     # A first row that begins with a missing point is no header.
     for first in ("---;2;3", ";2;3", "NaN;2;3"):
         path.write_text(f"Width: 3 um\nValue units: nm\n{first}\n4;5;6\n7;8;9\n")
         t = topography.read(path, max_missing=0.2)
         assert t.heights.shape == (3, 3)
-        assert t.missing == 1
+        assert t.count(topography.FILL) == 1
 
 
 @pytest.mark.parametrize(("step", "form"), [(1 / 3, "{:.2f}"), (0.0195, "{:.3f}")])
@@ -166,15 +166,15 @@ def test_file_of_an_instrument_tells_size_unit_and_missing_points(tmp_path, coun
     holes[4, 5] = holes[7, 2] = VOID
     path = bcr(tmp_path / "b.bcr", holes)
     filled = topography.read(path)
-    assert filled.missing == 2
+    assert filled.count(topography.FILL) == 2
     whole = topography.read(bcr(tmp_path / "c.bcr", plane))
     # Harmonic filling continues a plane exactly.
     np.testing.assert_allclose(filled.heights, whole.heights, atol=1e-20)
     with pytest.raises(ValueError, match=r"2 of 120 points \(1\.7 %\) are missing"):
         topography.read(path, missing="refuse")
     cropped = topography.read(path, missing="crop")
-    assert cropped.missing == 0
-    assert cropped.cropped == pytest.approx(1 - cropped.heights.size / 120)
+    assert cropped.count(topography.FILL) == 0
+    assert cropped.cropped_fraction == pytest.approx(1 - cropped.heights.size / 120)
 
 
 @pytest.mark.parametrize(
@@ -294,7 +294,7 @@ def test_profile_from_netcdf_with_missing_points(tmp_path):
     data = xr.Dataset({"z": ("s", heights, {"units": "um"})}, coords={"s": along})
     data.to_netcdf(tmp_path / "a.nc")
     p = topography.read(tmp_path / "a.nc", max_missing=0.2)
-    assert (p.missing, p.dx) == (2, pytest.approx(1e-3))
+    assert (p.count(topography.FILL), p.dx) == (2, pytest.approx(1e-3))
     # A line goes on as a line inside; at the end the last height does.
     np.testing.assert_allclose(p.heights, 1e-6 * np.array([*range(9), 8]), atol=1e-20)
     cropped = topography.read(tmp_path / "a.nc", missing="crop")
@@ -352,15 +352,41 @@ def test_rims_are_dropped_on_reading(tmp_path, missing):
     given = {"pixel_size": "1 um", "height_unit": "um", "missing": missing, "max_missing": 0.3}
     plane = topography.read(tmp_path / "map.npy", **given)
     line = topography.read(tmp_path / "line.npy", **given)
-    assert (plane.dropped, line.dropped) == (40, 2)
+    assert (plane.count(topography.DROP_RIMS), line.count(topography.DROP_RIMS)) == (40, 2)
     assert plane.h_rms < 1.1e-6 * np.std(heights)
-    assert topography.read(tmp_path / "map.npy", **given, missing_rim=0).dropped == 0
+    assert (
+        topography.read(tmp_path / "map.npy", **given, missing_rim=0).count(topography.DROP_RIMS)
+        == 0
+    )
     message = r"npy, 40 points beside missing ones dropped: 120 of 3000"
     with pytest.raises(ValueError, match=message):
         topography.read(tmp_path / "map.npy", **given | {"missing": "fill", "max_missing": 0.03})
 
 
-# Levelling, and what maps tell
+# Steps, levelling, and what maps tell
+
+
+def test_what_was_done_is_listed_in_order():
+    spoilt, _ = with_hole(1)
+    spoilt[5, 6] += 1e3 * np.std(np.diff(spoilt[:15], axis=0))
+    twice = spoilt.repeat(2, axis=1)
+    found = topography.from_array(twice, 1e-6, max_missing=0.3, scale=1e-6).detrended("quadratic")
+    assert [str(step) for step in found.processing] == [
+        "keep every point once",
+        "drop points beside missing ones (missing_rim: detect), 40 points",
+        "mask spikes (spikes: mask), 1 point",
+        "fill missing points (missing: fill), 121 points",
+        "level (detrend: quadratic)",
+    ]
+    (remark,) = found.remarks
+    assert remark.startswith("heights: every point is repeated 1 x 2 times")
+    assert found.tell_steps().startswith("heights: keep every point once; drop points beside")
+    # Nothing is told of heights that were levelled alone.
+    assert (
+        topography.from_array(spoilt[:15, :10], 1e-6, spikes="keep").detrended().tell_steps() == ""
+    )
+    line = topography.from_array(np.arange(6.0) ** 2, np.arange(6.0) ** 1.1)
+    assert [str(step) for step in line.processing] == ["interpolate at even positions, 6 points"]
 
 
 @pytest.mark.parametrize(("kind", "terms"), [("mean", 1), ("plane", 3), ("quadratic", 6)])
@@ -399,7 +425,7 @@ def test_an_array_is_cleaned_as_a_file_is(tmp_path, options):
             same = topography.from_array(array, steps, scale=1e-6, source=str(file), **options)
             assert np.array_equal(same.heights, from_file.heights)
             assert same.steps == pytest.approx(from_file.steps, rel=1e-14)
-            for field in ("missing", "cropped", "dropped", "spikes", "doubts", "source"):
+            for field in ("processing", "doubts", "source"):
                 assert getattr(same, field) == getattr(from_file, field)
 
 

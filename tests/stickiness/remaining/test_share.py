@@ -186,6 +186,17 @@ def test_energy_of_contact_without_adhesion():
         assert decay == pytest.approx(-np.log(abs(stored) / full), rel=0.05)
 
 
+def model(rows):
+    """`Roughness` of which the rows of the table tell."""
+    return Roughness(
+        h_rms=1.0,
+        q0=1.0,
+        elastic_energy=rows.full_contact_energy.to_numpy(),
+        q1=rows.magnification.to_numpy(),
+        rms_slope=rows.rms_slope.to_numpy(),
+    )
+
+
 def test_energy_is_between_the_works():
     table = remaining_table.read(TABLE)
     table = table[table.separation.notna()]  # others rested at zero load
@@ -215,7 +226,8 @@ def test_limits_cover_edges_sharper_than_the_finest_waves():
     table = remaining_table.read(TABLE)
     # Cohesive zones narrower than a third of the finest waves (over 2 pi).
     rows = table[table.zone * table.magnification < 0.31]
-    inside = (rows.predicted_low <= rows.bound) & (rows.bound <= rows.predicted_high)
+    _, low, high = model(rows).limit_share(rows.adhesion_length, rows.range)
+    inside = (low <= rows.bound) & (rows.bound <= high)
     many = inside[rows.window == 4]
     few = inside[rows.window == 2]
     assert len(many) > 40
@@ -249,14 +261,7 @@ def test_the_theory_follows_the_magnification(hurst, ratio, fine_zone):
 def test_the_committed_predictions_are_those_of_the_code():
     table = remaining_table.read(TABLE)
     plain = table[~table["set"].str.contains("rolloff")]
-    rough = Roughness(
-        h_rms=1.0,
-        q0=1.0,
-        elastic_energy=plain.full_contact_energy.to_numpy(),
-        q1=plain.magnification.to_numpy(),
-        rms_slope=plain.rms_slope.to_numpy(),
-    )
-    share = rough.share(plain.adhesion_length.to_numpy(), plain.range.to_numpy())
+    share = model(plain).share(plain.adhesion_length.to_numpy(), plain.range.to_numpy())
     assert share == pytest.approx(plain.predicted.to_numpy(), rel=1e-3, abs=1e-5)
 
 

@@ -10,7 +10,6 @@ import re
 import struct
 import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +25,6 @@ from stickiness.measured.readers.instruments import (
 )
 from stickiness.measured.readers.raw import INCOMPLETE, Raw, is_length, metres
 
-_ATOMS = {"b": "i1", "c": "i1", "i": "<i4", "q": "<i8", "d": "<f8"}  # kinds of numbers in .gwy
 _ZYGO_MISSING = 2147483640  # or more
 _ZYGO_STEPS = {0: 4096, 1: 32768, 2: 131072}  # of phase per wave, by "PhaseRes"
 
@@ -72,7 +70,7 @@ def read_gwyddion(path: Path, channel: str | int | None = None) -> Raw:
 
     SurfaceTopography takes A, which is ampere there, for ångström.
     """
-    fields = _list_fields(_GwyddionBytes(path.read_bytes(), place=4).take_object())
+    fields = _list_fields(path)
     units = {title: _find_unit(field, "si_unit_z") for title, field in fields.items()}
     of_length = [title for title, unit in units.items() if unit and is_length(unit)]
     usable = of_length or [title for title, unit in units.items() if not unit]
@@ -104,70 +102,28 @@ def read_gwyddion(path: Path, channel: str | int | None = None) -> Raw:
     )
 
 
-def _list_fields(content: dict[str, Any]) -> dict[str, dict[str, Any]]:
+def _list_fields(path: Path) -> dict[str, dict[str, Any]]:
     """Data fields of a .gwy file by title, with their masks; those of one title are numbered."""
-    keys = [
-        key
-        for key, field in content.items()
-        if re.fullmatch(r"/\d+/data", key) and isinstance(field, dict) and "data" in field
-    ]
+    from SurfaceTopography.IO.GWY import _gwy_read_object
+
+    with path.open("rb") as file:
+        file.seek(4)  # behind the first bytes of every such file
+        content = _gwy_read_object(file)["GwyContainer"]
+    keys = [key for key in content if re.fullmatch(r"/\d+/data", key)]
+    keys = [key for key in keys if "data" in content[key].get("GwyDataField", {})]
     titles = [str(content.get(f"{key}/title") or key) for key in keys]
-    fields = {}
+    fields: dict[str, dict[str, Any]] = {}
     for number, (key, title) in enumerate(zip(keys, titles, strict=True), start=1):
         name = title if titles.count(title) == 1 else f"{title}#{titles[:number].count(title)}"
         while name in fields:  # as another's title is
             name = f"{name}#2"
-        fields[name] = content[key] | {"mask": content.get(key.replace("/data", "/mask"))}
+        mask = content.get(key.replace("/data", "/mask"), {})
+        fields[name] = content[key]["GwyDataField"] | {"mask": mask.get("GwyDataField")}
     return fields
 
 
 def _find_unit(field: dict[str, Any], name: str) -> str | None:
-    return (field.get(name) or {}).get("unitstr") or None
-
-
-@dataclass
-class _GwyddionBytes:
-    """Content of a .gwy file, which is taken component by component."""
-
-    content: bytes
-    place: int  #: of the next byte
-
-    def take_text(self) -> str:
-        """Text up to the next zero."""
-        start = self.place
-        end = self.content.index(b"\0", start)
-        self.place = end + 1
-        return self.content[start:end].decode("utf-8", errors="replace")
-
-    def take_numbers(self, dtype: str, count: int = 1) -> NDArray:
-        """So many numbers of one type."""
-        numbers = np.frombuffer(self.content, dtype, count, self.place)
-        self.place += numbers.nbytes
-        return numbers
-
-    def take_object(self) -> dict[str, Any]:
-        """Components of an object by their names; its own name is not used."""
-        self.take_text()
-        size = self.take_numbers("<u4").item()
-        end = self.place + size
-        components = {}
-        while self.place < end:
-            name = self.take_text()
-            components[name] = self.take(kind=self.take_numbers("S1").item().decode())
-        self.place = end
-        return components
-
-    def take(self, kind: str) -> Any:
-        """A component: a number, an object or a text by its letter, many by the capital."""
-        take_one = {"o": self.take_object, "s": self.take_text}
-        if kind in take_one:
-            return take_one[kind]()
-        if kind in _ATOMS:
-            return self.take_numbers(_ATOMS[kind]).item()
-        count = self.take_numbers("<u4").item()
-        if kind.lower() in _ATOMS:
-            return self.take_numbers(_ATOMS[kind.lower()], count)
-        return [take_one[kind.lower()]() for _ in range(count)]
+    return field.get(name, {}).get("GwySIUnit", {}).get("unitstr") or None
 
 
 def read_tiff(path: Path) -> Raw:
@@ -235,8 +191,9 @@ def read_surfer_binary(path: Path) -> Raw:
     return _of_surfer(path, heights.astype(float), (nx, ny), ends)
 
 
-def read_surfer_text(path: Path, words: list[str]) -> Raw:
-    """Read a text grid of Surfer (.grd, DSAA) by its words."""
+def read_surfer_text(path: Path, lines: list[str]) -> Raw:
+    """Read a text grid of Surfer (.grd, DSAA)."""
+    words = " ".join(lines).split()
     try:
         nx, ny = map(int, words[1:3])
         ends = [float(word) for word in words[3:9]]

@@ -15,29 +15,24 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.measured.readers import grids
+from stickiness.measured.readers.dialects import (
+    DIALECTS,
+    INSTRUMENTS,
+    Fields,
+    find_counts,
+    read_fields,
+)
 from stickiness.measured.readers.instruments import EXPORT
 from stickiness.measured.readers.points import RESAMPLE, Gridded, map_points, read_columns
 from stickiness.measured.readers.raw import Raw, fold, is_length, metres, sides
+from stickiness.measured.readers.tables import Rows, read_rows
 
 UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
 MOST_COLUMNS = 12  #: of a table of points; more are a matrix
-MOST_MISSING = 2  #: different whole numbers that may stand for missing points in a column
 ROWS_PER_COLUMN = 32  #: of such a table, at least
 
-Rows = dict[int, str]  # by the number of their line
-Fields = dict[str, str]  # what a header tells, as Gwyddion names it, sizes and marks
 Units = tuple[str | None, ...]  # of columns, or one of heights
 
-# What a comma or a point may mean: groups of three digits, beside smaller numbers without any.
-_GROUPS = {mark: re.compile(rf"[-+]?[1-9]\d{{0,2}}(?:{re.escape(mark)}\d{{3}})+") for mark in ",."}
-_SMALLER = re.compile(r"[-+]?\d{1,3}|[^\d]*")
-# A number with groups of three digits that can mean nothing else, and the mark between them.
-_GROUPED = re.compile(
-    r"(?<![\d.,])[1-9]\d{0,2}([.,])(?:\d{3}\1)*\d{3}(?:(?!\1)[.,]\d|\1\d{3}(?![\d.,]))"
-)
-# A line that may be one number, with groups of digits or a decimal comma.
-_ONE_NUMBER = re.compile(r"[-+]?(?:[1-9]\d{0,2}(?:[.,]\d{3})+|\d+)[.,]\d+")
 _QUOTED = re.compile(r'"\s*[-+\u2212]?[\d.]*,[\d.,]*\s*"')  # a number with a comma
 # Signs, groups of digits and powers of ten (of Fortran) as no keyboard or Python writes them.
 _SIGNS = str.maketrans("\u2212\u2013", "--")
@@ -45,24 +40,7 @@ _APOSTROPHE = re.compile(r"(?<=\d)['\u2019](?=\d{3}(?!\d))")
 _FORTRAN = re.compile(r"(?<=[\d.])[dD](?=[-+]?\d+(?![\d.]))")
 # How a row begins: with a number, or with missing points before one.
 _NUMERIC = re.compile(r'(?i)"?(?:(?:-{1,3}|\*{1,3})?"?[\s;,]+"?)*(?:[-+]?(?:nan|inf)\b|[-+]?\.?\d)')
-_MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
 
-_GERMAN = {  # fields of Gwyddion
-    "breite": "width",
-    "höhe": "height",
-    "werteinheit": "value unit",
-    "laterale einheit": "lateral unit",
-}
-_FIELDS = "|".join([*_GERMAN, *_GERMAN.values()])
-_FIELD = re.compile(rf"(?i)^\W*({_FIELDS})(?:s|en)?\s*[:=]\s*(.+?)\s*$")
-# What stands before another field in one line, or before a number of points.
-_NEXT_FIELD = re.compile(rf"(?i)[\s,;]+(?=(?:(?:{_FIELDS})(?:s|en)?|\d+\s*[x×]\s*\d+)\b)")
-# What SurfaceTopography takes from headers and this reader does not.
-_OF_INSTRUMENTS = re.compile(
-    r"(?i)pixel\s+size\s*=|height\s+conversion\s+factor|\b[xy]-length\b|\b[xyz]-unit\b|\bbit2nm\b"
-    r"|wyko ascii|file format\s*=\s*ascii|^\W*unit (x|data)\s*=|^\W*scale [xy]\s*="
-    r"|^\s*x;y;valid|^\s*scan data\b|^\W*lateral um"
-)
 _FACTOR = re.compile(  # the last one of heights in waves
     r"(?i)factor|scal(e|ing)\b|multiplier|conversion|(\bper|/)\s*(count|bit|digit|lsb)s?\b"
     r"|^wavelength(\s+[\d.]+){3}$"
@@ -71,24 +49,10 @@ _FACTOR = re.compile(  # the last one of heights in waves
 _OF_NO_HEIGHTS = re.compile(
     r"(?i)^(?!.*(\bz\b|height|vertical|count|data)).*(zoom|colou?r|\bbar\b|\b[xy]\b)"
 )
-# A number of points: at the start of a line or after another number, without a unit.
-_COUNT = r"(?i)(?:^\W*|\d[\s,;]+)(?:{})\s*[:=,;]\s*(\d+)(?![\w./])|^\W*{}\s+(\d+)\s*$"
-_COLUMNS = re.compile(
-    _COUNT.format(r"nx|columns|cols|x[-_ ]?pixels?|samps/line|horizont(?:al|\.)", "ncols")
-)
-_ROWS = re.compile(
-    _COUNT.format(r"ny|rows|y[-_ ]?pixels?|number of lines|(?:vertical|vertik\.)", "nrows")
-)
 # Columns and rows as of a picture, in a line that may begin with them.
 _RESOLUTION = re.compile(
     r"(?i)(?:^|[\s,;:=])(\d+)\s*[x×]\s*(\d+)\s*(?:pixels?|points?|px|pts)?\W*$"
 )
-# A number behind a key, without a unit: of the grids of geographic information systems.
-_CELL = re.compile(r"(?i)^\W*(cellsize|dx|dy|nodata_value)\s+([-+.\deE]+)\s*$")
-_KEYENCE = re.compile(r"(?i)^xy[ -](?:calibration|justierung)\W+([\d.]+)\W+(\w+)")
-_KEYENCE_UNIT = re.compile(r"(?i)^(?:unit|einheit)\s*[,;:\t]\s*(\S+)\s*$")
-_NANOSCOPE = re.compile(r"(?i)^\W*scan size\s*[:=]\s*([\d.]+)(?:\s+([\d.]+))?\s*([\w~]+)\s*$")
-_ASPECT = re.compile(r"(?i)^\W*aspect ratio\s*[:=]\s*([\d.]+)\s*:\s*([\d.]+)")
 _NAME_AND_UNIT = re.compile(r"^(.*?)(?:[\s_]*[\[(]\s*([^\])]+?)\s*[\])])?$")
 _NAMED_UNIT = re.compile(
     r"(?i)^\W*(?:heights?|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$"
@@ -100,18 +64,16 @@ _HEIGHT_NAME = re.compile(r"(?i)^(?:z|heights?|topo\w*|h)\b")
 
 def is_of_instrument(head: bytes) -> bool:
     """Whether SurfaceTopography reads the header of a text, and this module does not."""
-    header_lines, _ = _split_lines(_decode(head[: len(head) // 2 * 2]).splitlines())
-    return any(map(_OF_INSTRUMENTS.search, header_lines))
+    header, _ = _split_lines(_decode(head[: len(head) // 2 * 2]).splitlines())
+    return INSTRUMENTS.find(header) is not None
 
 
 def read_text(path: Path) -> Raw:
     """Read a matrix, one or two columns of a profile, or a list of points x y z."""
     lines = _decode(path.read_bytes()).splitlines()
-    first = lines[0].strip() if lines else ""
-    if first == "DSAA":
-        return grids.read_surfer_text(path, " ".join(lines).split())
-    if re.match(r"(?i)zygo (xyz|ascii) data file", first):
-        return grids.read_zygo(path, lines)
+    for dialect in DIALECTS:
+        if dialect.heights is not None and dialect.find(lines[:1]) is not None:
+            return dialect.heights(path, lines)
 
     # The table of numbers, and what the lines before it tell.
     header, rows = _split_lines(lines)
@@ -120,14 +82,14 @@ def read_text(path: Path) -> Raw:
             "no line of numbers found; expected a matrix of heights, a profile or points x y z in "
             f"text; {EXPORT}, or give format: instrument if it is an instrument's file"
         )
-    for line in filter(_OF_INSTRUMENTS.search, header):
+    if (line := INSTRUMENTS.find(header)) is not None:
         raise ValueError(
             f"its header says {line!r}, which the text reader does not take; give format: "
             "instrument"
         )
     rows, counted = _drop_count(rows)
-    fields, is_german = _read_fields(header)
-    table = _read_rows(rows, has_decimal_commas=is_german)
+    fields = read_fields(header)
+    table = read_rows(rows, has_decimal_commas=fields.get("decimal") == ",")
     names, units = _read_names(header, table.shape[1])
     _refuse_factors(header, has_units=any(units))
     _refuse_blocks(rows, table.shape[1])
@@ -142,14 +104,13 @@ def read_text(path: Path) -> Raw:
     if places is None and heights.ndim == 2:
         places, place_unit = _find_steps(fields, heights.shape)
     _check_counts(header, counted, table.shape[::-1], heights.shape)
-    mark = fields.get("nodata_value", "-9999" if "cellsize" in fields else None)
     return Raw(
         heights=heights,
         source=str(path),
         unit=unit,
         places=places,
         place_unit=place_unit,
-        missing_value=None if mark is None else float(mark),
+        missing_value=float(fields["missing"]) if "missing" in fields else None,
         remarks=(*remarks, *more),
     )
 
@@ -221,44 +182,12 @@ def _refuse_blocks(rows: Rows, columns: int) -> None:
 # What the header tells.
 
 
-def _find_last(pattern: re.Pattern, lines: list[str]) -> re.Match | None:
-    return next(filter(None, map(pattern.match, reversed(lines))), None)
-
-
-def _read_fields(lines: list[str]) -> tuple[Fields, bool]:
-    """What lines tell, the last one of each, and whether they are German."""
-    fields: Fields = {}
-    is_german = False
-    # Gwyddion writes fields in its language; others write several in one line.
-    apart = [field for line in lines if _FIELD.match(line) for field in _NEXT_FIELD.split(line)]
-    for match in filter(None, map(_FIELD.match, apart)):
-        name = match[1].lower()
-        is_german = is_german or name in _GERMAN
-        fields[_GERMAN.get(name, name)] = match[2]
-    if is_german:
-        fields = {name: told.replace(",", ".") for name, told in fields.items()}
-    for match in filter(None, map(_CELL.match, lines)):
-        fields[match[1].lower()] = match[2]
-    if pixel := _find_last(_KEYENCE, lines):
-        fields["pixel"] = f"{pixel[1]} {pixel[2]}"
-        if unit := _find_last(_KEYENCE_UNIT, lines):
-            fields["value unit"] = unit[1]
-    if scan := _find_last(_NANOSCOPE, lines):
-        unit_of_scan = scan[3].replace("~", "u")
-        aspect = _find_last(_ASPECT, lines)
-        ratio = float(aspect[2]) / float(aspect[1]) if aspect else 1.0
-        height = float(scan[2]) if scan[2] else float(scan[1]) * ratio
-        fields["width"] = f"{scan[1]} {unit_of_scan}"
-        fields["height"] = f"{height:.6g} {unit_of_scan}"
-    return fields, is_german
-
-
 def _read_names(lines: list[str], columns: int) -> tuple[tuple[str, ...], Units]:
     """Names of the columns of a table and their units, from the last lines of the header.
 
     Without them there may be one unit, that of the heights.
     """
-    named = _find_last(_NAMED_UNIT, lines)
+    named = next(filter(None, map(_NAMED_UNIT.match, reversed(lines))), None)
     of_heights: Units = (named[1],) if named and is_length(named[1]) else ()
     if not 1 <= columns <= MOST_COLUMNS:
         return (), of_heights
@@ -316,7 +245,7 @@ def _find_steps(fields: Fields, shape: tuple[int, ...]) -> tuple[NDArray | None,
         return np.full(2, metres(fields["pixel"], "XY calibration in the header")), "m"
     if "width" in fields:
         return np.divide(_find_sides(fields, shape), shape), "m"
-    steps = [fields.get("cellsize", fields.get(axis)) for axis in ("dx", "dy")]
+    steps = [fields.get(axis) for axis in ("dx", "dy")]
     return None if None in steps else np.array(steps, dtype=float), fields.get("lateral unit")
 
 
@@ -333,11 +262,11 @@ def _check_counts(
     columns, rows = table
     # Columns and rows may be those of a map, of the table, or the points of a profile.
     shapes = [shape, table] if len(shape) == 2 else [table, (rows, 1)]
-    for axis, (name, pattern) in enumerate((("columns", _COLUMNS), ("rows", _ROWS))):
-        for match in filter(None, map(pattern.search, lines)):
-            if int(match[1] or match[2]) not in (each[axis] for each in shapes):
+    for axis, name in enumerate(("columns", "rows")):
+        for count, line in find_counts(lines, axis):
+            if count not in (each[axis] for each in shapes):
                 raise ValueError(
-                    f"{shapes[0][axis]} {name}, but its header says {match.string!r}; is the file "
+                    f"{shapes[0][axis]} {name}, but its header says {line!r}; is the file "
                     "complete, and do decimal commas or separators split its numbers?"
                 )
     points = int(np.prod(shape))
@@ -385,11 +314,10 @@ def _order_columns(
 
 def _fold(column: NDArray, lines: list[str], fields: Fields) -> NDArray | None:
     """Map whose rows follow each other in one column, if the header tells its sides."""
-    columns, rows, resolution = (
-        next(filter(None, map(pattern.search, lines)), None)
-        for pattern in (_COLUMNS, _ROWS, _RESOLUTION)
-    )
-    counts: Sequence[float] = [int(match[1] or match[2]) for match in (columns, rows) if match]
+    counts: Sequence[float] = [
+        count for axis in (0, 1) for count, _ in find_counts(lines, axis)[:1]
+    ]
+    resolution = next(filter(None, map(_RESOLUTION.search, lines)), None)
     if resolution and len(counts) < 2:
         counts = [int(resolution[1]), int(resolution[2])]
     if not counts and {"width", "height"} <= fields.keys():
@@ -413,124 +341,3 @@ def _refuse_positions(table: NDArray) -> None:
                 f"the first {name} rises in even steps of {steps[0].mean():g}, as positions do: "
                 "remove it if it holds no heights"
             )
-
-
-# Numbers.
-
-
-def _read_rows(rows: Rows, has_decimal_commas: bool) -> NDArray:
-    """Numbers of a table, NaN where they are missing."""
-    first = next(iter(rows.values()))
-    separator = next((mark for mark in "\t;" if mark in first), None)  # None: any run of blanks
-    # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
-    if separator is None and not has_decimal_commas and re.search(r",\s|^[^ ]*,[^ ]*$", first):
-        separator = ","
-
-    # Marks of thousands go; those that may be decimal ones are refused.
-    mark = None if separator == "," else _find_mark_of_thousands(rows)
-    if mark:
-        rows = _join_groups(rows, mark)
-    elif not has_decimal_commas:
-        if separator != ",":
-            _refuse_groups(rows, separator, ",")
-        _refuse_groups(rows, separator, ".")
-    if separator != ",":
-        rows = {number: row.replace(",", ".") for number, row in rows.items()}
-    table = np.array(_split_rows(rows, separator))
-    if separator == ",":
-        _refuse_split_decimals(table, rows)
-    return table
-
-
-def _split_rows(rows: Rows, separator: str | None) -> list[list[float]]:
-    """Numbers of every row, as many in each."""
-    table: list[list[float]] = []
-    for number, row in rows.items():
-        words = row.split(separator)
-        if separator and len(words) > 1 and not words[-1].strip():
-            words.pop()  # a separator after the last number
-        try:
-            table.append([np.nan if w.strip().lower() in _MISSING else float(w) for w in words])
-        except ValueError as error:
-            raise ValueError(
-                f"line {number}: {str(error)[:80]}; mark missing points by NaN and comment lines "
-                "by #"
-            ) from None
-        if len(words) != len(table[0]):
-            raise ValueError(
-                f"line {number}: {len(words)} numbers where the first row has {len(table[0])}; "
-                "every row needs as many"
-            )
-    return table
-
-
-def _refuse_split_decimals(table: NDArray, rows: Rows) -> None:
-    """Refuse numbers that separating commas may have split into whole numbers and decimals."""
-    first = next(iter(rows.values()))
-    # Do columns by turns hold them: close to the next but one?
-    columns = table.shape[1]
-    are_pairs = columns >= 4 and columns % 2 == 0 and not np.any(table[:, 1::2] < 0)
-    if "." not in first and are_pairs:
-        beside = np.nanmedian(np.abs(np.diff(table, axis=1)))
-        whole = np.nanmedian(np.abs(np.diff(table[:, ::2], axis=1)))
-        if beside > 5 * whole:
-            raise ValueError(
-                f"{columns} columns without a decimal point that alternate: decimal commas, which "
-                "its separating commas hide; separate by tabs or semicolons, or write decimal "
-                "points"
-            )
-    is_repeated = len(np.unique(table[:, 0])) < len(table)
-    may_be_one = is_repeated or "." in first.partition(",")[0]
-    if may_be_one and all(map(_ONE_NUMBER.fullmatch, rows.values())):
-        raise ValueError(
-            f"lines such as {first!r} may hold two numbers, or one with a comma: write decimal "
-            "points and no thousands, or separate numbers by tabs or semicolons"
-        )
-
-
-def _find_mark_of_thousands(rows: Rows) -> str:
-    """Mark between groups of three digits, if a number shows that it is one."""
-    # Most lines have points alone, and no group of digits between two of them.
-    odd = (row for row in rows.values() if "," in row or re.search(r"\.\d{3}\.", row))
-    return next((match[1] for match in map(_GROUPED.search, odd) if match), "")
-
-
-def _join_groups(rows: Rows, mark: str) -> Rows:
-    """Rows without a mark of thousands, which nowhere may be the decimal one."""
-    groups = re.compile(rf"(?<=\d){re.escape(mark)}(?=\d{{3}}(?!\d))")
-    joined = {number: groups.sub("", row) for number, row in rows.items()}
-    if mixed := [number for number, row in joined.items() if mark in row]:
-        raise ValueError(
-            f"line {mixed[0]}: {mark!r} separates decimals, but thousands elsewhere: write "
-            "decimal points, and no thousands"
-        )
-    return joined
-
-
-def _refuse_groups(rows: Rows, separator: str | None, mark: str) -> None:
-    """Refuse numbers if all their commas, or points, may separate thousands or decimals.
-
-    Points do only beside whole numbers in the same column: those that are decimal have them there.
-    """
-    example = ""
-    whole: dict[int, set[str]] = {}  # numbers without the mark, of every column
-    marked: set[int] = set()
-    for row in rows.values():
-        for column, word in enumerate(map(str.strip, row.split(separator))):
-            if mark not in word:
-                if not _SMALLER.fullmatch(word):
-                    return
-                whole.setdefault(column, set()).add(word)
-            elif _GROUPS[mark].fullmatch(word):
-                example = example or word
-                marked.add(column)
-            else:
-                return
-    # A few of them may stand for missing points.
-    is_mixed = any(len(whole.get(column, ())) > MOST_MISSING for column in marked)
-    if example and (mark == "," or is_mixed):
-        advice = {
-            ",": "commas or commas for thousands: write them with decimal points or without commas",
-            ".": "points or points for thousands: write decimals in all numbers, or no points",
-        }
-        raise ValueError(f"numbers such as {example!r} may have decimal {advice[mark]}")
