@@ -14,12 +14,11 @@ def main(job):
     name = job.wildcards.real_surface
     params = job.params
 
-    # The surface, and those of materials that are rough themselves.
-    surface = Surface.open(job.input.surface)
-    material_surfaces = {
-        other: Surface.open(path)
-        for other, path in zip(params.material_surfaces, job.input.material_surfaces, strict=True)
-    }
+    # The surface, and those of materials that are rough themselves: maybe the same.
+    paths = dict(zip(params.material_surfaces, job.input.material_surfaces, strict=True))
+    opened = {path: Surface.open(path) for path in {job.input.surface, *paths.values()}}
+    surface = opened[job.input.surface]
+    material_surfaces = {other: opened[path] for other, path in paths.items()}
     materials = {
         key: Material.from_entry(entry, material_surfaces)
         for key, entry in params.materials.items()

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from helpers.entries import model_surface
-from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
+from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import same_color
 
 from common.edge_points import select_certain
@@ -19,11 +19,9 @@ from figures import (
     plot_fig4,
     plot_fig5,
     plot_fig6,
-    plot_fig7,
     plot_fig8,
     plot_fig9,
     plot_fig10,
-    plot_fig12,
     plot_fig13,
 )
 from stability import plot_stability
@@ -132,52 +130,10 @@ def densities(gap, magnification):
     return dataset(coords, {"gap_density": values[None, None], "mean_gap": 2.0})
 
 
-def test_figure_1a_has_both_variants_of_the_theory_and_the_band_of_corrections(ax):
-    gap = np.array([1e-3, 1e-2, 0.1])
-    plot_fig1.draw_magnifications(ax, densities(gap, [10.0, 100.0]))
-    for colour, zeta in zip(plotting.COLOURS, (10, 100), strict=False):
-        drawn(ax, gap, (zeta / gap) ** 0.1, color=colour, linestyle="-")
-        drawn(ax, gap, 0.5 * (zeta / gap) ** 0.1, color=colour, linestyle="--")
-    x, low, high = band_ends(ax)
-    np.testing.assert_allclose([low, high], np.outer([1, 1.2], (10 / x) ** 0.1))
-
-
 def test_figure_1b_interpolates_gaps_along_a_power_law(ax):
     plot_fig1.draw_convergence(ax, densities(np.geomspace(1e-4, 10, 6), [3.0, 30.0]))
     for gap in plot_fig1.GAPS:
         drawn(ax, [3, 30], (np.array([3, 30]) / gap) ** 0.1, marker=".")
-
-
-def test_figure_10c_shades_errors_and_opens_points_below_the_edge_gap(ax):
-    gap = np.array([1e-3, 1e-2, 0.1, 1.0])
-    coords = {"pressure": plot_fig10.LOADS, "gap": gap}
-    first, *_, last = values = np.outer([1.0, 2.0, 3.0], gap**-0.3)
-    variables = {"gap_density_mean*": values, "edge_gap_mean": ("pressure", [0.02] * 3)}
-    variables |= {"runs": ("seed", [1, 2])}
-    ensemble = dataset(coords, variables, **model_surface(magnification=64))
-    theory = {"gap_density": np.multiply.outer(FACTORS, values)}
-    plot_fig10.draw_simulation(ax, ensemble, dataset({"variant": VARIANTS} | coords, theory))
-    drawn(ax, gap, np.where(gap > 0.02, first, np.nan), marker=".", color=plotting.BLUE)
-    drawn(ax, gap, np.where(gap < 0.02, first, np.nan), marker="o", markerfacecolor="white")
-    for index, share in enumerate((TOTAL, SAMPLING)):
-        np.testing.assert_allclose(
-            band_ends(ax, index)[1:], np.outer([1 - share, 1 + share], first)
-        )
-    drawn(ax, gap, 0.5 * last, linestyle="--", color=plotting.GREEN)
-    assert "2 realisations" in ax.get_title()
-
-
-def test_figure_8g_opens_points_above_the_linear_area(ax):
-    pressure, kappa = np.array([0.01, 0.1, 0.5]), np.array([2.2, 2.1, 1.9])
-    variables = {"kappa*": kappa, "area_fraction": [0.02, 0.2, 0.6]}
-    data = dataset({"pressure": pressure}, variables, magnification=32)
-    coords = {"variant": VARIANTS, "pressure": pressure}
-    plot_fig8.draw_slopes(ax, [data], [dataset(coords, {"kappa": np.outer(FACTORS, kappa)})])
-    drawn(ax, pressure, kappa, marker="None", linestyle="-")
-    x = pressure / 1.05
-    drawn(ax, x, kappa, markerfacecolor=plotting.BLUE, marker="o")
-    drawn(ax, x, [np.nan, np.nan, 1.9], markerfacecolor="white")
-    assert_bars(ax, kappa)
 
 
 def loaded_maps(**more):
@@ -187,15 +143,6 @@ def loaded_maps(**more):
     variables = {"repulsive_area": np.outer([1.0, 2.0], pressure), "area_alone": pressure / 2}
     variables |= {"range_over_h_rms": ((), 0.0075), "pixels_in_zone": ([*coords][0], [4.8, 1.2])}
     return dataset(coords, variables | more, q0_h_rms=0.1)
-
-
-def test_figure_2b_has_a_curve_for_every_adhesion_length_and_kappa_of_2(ax):
-    plot_fig2.draw_areas(ax, loaded_maps(), rms_slope=4.0)
-    pressure = np.array([0.015, 0.065])
-    drawn(ax, pressure, pressure / 2, color=plotting.BLACK)
-    drawn(ax, pressure, pressure, color=plotting.BLUE)
-    drawn(ax, pressure, 2 * pressure, color=plotting.RED)
-    drawn(ax, [0, *pressure], [0, *(pressure / 2)], linestyle=":")
 
 
 def test_figure_2c_has_full_solution_fit_compressed_area_and_dmt_limit(ax):
@@ -223,12 +170,6 @@ def test_figure_2_maps_show_compression_tension_and_attraction(ax):
     assert same_color(picture[1, 1], "white")
 
 
-def test_figure_2_says_how_many_pixels_the_zone_of_attraction_has(ax):
-    plot_fig2.label_zones(ax, loaded_maps().isel(adhesion_length_over_range=-1))
-    (legend,) = ax.figure.legends
-    assert "1.2 pixels" in legend.get_title().get_text()
-
-
 @pytest.fixture
 def case():
     ranges = np.array([0.01, 0.03, 0.1, 0.2, 0.3])
@@ -242,21 +183,6 @@ def case():
         dataset(windows, {"a_v_mean*": [[3.0, 2.0], [9.0, 9.0]]}, **surface),
         dataset(windows, {"a_v": a_v}, **surface),
     )
-
-
-def test_figure_3a_has_every_fourth_area_against_the_range_to_two_thirds(ax, case):
-    ranges = case["range"].values
-    coords = {"hurst": [0.8], "load": [0], "variant": VARIANTS}
-    coords |= {"magnification": [10.0, 1000.0], "range": ranges}
-    area = np.outer(FACTORS, ranges)[None, None, :, None] * np.ones((1, 1, 1, 2, 1))
-    pressure = ("variant", "magnification"), np.full((3, 2), 0.065)
-    theory = dataset(coords, {"attractive_area": area, "pressure": pressure})
-    plot_fig3.draw_magnifications(ax, theory, [case])
-    shown = ranges[::4]
-    drawn(ax, shown ** (2 / 3) - 0.004, 0.2 * shown ** (2 / 3), marker="o")
-    drawn(ax, ranges ** (2 / 3), ranges, color=[*plotting.shade(range(2))][1][0])
-    drawn(ax, [0, 0.3 ** (2 / 3)], [0, 1.5 * 3 * 0.065 * 0.3 ** (2 / 3)], linestyle=":")
-    assert_bars(ax, 0.2 * shown ** (2 / 3))
 
 
 def test_figure_3_takes_a_v_of_the_first_window_at_its_load(ax, case):
@@ -290,18 +216,6 @@ def test_figure_4a_theory_is_the_dmt_sum_over_its_gaps():
     attraction = 0.01 / 0.1 * np.mean(np.exp(-middle / 0.2))
     np.testing.assert_allclose(pressure, [0.02 - 0.4 * attraction, 0.1 - 0.8 * attraction])
     np.testing.assert_allclose(contact_area, [0.1, 0.2])
-
-
-def test_figure_4a_ends_loading_where_unloading_begins(ax):
-    loads = [0.0, 0.05, 0.1, 0.04, -0.02]
-    coords = {"control": ["mean_gap", "pressure"], "adhesion_length_over_range": [0.1]}
-    coords |= {"state": np.arange(5)}
-    rows = np.broadcast_to(loads, (2, 1, 5))
-    variables = {"mean_pressure": rows, "repulsive_area_fraction": rows + 0.2}
-    variables |= {"separating": np.broadcast_to([0.0, 0, 0, 1, 1], (2, 1, 5))}
-    parameters = {"magnification": 32, "range_over_h_rms": 0.1, "pressure": 0.1, "q0_h_rms": 0.1}
-    plot_fig4.draw_loading(ax, dataset(coords, variables, **parameters), [])
-    drawn(ax, loads[:3], np.add(loads[:3], 0.2), color=plotting.BLUE, linestyle="-")
 
 
 LENGTHS = "adhesion_length_over_range"
@@ -339,17 +253,6 @@ def spectrum(**more):
     return dataset(coords, levels | more)
 
 
-def test_figure_6_fills_between_the_ends_of_a_parametric_surface(ax):
-    plot_fig6.draw_surface(ax, spectrum(), plotting.BLUE, "road")
-    plot_fig6.draw_lines(ax)
-    q, low, high = band_ends(ax)
-    np.testing.assert_allclose([low, high], np.outer([1e-5, 1e-3], q**-3.6))
-    q = np.array(plot_fig6.WAVE_NUMBERS)
-    for c0 in (1e-3, 1e-5):
-        drawn(ax, q, c0 * q**-3.6, linestyle="--")
-    assert ax.get_legend_handles_labels()[1] == ["road"]
-
-
 def test_figure_6_draws_no_more_than_was_measured(ax):
     q = WAVE_NUMBERS
     more = {"psd_fit": 2e-5 * q**-3.6, "psd_standard_error": 2e-6 * q**-3.6}
@@ -360,39 +263,6 @@ def test_figure_6_draws_no_more_than_was_measured(ax):
     ((_, halves),) = bar_lengths(ax)
     expected = 1.645 * 2e-6 * q[:3] ** -3.6  # 90 %, not one standard error
     np.testing.assert_allclose(halves, expected, rtol=1e-3)
-
-
-@pytest.fixture
-def ratios():
-    coords = {"pressure": [0.065], "adhesion_length_over_range": [0.001, 0.01]}
-    coords |= {"range_over_h_rms": [0.1, 1.0]}
-    value = np.array([[[1.0, 1.5], [3.0, np.nan]]])
-    variables = {"dmt_ratio*": value, "dmt_ratio_at_gap": value - 0.2, "q0_h_rms": 0.1}
-    variables |= {"weak_ratio": value + 0.1}
-    variables |= {"zone_strength": [[[0.1, 0.2], [5.0, 6.0]]]}
-    return dataset(coords, variables, magnification=32)
-
-
-def test_figure_7a_writes_ratios_bold_where_the_dmt_limit_holds(ax, ratios):
-    plot_fig7.draw_plane(ax, ratios.sel(pressure=0.065))
-    (mesh,) = [c for c in ax.collections if isinstance(c, QuadMesh)]
-    shown = np.ma.filled(mesh.get_array(), np.nan)
-    np.testing.assert_array_equal(shown, ratios.dmt_ratio.values[0])
-    texts = {text.get_text(): text for text in ax.texts}
-    assert set(texts) == {"1.00", "1.50", "3.00", "·"}
-    assert [texts[ratio].get_weight() for ratio in ("1.00", "1.50")] == ["bold", "normal"]
-    assert texts["3.00"].get_position() == (0.1, 0.01)
-    error = plot_fig7.error_of_dmt(ratios).values[0, 0]
-    np.testing.assert_allclose(error, [np.expm1(TOTAL), 1.5 * np.exp(TOTAL) - 1])
-
-
-def test_figure_7b_has_the_weakest_adhesion_at_equal_area_and_at_equal_mean_gap(ax, ratios):
-    plot_fig7.draw_weak(ax, ratios)
-    x = np.array([0.1, 1.0]) / 1.06
-    drawn(ax, x, [1.0, 1.5], marker="o", color=plotting.BLUE, markerfacecolor=plotting.BLUE)
-    drawn(ax, x, [0.8, 1.3], markerfacecolor="white")
-    drawn(ax, x, [0.8 / 1.1, 1.3 / 1.6], linestyle="-", marker="None")
-    assert_bars(ax, [1.0, 1.5])
 
 
 @pytest.fixture
@@ -422,40 +292,7 @@ def test_figure_8d_averages_where_windows_hold(compared):
     assert root == pytest.approx(100 * np.sqrt((0.1**2 + 3**2) / 2))
 
 
-def test_figure_8e_has_gamma_with_its_interval_and_misfit(ax):
-    coords = {"quantity": ["area_fraction", "mean_gap", "attractive_area", "all"]}
-    coords = {"correction": list(plot_fig8.CORRECTIONS)} | coords
-    values = {"gamma": 0.5, "gamma_low": 0.4, "gamma_high": 0.7, "misfit": 0.06}
-    variables = {name: np.full((3, 4), value) for name, value in values.items()}
-    variables |= {"own_gamma": ("correction", [0.45, 0.55, 0.45])}
-    variables |= {"quantities_agree": ("correction", [0, 1, 0])}
-    plot_fig8.draw_gamma(ax, dataset(coords, variables))
-    drawn(ax, [0.5] * 3, np.arange(3) - 0.26, marker="o", linestyle="None")
-    drawn(ax, [0.5] * 4, np.arange(4), marker="s", linestyle="None")
-    np.testing.assert_allclose(bar_lengths(ax, axis=0)[0][1], 0.15)
-    texts = [text.get_text() for text in ax.texts]
-    assert texts.count("6 %") == 10
-    assert "Yang & Persson: none fits all" in texts
-
-
 CRITERIA_DRAWN = ["remaining_adhesion", "violano", "pastewka_robbins", "fuller_tabor", "dahlquist"]
-
-
-def test_figure_9a_has_every_criterion_that_knows_a_length_and_the_error_of_the_verdict(ax):
-    height = np.array([10.0, 100.0])
-    coords = {"criterion": CRITERIA_DRAWN[:4], "h_rms_over_range": height}
-    values = np.outer([1.0, 2.0, 3.0, 4.0], height**-0.5)
-    thresholds = dataset(coords, {"threshold": values}).threshold
-    of_limits = {"limit": ["low", "value", "high"], "h_rms_over_range": height}
-    values = np.outer([0.5, 1.0, 2.0], height**-0.5)
-    limits = dataset(of_limits, {"threshold": values}).threshold
-    made = {"hurst": 0.8, "range_times_q0": 1e-6}
-    plot_fig9.draw_thresholds(ax, thresholds, limits, made, "held")
-    for factor in (1, 2, 3, 4):
-        drawn(ax, height, factor * height**-0.5)
-    x, *ends = band_ends(ax)
-    np.testing.assert_allclose(ends, np.outer([0.5, 2.0], x**-0.5))
-    assert len(ax.get_legend_handles_labels()[1]) == 4
 
 
 def test_figure_9c_has_geometric_means_and_the_range_over_materials_and_ends(ax):
@@ -490,16 +327,6 @@ def edges():
     return dataset(coords, variables, magnification=32, q0_h_rms=0.314159)
 
 
-def test_figure_10a_has_weak_edges_with_the_error_of_their_ratio(ax, edges):
-    halves = [edges.isel(adhesion_length_over_range=[i]) for i in (0, 1)]
-    plot_fig10.draw_weak(ax, select_certain(halves))  # of one surface, a single name
-    drawn(ax, [0.2, 1.0], [3.0, 2.0], marker="o")
-    t = np.geomspace(0.05, 200, 200)
-    drawn(ax, t[t > 0.7], equivalent_sphere.weak_effect_at_approach(t[t > 0.7]), linestyle=":")
-    ((_, halves),) = bar_lengths(ax)
-    np.testing.assert_allclose(halves, [3.0 * TOTAL, 2.0 * TOTAL])
-
-
 def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
     plot_fig10.draw_ratios(ax, select_certain([edges]))
     drawn(ax, [0.01, 0.02, 1.0], [1.1, 0.9, 0.8], marker="o")
@@ -511,49 +338,6 @@ def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
     for index, factor in enumerate((equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG)):
         _, low, high = band_ends(ax, index)
         np.testing.assert_allclose([low, high], [[1 / factor] * 2, [factor] * 2])
-
-
-@pytest.fixture
-def skewed():
-    """By theory the share is log10(10 w/U)/2, on the heights that of a quarter of w."""
-    x = np.geomspace(0.1, 10, 9)
-    by_theory = np.log10(10 * x) / 2
-    on_heights = by_theory - np.log10(4) / 2
-    variables = {"theory": np.add.outer([-0.1, 0.0, 0.2], by_theory)}
-    variables |= {"states": np.add.outer([-0.3, 0.0, 0.4], on_heights), "bound": on_heights - 0.5}
-    variables |= {"simulated": ("simulated_energy_ratio", [0.3, 0.6])}
-    variables |= {f"seconds_{name}": 2.0 for name in ("theory", "states", "bound", "simulated")}
-    coords = {"simulated_energy_ratio": [1.0, 3.0], "limit": ["low", "value", "high"]}
-    return dataset(coords | {"energy_ratio": x}, variables)
-
-
-def test_figure_12_has_every_model_with_its_limits_and_the_simulation(ax, skewed):
-    plot_fig12.draw_shares(ax, skewed)
-    x = skewed.energy_ratio
-    drawn(ax, x, np.log10(10 * x) / 2, color=plotting.ORANGE)
-    drawn(ax, x, np.log10(10 * x / 4) / 2, color=plotting.BLUE)
-    drawn(ax, x, np.log10(10 * x / 4) / 2 - 0.5, linestyle="--")
-    drawn(ax, [1.0, 3.0], [0.3, 0.6], marker="o", linestyle="None")
-    for index, (name, lower, upper) in enumerate((("theory", 0.1, 0.2), ("states", 0.3, 0.4))):
-        _, low, high = band_ends(ax, index)
-        value = skewed[name].sel(limit="value")
-        np.testing.assert_allclose([low, high], [value - lower, value + upper])
-
-
-def test_figure_12_has_an_arrow_from_the_onset_by_theory_to_that_on_the_heights(ax, skewed):
-    plot_fig12.draw_change(ax, skewed)
-    arrow, factor = ax.texts
-    start, end = arrow.get_position(), arrow.xy
-    np.testing.assert_allclose([start, end], [[10**-0.8, 0.1], [4 * 10**-0.8, 0.1]])
-    assert factor.get_text().startswith("4 ")
-
-
-def test_figure_12_profile_is_as_skewed_as_the_map(ax):
-    flat = np.array([1.0, -1.0, 1.0, -1.0])
-    peaked = np.array([3.0, -1.0, -1.0, -1.0])
-    height = xr.DataArray([flat, peaked, peaked], dims=("x", "y"))
-    plot_fig12.draw_profile(ax, height, 2.0)
-    drawn(ax, [0, 0.5, 1, 1.5], peaked, color=plotting.BLACK)
 
 
 def test_lines_of_the_trade_are_errors_against_costs(ax):

@@ -2,7 +2,6 @@
 
 import os
 import re
-import runpy
 import subprocess
 import sys
 import tomllib
@@ -12,8 +11,6 @@ import pytest
 import yaml
 
 import stickiness
-from stickiness import dmt, spectrum, surface
-from stickiness.remaining import Roughness
 
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "config/README.md"]
@@ -82,19 +79,3 @@ def test_examples_hold_no_path_of_a_machine(page):
     text = page.read_text(encoding="utf-8")
     for folder in ("home", "root", "tmp", "work", "Users", "mnt", "opt", "srv", "var"):
         assert re.findall(rf"(?<![\w.:/])/{folder}/[\w./-]{{1,80}}", text) == []
-
-
-def test_signatures_have_readable_types(monkeypatch):
-    """As Sphinx shows them, with names for arrays."""
-    inspection = pytest.importorskip("sphinx.util.inspect")
-    monkeypatch.setenv("PYTHONPATH", "")  # the settings set it
-    settings = runpy.run_path(str(ROOT / "docs/conf.py"))
-    aliases = settings["autodoc_type_aliases"]
-    shown = [
-        inspection.stringify_signature(inspection.signature(function, type_aliases=aliases))
-        for function in (dmt.attractive_area, Roughness.threshold, surface.realised_spectrum)
-    ]
-    shown.append(str(inspection.signature(spectrum.Shells.integrate, type_aliases=aliases)))
-    assert "ArrayLike | None" in shown[1]
-    assert "Callable[[NDArray], NDArray]" in shown[3]
-    assert not any("Ref(" in text for text in shown)

@@ -23,7 +23,6 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from references.contact import Westergaard
 from scipy import optimize
 
 from stickiness.remaining import sphere
@@ -154,15 +153,6 @@ class MaugisSphere:
         least = sphere.find_pull_off(self.maugis_parameter)
         return self._at(self._solve(lambda t: self._at(t).force - force, least))
 
-    def contact_pressure(self, r: ArrayLike, state: SphereState):
-        """Net pressure [E*] at distances `r` [length]: minus the strength in the cohesive zone."""
-        r = np.asarray(r, dtype=float)
-        a, c = state.contact_radius, state.cohesive_radius
-        inside = np.maximum(a**2 - r**2, 0)
-        hertz = 2 * np.sqrt(inside) / (np.pi * self.radius)
-        angle = np.arctan2(np.sqrt(c**2 - a**2), np.sqrt(inside))
-        return np.where(r > c, 0.0, hertz - 2 * self.strength / np.pi * angle)
-
     def _at(self, angle: float) -> SphereState:
         a, c, force, indentation = sphere.maugis_curve(angle, self.maugis_parameter)
         unit = np.cbrt(0.75 * np.pi * self.adhesion_length * self.radius**2)
@@ -204,14 +194,6 @@ class _Wave:
         return float(
             np.sqrt(2 * self.adhesion_length / self.wavelength) / self.full_contact_amplitude
         )
-
-    def _position(self, x: ArrayLike) -> NDArray:
-        share = np.asarray(x, dtype=float) / self.wavelength
-        return np.pi * np.abs(share - np.round(share))
-
-    def _westergaard(self, area_fraction: float) -> Westergaard:
-        load = self.full_contact_amplitude * np.sin(np.pi / 2 * area_fraction) ** 2
-        return Westergaard(self.amplitude, self.wavelength, float(load))
 
 
 @dataclass(frozen=True)
@@ -335,17 +317,6 @@ class MaugisWave(_Wave):
                 states.append(self.at_cohesive_fraction(place))
                 stable.append(after.pressure > before.pressure)
         return states, stable
-
-    def contact_pressure(self, x: ArrayLike, state: WaveState):
-        """Net pressure [E*] at distances `x` [length] from a crest."""
-        a, c = np.pi / 2 * state.area_fraction, np.pi / 2 * state.cohesive_fraction
-        here = self._position(x)
-        hertzian = self._westergaard(state.area_fraction).contact_pressure(x)
-        inside = np.maximum(np.sin(a) ** 2 - np.sin(here) ** 2, 0)
-        outer = (np.sin(c) ** 2 - np.sin(a) ** 2) * np.cos(here) ** 2
-        angle = np.arctan2(np.sqrt(outer), np.cos(c) * np.sqrt(inside))
-        angle = np.where(here > a, np.pi / 2, angle)
-        return np.where(here > c, 0.0, hertzian - 2 * self.strength / np.pi * angle)
 
     def _contact_phase(self, c: float) -> float | None:
         """Phase a of the contact with a gap of the range at c; None if even a = 0 falls short."""

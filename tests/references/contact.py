@@ -77,11 +77,6 @@ class Hertz:
         """Approach of distant points."""
         return self.contact_radius**2 / self.radius
 
-    def contact_pressure(self, r):
-        """Pressure [E*] at distances `r` [length] from the axis; zero outside contact."""
-        ratio = np.asarray(r, dtype=float) / self.contact_radius
-        return self.largest_pressure * np.sqrt(np.maximum(1 - ratio**2, 0))
-
     def gap(self, r):
         """Gap [length] at distances `r` [length] from the axis; zero in contact."""
         ratio = np.maximum(np.asarray(r, dtype=float) / self.contact_radius, 1.0)
@@ -145,7 +140,6 @@ class HertzEllipse:
 class Summit:
     """Highest point of a surface."""
 
-    position: tuple[float, float]  #: along axes 0 and 1 [length]
     height: float  #: there
     curvatures: tuple[float, float]  #: principal ones [1/length], positive, the smaller first
 
@@ -173,7 +167,7 @@ def highest_summit(heights, length):
         if np.abs(step).max() < 1e-12 * length:
             break
     high, low = np.linalg.eigvalsh(hessian)
-    return Summit(tuple(map(float, position)), float(series(one, one)), (-float(low), -float(high)))
+    return Summit(float(series(one, one)), (-float(low), -float(high)))
 
 
 def wave_full_contact_pressure(amplitude, wavelength):

@@ -27,7 +27,7 @@ from stickiness.pages.rows import describe_surface
 from stickiness.remaining.prediction import predict
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
-from stickiness.verdicts.wording import describe_material, tell_threshold
+from stickiness.verdicts.wording import describe_material, tell_change, tell_threshold
 
 NASTY = '<script>alert("1 & 2")</script>'
 GRADES = (
@@ -377,20 +377,28 @@ def test_rows_of_pairs(pairs, verdicts):
 
 
 @pytest.mark.parametrize(
-    ("value", "limits", "text"),
+    ("value", "limits", "text", "change"),
     [
-        (3.5e6, (0.79e6, 30e6), "E = 3.5 MPa (0.79 to 30 MPa)"),
-        (3e6, (0.0, 4e6), "E = 3 MPa (0 to 4 MPa)"),
-        (0.2, (0.0, 0.9), "none"),
-        (1e20, (1.5e11, 1e21), "E = 150 GPa at least, probably any"),
-        (0.0, (0.0, 2.15e9), "none, or E = 2.15 GPa at most"),
+        (3.5e6, (0.79e6, 30e6), "E = 3.5 MPa (0.79 to 30 MPa)", "below E = 3.5 MPa (0.79 to 30"),
+        (3e6, (0.0, 4e6), "E = 3 MPa (0 to 4 MPa)", "below E = 3 MPa (0 to 4 MPa); it is 1 kPa"),
+        (0.2, (0.0, 0.9), "none", "at no modulus; it is 1 kPa"),
+        (1e20, (1e20, 1e20), "any", "at any modulus; it is 1 kPa"),
+        (
+            *(1e20, (1.5e11, 1e21), "E = 150 GPa at least, probably any"),
+            "below E = 150 GPa, and probably at any modulus; it is 1 kPa",
+        ),
+        (
+            *(0.0, (0.0, 2.15e9), "none, or E = 2.15 GPa at most"),
+            "at no modulus, or below E = 2.15 GPa; it is 1 kPa",
+        ),
     ],
 )
-def test_thresholds_have_one_unit_and_all_limits(verdicts, value, limits, text):
+def test_thresholds_have_one_unit_and_all_limits(verdicts, value, limits, text, change):
     pair = verdicts.sel(material="jelly", surface="sand")
     low, high = limits
     found = pair.assign(modulus_threshold=("limit", [low, value, high]))
     assert tell_threshold(found) == text
+    assert tell_change(found).startswith(f"sticks {change}")
 
 
 def test_every_judged_pair_is_on_one_axis(pairs):

@@ -10,7 +10,7 @@ import pytest
 from helpers.jobs import make_job
 
 from stability import plot_stability, probe_stability
-from stability.components import COMPONENTS, THICK, check, layer_response
+from stability.components import COMPONENTS, check
 from stability.probe_stability import FAILED, REFUSED, RIGHT, UNCONVERGED, probe_point
 from stickiness import datasets, spectrum
 from stickiness.adhesive import Exponential
@@ -107,16 +107,6 @@ def test_a_wrong_solver_is_detected(monkeypatch, field, factor):
     monkeypatch.setattr(solver, "solve", wrong)
     probe, points = points_of("contact")
     assert outcome(probe, **points[len(points) // 2]) == FAILED
-
-
-def test_closed_forms_have_their_limits():
-    """Layers at long waves, and at short ones."""
-    k, nu = 1e-7, 0.3
-    springs = 0.5 * k * (1 - 2 * nu) / (1 - nu) ** 2
-    assert layer_response(k, nu, "slip") == pytest.approx(k / 2, rel=1e-12)
-    assert layer_response(k, nu, "bonded") == pytest.approx(springs, rel=1e-12)
-    assert layer_response(k, 0.5, "bonded") == pytest.approx(2 / 3 * k**3, rel=1e-12)
-    assert layer_response(THICK, nu, "bonded") == pytest.approx(1, rel=1e-14)
 
 
 def test_map_is_stored_and_drawn(tmp_path, monkeypatch):

@@ -30,16 +30,6 @@ def test_attractive_area_definition():
     assert dmt.attractive_area(gap, 0.1, contact) == 0.5
 
 
-def test_maugis_attraction_is_stress_times_attractive_area():
-    gap = _hertz_gap(128)
-    law = adhesive.Maugis(adhesion_length=0.02, range=0.1)
-    ranges = np.geomspace(1e-6, 1.0, 385) * law.range
-    for subpixel in (False, True):
-        area = dmt.attractive_area(gap, ranges, subpixel=subpixel)
-        attraction = dmt.sum_over_gaps(area, ranges, law.traction)
-        assert attraction == pytest.approx(0.2 * area[-1], rel=1e-12)
-
-
 @pytest.mark.parametrize("kind", LAWS)
 def test_attraction_of_hertz_gap_against_radial_integral(kind):
     n, side = 1024, 8.0

@@ -37,6 +37,7 @@ HOLED = HEIGHTS.copy()
 HOLED[3, 4] = np.nan
 MASKED = np.ma.masked_greater(HEIGHTS, 1.0)
 LAW, LONG = adhesive.Exponential(0.01, 0.1), adhesive.Exponential(0.3, 0.5)
+LAYER = Layer(0.1, 0.3)
 EPS, ONES, SERIES = np.geomspace(1e-3, 1.0, 31), np.ones((9, 1)), Prony(1e4, ((3e4, 1.0),))
 
 
@@ -54,6 +55,14 @@ def press(heights=HEIGHTS, length=SIDE, pressure=0.1, **options):
 
 def attract(heights=HEIGHTS, length=SIDE, **options):
     return adhesive.solve(heights, length, LONG, pressure=0.1, **options)
+
+
+def hold(**control):
+    return adhesive.solve(HEIGHTS, SIDE, LONG, **control)
+
+
+def follow(values=(0.1, 0.2), **options):
+    return list(adhesive.path(HEIGHTS, SIDE, LONG, values, **options))
 
 
 def average(fine, coarse, many):
@@ -81,6 +90,25 @@ MISUSES = [
     (lambda: press([[1.0, 2.0], [3.0]]), "heights must have rows of one length"),
     (lambda: press(pressure=True), "pressure must be a number, got True"),
     (lambda: list(repulsive.load_path(HEIGHTS, SIDE, [0.1, "a"])), "pressures must be a number"),
+    (lambda: press(np.zeros(4)), "heights must be a grid"),
+    (lambda: press(pressure=np.nan), "pressure must be"),
+    (lambda: press(max_iterations=0), "max_iterations must be"),
+    (lambda: press(start=repulsive.solve(np.eye(4), 1.0, 0.1)), "same grid"),
+    (lambda: press(threads=0), "threads must be an integer of at least 1, got 0"),
+    (lambda: press(solid=Layer), "solid must be solids.HalfSpace.. or a solids.Layer"),
+    (lambda: press(periodic="free"), "periodic must be True or False"),
+    (lambda: press(periodic=False, solid=LAYER), "periodic=False is for a half-space only"),
+    (lambda: hold(), "exactly one of pressure and mean_gap"),
+    (lambda: hold(mean_gap=[1, 2]), "mean_gap must be a finite number"),
+    (lambda: hold(mean_gap=-10.0), "mean_gap must be at least"),
+    (lambda: hold(mean_gap=10.0, start="separation"), "follow the mean gap"),
+    (lambda: adhesive.solve(HEIGHTS, SIDE, adhesive.Maugis, pressure=0.1), "must be a TractionLaw"),
+    (lambda: attract(start="middle"), "start must be 'approach'"),
+    (lambda: attract(start=np.zeros((3, 3))), r"start has the shape \(3, 3\)"),
+    (lambda: follow((0.1,)), "values must be at least two"),
+    (lambda: follow((0.1, 0.1, 0.2)), "values must differ from one to the next"),
+    (lambda: follow(control="force"), "control must be"),
+    (lambda: follow(balance=0.0), "balance must be"),
     (lambda: attract(start=1j * HEIGHTS), "start must be real numbers, got .* complex128"),
     (lambda: next(adhesive.path(HEIGHTS, SIDE, LONG, ("1", "2"))), "values must be real numbers"),
     (lambda: surface.synthesise(BAND, 16, SIDE, None), "seed must be an integer"),

@@ -1,23 +1,8 @@
 """Names of cases and model surfaces are free: nothing but the configuration knows them."""
 
-import os
-import shutil
-
-import matplotlib.image
-import netCDF4
-import numpy as np
 import pytest
 import yaml
-
-from stickiness import datasets
-
-pytestmark = pytest.mark.workflow
-
-FIGURES = ("fig3", "fig4", "fig5", "fig8", "fig10")
-# Folders of results in which files, or folders, have the name of a case or of a surface.
-OF_SURFACES = ("surfaces", "contact")
-OF_CASES = ("cases", "contact/ensembles", "persson/lattice")
-OF_CASES += ("fits/kappa", "fits/theory", "fits/a_v/ensembles", "fits/a_v/lattice")
+from helpers.copy_workflow import ROOT
 
 
 def rename(workflow):
@@ -42,20 +27,9 @@ def rename(workflow):
             surfaces[name]: entry for name, entry in content["model_surfaces"].items()
         }
         file.write_text(yaml.safe_dump(content, sort_keys=False), encoding="utf-8")
-    return cases, surfaces
 
 
-def move(path, old, new):
-    """Give a file of results another name, or a folder and what it holds; datasets know theirs."""
-    path = path.rename(path.with_name(path.name.replace(old, new)))
-    for file in path.rglob("*.nc") if path.is_dir() else [path]:
-        times = file.stat().st_atime_ns, file.stat().st_mtime_ns
-        with netCDF4.Dataset(file, "a") as dataset:
-            dataset.written_as = dataset.written_as.replace(f"/{old}", f"/{new}")
-            dataset.parameters = dataset.parameters.replace(f'"{old}"', f'"{new}"')
-        os.utime(file, ns=times)
-
-
+@pytest.mark.workflow
 def test_the_same_jobs_are_planned(fresh):
     before = fresh.planned()
     rename(fresh)
@@ -63,26 +37,12 @@ def test_the_same_jobs_are_planned(fresh):
     assert "H0." not in fresh.dry_run("fig4").stdout
 
 
-def test_figures_and_claims_of_renamed_results_are_the_same(copy_of_finished):
-    """The results get the new names as well, so that nothing is simulated again."""
-    results = copy_of_finished / "results/tiny"
-    pictures = {name: results / f"figures/{name}.png" for name in FIGURES}
-    drawn = {name: matplotlib.image.imread(path) for name, path in pictures.items()}
-    claims = datasets.read(results / "claims/claims.nc")
-    cases, surfaces = rename(copy_of_finished)
-    renamed = dict.fromkeys(OF_CASES, cases) | dict.fromkeys(OF_SURFACES, surfaces)
-    for folder, names in renamed.items():
-        for old, new in names.items():
-            for path in (results / folder).glob(f"{old}*"):
-                if path.name.removesuffix(".nc").partition("@")[0] == old:
-                    move(path, old, new)
-    shutil.rmtree(results / "figures")
-    made = [f"results/tiny/figures/{name}.png" for name in FIGURES]
-    made += ["results/tiny/claims/claims.nc"]
-    done = copy_of_finished.snakemake(*made, "--force", "--rerun-triggers", "mtime")
-    assert done.returncode == 0, done.stdout
-    for name, picture in drawn.items():
-        np.testing.assert_array_equal(matplotlib.image.imread(pictures[name]), picture, name)
-    again = datasets.read(results / "claims/claims.nc")
-    for name in ("value", "value_error", "verdict", "quantity", "remark", "comment"):
-        np.testing.assert_array_equal(again[name], claims[name])
+def test_no_code_or_template_has_a_name_of_the_configuration():
+    config = yaml.safe_load((ROOT / "config/config.yaml").read_text(encoding="utf-8"))
+    names = config["model_surfaces"].keys() | config["cases"].keys()
+    assert len(names) > 5
+    files = [ROOT / "Snakefile", *(ROOT / "rules").iterdir(), *(ROOT / "report").iterdir()]
+    files += (ROOT / "scripts").rglob("*.py")
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        assert [name for name in names if name in text] == [], file

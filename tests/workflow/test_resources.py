@@ -67,7 +67,7 @@ def test_rules_say_what_they_make_with_environment_log_and_hash_of_their_script(
             assert re.search(r'message:\s+f?"[A-Z][^"]+"', rule)
             environment = re.search(r'conda:\s+"\.\./(.*)"', rule)[1]
             assert (ROOT / environment).is_file()
-            assert re.search(r"log:\s+f\"\{\w+\}/logs/", rule)
-            assert re.search(r"benchmark:\s+f\"\{\w+\}/benchmarks/", rule)
+            assert re.search(r"log:\s+f\"\{\w+\}/(\{\{stage\}\}/)?logs/", rule)
+            assert re.search(r"benchmark:\s+f\"\{\w+\}/(\{\{stage\}\}/)?benchmarks/", rule)
             hashed = re.search(r'code=(?:lambda wildcards: )?source_hash\(f?"(.*)"\)', rule)[1]
             assert f"scripts/{hashed}" == script[1].replace("{params.figure}", "{figure}")

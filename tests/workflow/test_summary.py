@@ -1,6 +1,5 @@
 """What a run says at its end and of a job that fails; Snakemake's own report."""
 
-import json
 import re
 
 import pytest
@@ -55,16 +54,3 @@ def test_a_failed_job_says_why_in_a_line_and_its_log_has_the_trace(copy_of_finis
     text = log.read_text(encoding="utf-8")
     assert "Traceback" in text
     assert 'raise ValueError("spoilt")' in text
-
-
-def test_snakemakes_own_report_holds_labels_as_they_are(copy_of_finished):
-    """Labels are among the parameters of rules, which the page shows as text."""
-    label = """Ra < 1 µm & 'fine' <b>"bold"</b>"""
-    surfaces = "config/tiny_surfaces.yaml"
-    copy_of_finished.edit(surfaces, "label: polished steel", f"label: {json.dumps(label)}")
-    done = copy_of_finished.snakemake("--report", "report.html")
-    assert done.returncode == 0, done.stdout
-    page = (copy_of_finished / "report.html").read_text(encoding="utf-8")
-    (results,) = re.findall(r'<script id="results">\s*var results = (.*);$', page, re.M)
-    shown = json.loads(results)["results/tiny/criteria/verdicts.md"]["job_properties"]["params"]
-    assert label in shown.replace('\\"', '"').replace("\\'", "'")

@@ -310,13 +310,6 @@ def test_joint_error_covers_the_worst_of_errors_that_are_correlated_as_quantitie
     assert 0.86 <= covered <= 0.95
 
 
-@pytest.mark.parametrize("choices", [PIXELS, TOLERANCES[::-1], SEEDS, COARSE_SEEDS[1:]])
-def test_settings_to_choose_from_rise(choices):
-    ratios = np.array(choices[1:]) / np.array(choices[:-1])
-    assert np.all(ratios > 1)
-    assert ratios.max() <= (2 if isinstance(choices[0], int) else 100)
-
-
 def test_errors_are_widened_beyond_the_loads_of_the_campaign():
     campaign = yaml.safe_load((ROOT / "config/campaigns/tradeoff.yaml").read_text())
     laws = read_models(TABLE)

@@ -288,22 +288,6 @@ def test_path_gives_up_when_told_to():
         list(adhesive.path(bumps(16), 1.0, law, (-1.0, 0.01)))
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"values": (0.1,)}, "values must be at least two"),
-        ({"values": (0.1, 0.1, 0.2)}, "values must differ from one to the next"),
-        ({"control": "force"}, "control must be"),
-        ({"balance": 0.0}, "balance must be"),
-    ],
-)
-def test_arguments_are_checked(options, message):
-    with pytest.raises(ValueError, match=message):
-        list(
-            adhesive.path(np.zeros((8, 8)), 1.0, Maugis(1e-4, 1e-3), **{"values": (0, 1)} | options)
-        )
-
-
 @pytest.mark.parametrize("ends", [(0.002, 0.0), (0.004, 0.006)])
 def test_no_step_is_further_out_of_balance_than_allowed(ends):
     """From a state of much elastic and interaction energy, of which little changes."""

@@ -399,25 +399,6 @@ def test_convergence_error_carries_the_last_iterate(kind):
     assert adhesive.solve(heights, 1.0, law, pressure=LOAD, start=last).residual <= 1e-8
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"pressure": None}, "exactly one of pressure and mean_gap"),
-        ({"pressure": None, "mean_gap": [1, 2]}, "mean_gap must be a finite number"),
-        ({"pressure": None, "mean_gap": -1.0}, "mean_gap must be at least"),
-        ({"law": Maugis}, "law must be a TractionLaw"),
-        ({"start": "middle"}, "start must be 'approach'"),
-        ({"start": np.zeros((3, 3))}, r"start has the shape \(3, 3\)"),
-        ({"pressure": None, "mean_gap": 1.0, "start": "separation"}, "follow the mean gap"),
-    ],
-)
-def test_arguments_are_checked(change, message):
-    arguments = {"heights": np.zeros((8, 8)), "length": 1.0, "law": Maugis(1e-4, 1e-3)}
-    arguments |= {"pressure": 0.1} | change
-    with pytest.raises(ValueError, match=message):
-        adhesive.solve(**arguments)
-
-
 @pytest.mark.slow
 def test_branches_on_a_rough_surface_differ_and_the_deeper_is_told():
     """Loaded from afar and unloaded from full contact: two stable states of unlike enthalpy.

@@ -6,8 +6,6 @@ from references.adhesion import JKRSphere, MaugisSphere, MaugisWave
 from references.contact import Hertz, Westergaard
 from scipy.optimize import brentq
 
-from stickiness import adhesive, repulsive, spectrum, surface
-from stickiness.adhesive import edge_zone
 from stickiness.criteria import equivalent_sphere
 
 pytestmark = pytest.mark.processors
@@ -132,49 +130,6 @@ def test_attraction_has_the_attractive_area_and_strength_of_its_load():
         dmt = length / reach * attractive / (load * q0 * h)
         expected = dmt * equivalent_sphere.effect(attractive / contact, strength)
         assert found.ratio == pytest.approx(expected, rel=1e-12)
-
-
-def rough_over_model(seed):
-    """Attraction at equal area by full simulation over `attraction`, and what that says.
-
-    Edges of strength 2 or so on a small surface, with its own kappa and a_V at the area reached.
-    """
-    n, length, reach, strength = 256, 2 * np.pi, 0.1, 1.5
-    s = spectrum.SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
-    heights = surface.synthesise(s, n, length, seed=seed)
-    known = surface.moments(heights, length)
-    law = adhesive.Exponential(adhesion_length=strength * reach, range=reach)
-    bent = edge_zone.resolution(length / n, reach, law.adhesion_length)
-    assert bent < edge_zone.COARSEST
-    load = 0.04
-    alone = repulsive.solve(heights, length, load, tol=1e-8)
-    held = adhesive.solve(heights, length, law, mean_gap=alone.mean_gap, start=alone, tol=1e-6)
-    for _ in range(5):  # to the area of the adhesive contact: load is nearly proportional to it
-        load *= held.repulsive_area_fraction / alone.area_fraction
-        alone = repulsive.solve(heights, length, load, tol=1e-8)
-    assert alone.area_fraction == pytest.approx(held.repulsive_area_fraction, rel=5e-3)
-    attractive = float(np.mean(law.traction(alone.gap) * (alone.gap > 0))) / strength
-    model = equivalent_sphere.attraction(
-        known.h_rms,
-        1.0,
-        known.rms_slope,
-        law.adhesion_length,
-        reach,
-        a_v=attractive / (1.5 * load / known.h_rms * (reach / known.h_rms) ** (2 / 3)),
-        kappa_rep=alone.area_fraction * known.rms_slope / load,
-    )
-    assert model.attractive_over_contact == pytest.approx(attractive / alone.area_fraction)
-    return (1 - held.mean_pressure / load) / model.ratio, model
-
-
-@pytest.mark.slow
-def test_strong_edges_of_rough_contacts_at_equal_area():
-    found, models = zip(*(rough_over_model(seed) for seed in (1, 2, 3, 4)), strict=True)
-    # Single contacts scatter within the stated error, their mean is nearer to the model.
-    assert np.all(np.abs(np.log(found)) < np.log(equivalent_sphere.ERROR_STRONG))
-    assert abs(np.mean(np.log(found))) < np.log(1.2)
-    assert all(1.5 < model.strength < equivalent_sphere.STRONGEST_SIMULATED for model in models)
-    assert all(model.error_factor == equivalent_sphere.ERROR_STRONG for model in models)
 
 
 @pytest.mark.parametrize("slope", [0.01, 3.0, 300.0])

@@ -91,8 +91,7 @@ def test_exponent_between_the_finest_scale_and_the_rms_height(hurst):
     """P(u) goes to u^((1 - 2H)/H), and the area within u of contact to u^((1 - H)/H).
 
     Contact is lost at the magnification z at gaps u1 ~ h(z) ~ z^(-H), and the area is
-    A ~ z^(H - 1); so the area with gaps below u, contact included, goes as u^((1 - H)/H). `table`
-    holds the steepest exponents of P at p = 0.065 q0 h_rms that this test found.
+    A ~ z^(H - 1); so the area with gaps below u, contact included, goes as u^((1 - H)/H).
     """
     law = (1 - 2 * hurst) / hurst
     steepest = []
@@ -103,13 +102,6 @@ def test_exponent_between_the_finest_scale_and_the_rms_height(hurst):
         exponent = local_exponents(theory.gap_density(u, 0.065), u)
         steepest.append(exponent.min())
     distance = np.array(steepest) - law
-    table = {
-        0.6: [-0.283, -0.310, -0.321],
-        0.7: [-0.434, -0.524, -0.556],
-        0.8: [-0.565, -0.701, -0.737],
-        0.9: [-0.650, -0.810, -0.858],
-    }
-    np.testing.assert_allclose(steepest, table[hurst], atol=6e-4)
     assert np.all(np.diff(distance) < 0)
     assert 0 < distance[-1] < 0.05
     if hurst >= 0.7:

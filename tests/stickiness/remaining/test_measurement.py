@@ -107,21 +107,6 @@ def test_paths_with_jumps_against_a_gradient_flow(ratio, seed):
     assert found.pull_off == pytest.approx(-back.min(), rel=0.025)
 
 
-@pytest.mark.slow
-def test_the_grid_resolves_or_says_so():
-    law = adhesive.Exponential(0.3, 0.5)
-    fine = measure(random_heights(128), LENGTH, law, squeeze=0.1, half_grid=False)
-    coarse = measure(random_heights(64), LENGTH, law, squeeze=0.1)
-    low, high = coarse.separation_limits
-    assert low <= fine.separation <= high or fine.separation == pytest.approx(
-        coarse.separation, rel=0.02
-    )
-    narrow = adhesive.Exponential(0.3, 0.3)
-    with pytest.warns(PlausibilityWarning, match="0.76 pixels in the width of the cohesive zone"):
-        found = measure(random_heights(32), LENGTH, narrow, 0.1, half_grid=False)
-    assert found.pixels_in_zone < 2
-
-
 def test_without_jumps_a_long_range_gains_on_approach_what_it_binds():
     """Two per cent of the work are done beyond the start of the path."""
     spectrum = SelfAffine(hurst=0.8, q0=1.0, q1=6.0, h_rms=1.0)

@@ -10,8 +10,7 @@ from stickiness import adhesive
 from stickiness.remaining import Roughness, predict
 from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.roughness import LASTING, UNLIKE
-from stickiness.solids import Film, Layer
-from stickiness.spectrum import SelfAffine, combine
+from stickiness.spectrum import SelfAffine
 from stickiness.surface import realised_spectrum, synthesise
 
 pytestmark = pytest.mark.processors
@@ -40,15 +39,6 @@ def test_thresholds_of_tough_pairs_go_with_the_energy_alone():
     heights = np.array([0.8, 1.0, 1.25])
     surface = Roughness(h_rms=heights, q0=1 / heights**2, elastic_energy=0.6)
     assert np.ptp(np.log(surface.threshold(1e-4))) < 1e-3
-
-
-@pytest.mark.parametrize("thickness", [10e-6, 20e-6])
-def test_a_stiff_film_is_a_rigid_base(thickness):
-    wall = SelfAffine(hurst=0.8, q0=1e4, q1=1e8, h_rms=1e-6)
-    layers = Layer(thickness, 0.5), Layer(thickness, 0.5, Film(1e15, 0.4, 25e-6))
-    for length in (1e-7, 1e-6):
-        rigid, film = (predict(wall, length, 1e-9, solid=layer) for layer in layers)
-        assert film.approach == pytest.approx(rigid.approach, abs=2e-3)
 
 
 def test_waves_that_take_energy_alone_leave_no_more():
@@ -137,13 +127,6 @@ def test_limits_are_wider_for_surfaces_with_a_direction():
     )
     length = surface.threshold(TOUGH["range"], 0.2)
     assert surface.share(length, TOUGH["range"]) == pytest.approx(0.2, rel=1e-6)
-
-
-def test_two_rough_solids_are_one_surface_of_their_sum():
-    pair, one = combine(rough(), rough()), rough(h_rms=2**0.5)
-    found, same = (predict(spectrum, **TOUGH) for spectrum in (pair, one))
-    assert found.separation == pytest.approx(same.separation, rel=1e-9)
-    assert found.separation_limits == pytest.approx(same.separation_limits, rel=1e-9)
 
 
 def test_limits_widen_steadily_with_the_direction():

@@ -180,25 +180,6 @@ def test_failure_carries_the_best_iterate(options, worst):
     assert best.pressure.mean() == pytest.approx(0.4)
 
 
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"heights": np.zeros(4)}, "heights must be a grid"),
-        ({"length": (1.0, np.nan)}, "length must be"),
-        ({"pressure": np.nan}, "pressure must be"),
-        ({"max_iterations": 0}, "max_iterations must be"),
-        ({"start": repulsive.solve(np.eye(4), 1.0, 0.1)}, "same grid"),
-        ({"threads": 0}, "threads must be an integer of at least 1, got 0"),
-        ({"solid": Layer}, "solid must be solids.HalfSpace.. or a solids.Layer"),
-        ({"periodic": "free"}, "periodic must be True or False"),
-        ({"periodic": False, "solid": Layer(0.1, 0.3)}, "periodic=False is for a half-space only"),
-    ],
-)
-def test_wrong_arguments(change, message):
-    with pytest.raises(ValueError, match=message):
-        repulsive.solve(**{"heights": np.eye(8), "length": 1.0, "pressure": 0.1} | change)
-
-
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_rough_surface_at_vanishing_load_touches_at_its_summit(seed):

@@ -146,18 +146,6 @@ def test_attraction_of_a_short_range(kind):
     assert np.mean(counted) < 0.5 * np.mean(exact)
 
 
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: subpixel.attractive_area([0.0, 1.0], 1.0), "gap must be at least two-dim"),
-        (lambda: subpixel.boundary_strip([True]), "boolean array of two dimensions at least"),
-    ],
-)
-def test_refusals_name_the_argument(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
 @pytest.fixture(scope="module")
 def rough_contacts():
     """One band-limited surface solved on grids of 4, 8 and 64 points per wavelength."""

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from stickiness.spectrum import SelfAffine, Shells, Tabulated, combine, kinds
+from stickiness.spectrum import SelfAffine, Shells, Tabulated, combine
 
 pytestmark = pytest.mark.processors
 
@@ -130,21 +130,6 @@ def test_density_of_shells_holds_their_variance():
     assert total == pytest.approx(variance.sum(), rel=1e-4)
 
 
-def test_what_a_cut_leaves_of_a_plateau():
-    s = SelfAffine(**GOOD, q_rolloff=5.0)
-    for q1 in (3.0, 5.0):
-        cut = s.truncated(q1)
-        again, q = eval(repr(cut), {**vars(kinds)}), [1.0, 2.0, q1]
-        np.testing.assert_array_equal(cut.psd(q), s.psd(q))
-        assert cut.h_rms == s.variance_below(q1) ** 0.5
-        assert again.psd(q) == pytest.approx(s.psd(q), rel=1e-5)
-
-
-def test_a_table_prints_its_ends():
-    table = Tabulated([1.0, 2.0, 4.0, 8.0], [8.0, 4.0, 2.0, 1.0])
-    assert "[1., ..., 8.], [8., 4., 2.], [-1., -1., -1.]" in repr(table)
-
-
 def test_shells_leave_out_empty_ones_and_truncate():
     s = Shells([1.0, 2.0, 3.0], [1.0, 0.0, 0.5])
     np.testing.assert_array_equal(s.q, [1, 3])
@@ -160,9 +145,6 @@ def test_elastic_energy():
     s = SelfAffine(hurst=0.8, q0=1.0, q1=64.0, C0=1.0)
     want = np.pi / 2 * (1 - 64**-0.6) / 0.6  # (pi/2) int q^(2 - 3.6) dq
     assert s.elastic_energy() == pytest.approx(want, rel=1e-12)
-
-
-GOOD = {"hurst": 0.8, "q0": 1.0, "q1": 10.0, "h_rms": 1.0}
 
 
 def test_spectra_are_equal_to_their_copies_and_to_no_others():

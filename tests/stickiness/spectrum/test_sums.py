@@ -30,6 +30,9 @@ def test_integrals_add(pair):
     assert both.elastic_energy() == pytest.approx(sum(s.elastic_energy() for s in pair), rel=1e-14)
     assert both.h_rms == pytest.approx(np.hypot(*(s.h_rms for s in pair)), rel=1e-14)
     np.testing.assert_allclose(both.psd(q), sum(s.psd(q) for s in pair), rtol=1e-14)
+    energies = [s.elastic_energy() for s in pair]
+    longest = np.average(np.log([s.q_longest for s in pair]), weights=energies)
+    assert both.q_longest == pytest.approx(np.exp(longest), rel=1e-14)
 
 
 SPECTRA = [
@@ -54,22 +57,6 @@ def test_inverse_of_the_gradient_variance(s):
     np.testing.assert_allclose(above, s.variance_above(q), rtol=1e-9, atol=1e-13 * s.h_rms**2)
     np.testing.assert_allclose(s.at_gradient_variance(gradient[-1] * 2)[0], s.q1, rtol=1e-15)
     assert s.at_gradient_variance(gradient.reshape(1, -1))[0].shape == (1, 37)
-
-
-@pytest.mark.parametrize("rest", [{}, {"q_rolloff": 5.0}, {"anisotropy": 3.0}])
-def test_two_alike_are_one_of_twice_the_density(rest):
-    kind = {"hurst": 0.8, "q0": 1.0, "q1": 64.0, **rest}
-    both, one = combine(*[SelfAffine(C0=0.1, **kind)] * 2), SelfAffine(C0=0.2, **kind)
-    assert both.knots == pytest.approx(one.knots, rel=1e-15)
-    assert both.q_longest == pytest.approx(one.q_longest, rel=1e-14)
-    assert both.band == one.band
-    loads = np.array([0.02, 0.1, 0.5]) * one.rms_slope
-    theories = Persson(both), Persson(one)
-    for name in ("area_fraction", "mean_gap"):
-        got, want = (getattr(theory, name)(loads) for theory in theories)
-        np.testing.assert_allclose(got, want, rtol=1e-11)
-    got, want = (theory.gap_cumulative(0.1 * one.h_rms, loads) for theory in theories)
-    np.testing.assert_allclose(got, want, rtol=1e-8)
 
 
 def test_surfaces_of_a_sum_hold_what_those_of_its_parts_do():

@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 
 from stickiness import Material, Surface, judge, surface
-from stickiness.measured.levelling import detrend
-from stickiness.remaining.height_simulation import simulate_heights
 from stickiness.solids import Film, Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.judgement import BY_SHAPED_THEORY, BY_SIMULATION
@@ -38,15 +36,6 @@ def wall(heights):
 def meet_roughness(material, surface):
     """Roughness that a material meets, without errors."""
     return find_roughness(material, surface, find_family(material, surface))
-
-
-def test_a_layer_meets_states_of_its_own(wall, heights):
-    states = meet_roughness(TAPE, wall).simulated.whole
-    # Full contact takes the energy of the layer, which is far above that of the half-space.
-    half_space = wall.simulated.whole.full_contact_energy
-    assert states.full_contact_energy > 3 * half_space
-    direct = simulate_heights(detrend(heights, "plane"), (SIDE, SIDE), solid=LAYER).whole
-    assert states.full_contact_energy == pytest.approx(direct.full_contact_energy, rel=0.1)
 
 
 def test_materials_of_one_layer_share_a_simulation(wall):

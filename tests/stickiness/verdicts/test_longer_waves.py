@@ -92,14 +92,6 @@ def test_a_contact_as_large_as_the_scan_changes_nothing(patch):
     assert same.identical(patch.data)
 
 
-def test_energy_grows_with_the_contact(patch):
-    energies = []
-    for times in (2, 10, 100):
-        longer = lengthen(patch.data, times * float(patch.data.scan))
-        energies.append(read_family(longer).energy())
-    assert np.all(np.diff(np.median(energies, axis=1)) > 0)
-
-
 def test_where_a_rolloff_is_seen_longer_waves_hardly_matter():
     bent = SelfAffine(hurst=0.8, q_rolloff=16 * np.pi / SIDE, **BAND)
     surface = Surface.from_heights(synthesise(bent, n=512, length=SIDE, seed=2), SIDE)

@@ -7,11 +7,9 @@ from helpers.analysed import LONGEST, fix_a_v, wall
 from stickiness import Material, Surface, judge
 from stickiness.criteria.pair import WORDS
 from stickiness.remaining import Roughness
-from stickiness.remaining.solid_response import SolidResponse
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import Film, Layer, Skin
 from stickiness.solids.moduli import Prony, Table
-from stickiness.spectrum import SelfAffine, SpectrumFamily
 from stickiness.verdicts.judgement import describe_draws
 from stickiness.verdicts.limits import QUANTILES, limit_between_ends, limit_drawn
 from stickiness.verdicts.meeting import TOO_DIFFERENT, deviate, find_family, find_roughness, meet
@@ -206,26 +204,6 @@ def test_a_rate_dependent_tape_has_its_film_at_every_rate_and_dwell():
     np.testing.assert_allclose(after_dwell.remaining / ratio, expected, rtol=2e-5)
 
 
-def test_the_response_on_a_film_ends_at_the_rigid_base_and_at_the_bent_plate():
-    q0 = 2 * np.pi / LONGEST
-    spectrum = SelfAffine(hurst=0.8, q0=q0, q1=2 * q0, h_rms=1e-6)
-    solid = Layer(40e-6, 0.5, Film(1e3, 0.4, 25e-6))
-    response = SolidResponse(SpectrumFamily.of(spectrum), solid, np.array([q0]))
-    change = response.change(np.zeros(3, int), np.array([1e-6, 1.0, 1e6]))
-    energy = change["elastic_energy"] * spectrum.elastic_energy(solid)
-    compliance = change["relative_compliance"] * solid.factor(q0)
-    base = Layer(40e-6, 0.5)
-    soft = spectrum.elastic_energy(base), base.factor(q0)
-    assert (energy[0], compliance[0]) == pytest.approx(soft, rel=1e-5)
-    as_it_is = spectrum.elastic_energy(solid), solid.factor(q0)
-    assert (energy[1], compliance[1]) == pytest.approx(as_it_is, rel=1e-12)
-    # A hard layer bends the plate: it takes D q^4/2 times the variance of every wave.
-    plate = 1e3 * 0.75 / (1 - 0.16) * (25e-6) ** 3 / 12
-    bent = plate * spectrum.integrate(lambda q: q**4, *spectrum.band) / 2
-    hard = 1e-6 * bent, 1e6 / (2 * plate * q0**3)
-    assert (energy[2], compliance[2]) == pytest.approx(hard, rel=1e-3)
-
-
 @pytest.mark.parametrize("factor", [1e-3, 0.5, 20.0])
 @pytest.mark.parametrize(
     "make_solid",
@@ -246,14 +224,6 @@ def test_the_response_is_that_of_solids_with_other_moduli(make_solid, factor):
         np.testing.assert_allclose(getattr(changed, name), getattr(other, name), rtol=1e-12)
 
 
-def test_the_layer_acts_on_draws_as_on_both_ends():
-    layer, plain = (meet_all(each, wall(draws=3)) for each in (put_on_layer(40e-6), TAPE))
-    ratio = layer.pair.elastic_energy / plain.pair.elastic_energy
-    assert ratio == pytest.approx(np.full(3, layer.stiffening[0]))
-    assert (layer.pair.rough.relative_compliance < 1).all()
-    assert layer.pair.rough.half_space_energy == pytest.approx(plain.pair.elastic_energy)
-
-
 def test_roughness_of_both_solids_adds():
     surface = wall(draws=4)
     both, one = (meet_all(each, surface) for each in (TAPE.replace(surface=surface), TAPE))
@@ -270,15 +240,6 @@ def test_what_is_unresolved_is_told_by_the_coarser_of_two_measurements():
     fine, coarse = wall(draws=4), wall(draws=4, shortest=6e-7)
     both = meet_roughness(TAPE.replace(surface=coarse), fine)
     assert (both.unresolved > 0.01).all()
-
-
-def test_a_smooth_partner_changes_nothing():
-    rough = wall(draws=4)
-    smooth = wall(h_rms=1e-11, apart=1.0)  # known exactly
-    both, alone = (meet_all(each, rough) for each in (TAPE.replace(surface=smooth), TAPE))
-    for name in ("elastic_energy", "q0", "h_rms"):
-        for of_both, of_one in ((both.ends, alone.ends), (both.pair, alone.pair)):
-            assert getattr(of_both, name) == pytest.approx(getattr(of_one, name), rel=1e-6)
 
 
 @pytest.mark.slow
@@ -312,37 +273,3 @@ def test_skewed_heights_of_two_solids_add_as_third_cumulants():
     assert second.shape_error == pytest.approx(first.shape_error)
     assert twice.shape == pytest.approx(2 * first.shape)
     assert twice.shape_error == pytest.approx(np.sqrt(2) * first.shape_error)
-
-
-@pytest.mark.parametrize("own", [{"apart": 1.0}, {"draws": 5}])
-def test_draws_of_two_solids_and_layers_keep_the_shape_of_heights(own):
-    plateau = wall(draws=8, shape=0.8, shape_error=0.4)
-    both = meet_roughness(TAPE.replace(surface=wall(**own)), plateau)
-    assert both.shape == pytest.approx(np.full(8, 0.8 / np.sqrt(8)))
-    layer = meet_roughness(put_on_layer(40e-6), plateau)
-    assert layer.shape == 0.8
-
-
-def test_limits_follow_the_shape_of_heights():
-    """Half a logarithm on the energy ratio is half a logarithm on the threshold of the modulus."""
-    skewed = [wall(), wall(shape=0.5), wall(shape=0.5, shape_error=0.2)]
-    judged = judge([TAPE], skewed, curves=False)
-    threshold = judged.modulus_threshold.sel(limit="value").squeeze().values
-    # The width of the cohesive zone, which depends on the work of adhesion itself, hardly matters.
-    assert np.log(threshold[1] / threshold[0]) == pytest.approx(0.5, rel=0.01)
-    low = judged.remaining.sel(limit="low").squeeze().values
-    high = judged.remaining.sel(limit="high").squeeze().values
-    assert low[1] > low[0]
-    assert high[1] > high[0]
-    assert low[2] < low[1]
-    assert high[2] > high[1]
-
-
-@pytest.mark.slow
-def test_thinner_tapes_keep_less():
-    materials = {"deep": TAPE, "50": put_on_layer(50e-6), "20": put_on_layer(20e-6)}
-    dataset = judge(materials, {"wall": wall(h_rms=3e-6)}, thresholds=False)
-    smooth = dataset.sel(surface="wall", end="smooth")
-    strains = [3 * 3 / d / (d * 1e-6 * 2 * np.pi / LONGEST) for d in (50, 20)]
-    assert smooth.layer_strain.values == pytest.approx([0, *strains], rel=1e-3)
-    assert (smooth.remaining.sel(limit="high").diff("material") < 0).all()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from limits import measure_balls
+from campaigns import balls
 from stickiness import Material, Surface, full_contact_energy, surface
 from stickiness.remaining import sphere
 from stickiness.solids import Layer
@@ -99,23 +99,12 @@ def test_tips_on_a_map_have_the_force_of_a_sum_over_its_heights(radius):
     law = LAWS["exponential"](material.work_of_adhesion, RANGE)
     points = min(2 * int(np.sqrt(2 * radius * 1e-8) / pixel) + 2, 1024)
     forces = [
-        measure_balls.touching_force(
-            measure_balls.cut(fine, place, points, pixel, radius), points * pixel, law
-        )
+        balls.touching_force(balls.cut(fine, place, points, pixel, radius), points * pixel, law)
         for place in np.random.default_rng(1).integers(0, 2048, (60, 2))
     ]
     low, high = ball.force_limits
     assert np.mean((np.array(forces) > low) & (np.array(forces) < high)) >= 0.85
     assert 0.6 < ball.force / np.median(forces) < 1.5
-
-
-def test_a_second_solid_with_nothing_but_low_short_waves_changes_nothing():
-    rough = on_zone(0.25, 1.0)
-    fine = SelfAffine(hurst=0.8, q0=10 * rough.q0, q1=rough.q1, h_rms=1e-4 * rough.h_rms)
-    alone = pull_off_of_ball(Surface.from_spectrum(rough), hard("exponential"), TIP)
-    second = hard("exponential").replace(surface=Surface.from_spectrum(fine))
-    pair = pull_off_of_ball(Surface.from_spectrum(rough), second, TIP)
-    assert pair.force == pytest.approx(alone.force, rel=1e-3)
 
 
 def test_a_second_rough_solid_counts_as_the_first():

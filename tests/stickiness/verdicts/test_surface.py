@@ -4,7 +4,6 @@ import warnings
 
 import numpy as np
 import pytest
-import xarray as xr
 from helpers.analysed import wall
 
 from stickiness import Material, Surface, judge, thresholds, verdict
@@ -70,12 +69,6 @@ def measured():
 def test_mistakes_are_named(make, message):
     with pytest.raises(ValueError, match=message):
         make()
-
-
-def test_lengths_of_a_drawing_are_texts_or_numbers():
-    texts = Surface.from_drawing(Ra=("0.4 um", "0.8 um"), lambda_c="0.8 mm")
-    numbers = Surface.from_drawing(Ra=(4e-7, 8e-7), lambda_c=8e-4)
-    xr.testing.assert_allclose(texts.data, numbers.data, rtol=1e-12)
 
 
 @pytest.mark.slow

@@ -14,7 +14,6 @@ from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
 from stickiness.solids import Layer
 from stickiness.solids.moduli import Prony
 from stickiness.spectrum import SelfAffine
-from stickiness.verdicts.verdict import StickinessVerdict
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
 
@@ -159,15 +158,6 @@ def test_heights_that_no_surface_has_are_warned_of(known, length, factor, messag
     assert all(message in found for message in messages), found
 
 
-def test_heights_in_micrometres_beside_a_side_in_metres_are_not_judged():
-    model = SelfAffine(hurst=0.8, q0=1e3, q1=8e3, h_rms=1e-4)
-    length = 2e-3 * np.pi
-    micrometres = 1e6 * surface.synthesise(model, 128, length, 1)
-    answer = verdict(micrometres, length=length, **GEL)
-    assert answer.word == "not judged"
-    assert "more than the side of 0.00628 m" in answer.not_judged[0]
-
-
 @pytest.mark.parametrize(("slope", "warned"), [(0.98, False), (1.02, True)])
 def test_slopes_that_are_not_small_are_warned_of(slope, warned):
     s = SelfAffine(hurst=0.8, q0=6e4, q1=6e8, h_rms=1e-6 * slope / ROUGH.rms_slope)
@@ -177,36 +167,3 @@ def test_slopes_that_are_not_small_are_warned_of(slope, warned):
     told = [str(one.message).partition("; ")[0] for one in caught]
     assert told == warned * ["rms_slope = 1.02 is outside 1e-07 to 1: small slopes are assumed"]
     assert ("doubtful" in str(answer).splitlines()[0]) == warned
-
-
-def test_lengths_scale():
-    """Without a length of its own the verdict is that of a surface and range twice as large."""
-    larger = SelfAffine(hurst=0.8, q0=3e4, q1=3e8, h_rms=2e-6)
-    one = verdict(ROUGH, **GEL)
-    two = verdict(larger, youngs_modulus=0.1e6, work_of_adhesion=0.1, range=6e-10)
-    for name in CRITERIA:
-        assert two.margins[name] == pytest.approx(one.margins[name], rel=1e-6)
-    assert two.margin_limits == pytest.approx(one.margin_limits, rel=1e-6)
-
-
-@pytest.mark.parametrize(
-    ("modulus", "threshold", "limits", "words"),
-    [
-        (2e5, 0.0, (0.0, 2.15e9), "sticks at no modulus, or below E = 2.15 GPa; it is 200 kPa"),
-        (2e5, 0.0, (0.0, 0.0), "sticks at no modulus; it is 200 kPa"),
-        (1e14, 1e20, (1e20, 1e20), "sticks at any modulus; it is 10⁵ GPa"),
-        (2e5, 4e4, (2.25e3, 6e6), "sticks below E = 2.25 kPa to 6 MPa; it is 200 kPa"),
-    ],
-)
-def test_thresholds_beyond_use_are_told_in_words(modulus, threshold, limits, words):
-    cell = verdict(ROUGH, **GEL).cell
-    told = cell.assign(
-        quoted_modulus=modulus,
-        modulus_threshold=("limit", [limits[0], threshold, limits[1]]),
-        remaining=("limit", [0.0, 1.8e-8, 17.0]),
-    )
-    lines = str(StickinessVerdict(told)).splitlines()
-    assert words in lines
-    assert "below 1700 % of the work of adhesion remains" in lines[0]
-    none = StickinessVerdict(cell.assign(remaining=("limit", [0.0, 5.3e-8, 1e-4])))
-    assert ": 0 % of the work of adhesion remains" in str(none)
