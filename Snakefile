@@ -82,7 +82,6 @@ ALL += ("claims", "report", "findings") if REAL_SURFACES.keys() >= set(PAPER_SUR
 rule all:
     input:
         [TARGETS[target] for target in ALL],
-        f"{RESULTS}/fits/a_v_table.nc",
     message:
         "All is made"
 

@@ -18,7 +18,6 @@ PAGE_PARTS = [
 rule map_criterion:
     input:
         **A_V_FILES,
-        a_v_table=f"{RESULTS}/fits/a_v_table.nc",
     output:
         map=f"{RESULTS}/criteria/map.nc",
         compared=f"{RESULTS}/criteria/compared.nc",

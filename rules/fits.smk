@@ -1,4 +1,4 @@
-# Where theory departs from simulation, the gamma with which it departs least, and a_V in a table.
+# Where theory departs from simulation, and the gamma with which it departs least.
 
 # Whatever is simulated for every quantity, with which theory is compared.
 SIMULATED = [*COMPLETE, *COMPARISONS]
@@ -28,23 +28,3 @@ if SIMULATED:
             "Compare Persson's theory with simulation, and fit gamma"
         script:
             "../scripts/fits/compare_theory.py"
-
-
-rule tabulate_a_v:
-    input:
-        theory=rules.persson_table.output[0],
-        comparisons=several("fits/theory/{compared}.nc", compared=SIMULATED),
-    output:
-        f"{RESULTS}/fits/a_v_table.nc",
-    log:
-        f"{RESULTS}/logs/tabulate_a_v/fits/a_v_table.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/tabulate_a_v/fits/a_v_table.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        code=source_hash("fits/tabulate_a_v.py"),
-    message:
-        "Tabulate a_V with its errors"
-    script:
-        "../scripts/fits/tabulate_a_v.py"

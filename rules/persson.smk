@@ -92,26 +92,3 @@ if COMPARISONS:
             "Evaluate Persson's theory on the spectra of all comparisons"
         script:
             "../scripts/persson/persson_lattice.py"
-
-
-rule persson_table:
-    input:
-        laws=ERROR_MODELS,
-    output:
-        f"{RESULTS}/persson/table.nc",
-    log:
-        f"{RESULTS}/logs/persson_table/persson/table.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/persson_table/persson/table.tsv"
-    conda:
-        "../envs/environment.yaml"
-    resources:
-        runtime=20,
-    params:
-        table=config["theory"]["table"],
-        gamma=GAMMA,
-        code=source_hash("persson/persson_table.py"),
-    message:
-        "Tabulate Persson's theory for all surfaces"
-    script:
-        "../scripts/persson/persson_table.py"

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from common.conventions import logarithmic_grid
+from criteria.self_affine_a_v import find_a_v
 from stickiness import datasets
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
@@ -31,9 +32,9 @@ COMPARED_VARIABLES = {
 }
 
 
-def write_comparison(settings, load, table, constant, output):
+def write_comparison(settings, load, constant, output):
     """Write the thresholds; `constant` is the constant a_V of a broad spectrum."""
-    dataset = datasets.annotate(compare(settings, load, table, constant), **COMPARED_VARIABLES)
+    dataset = datasets.annotate(compare(settings, load, constant), **COMPARED_VARIABLES)
     datasets.write(
         dataset,
         output,
@@ -42,15 +43,15 @@ def write_comparison(settings, load, table, constant, output):
     )
 
 
-def compare(settings, load, table, constant):
+def compare(settings, load, constant):
     """Thresholds over roughness and over magnification, the other being fixed."""
     heights = logarithmic_grid(settings["h_rms_over_range"])
     zetas = logarithmic_grid(settings["magnification"])
     fixed_height = np.full(zetas.shape, float(settings["quoted_h_rms_over_range"]))
     fixed_zeta = np.full(heights.shape, float(settings["quoted_magnification"]))
     pairs = {
-        "roughness": make_pair(settings, heights, fixed_zeta, load, table, constant),
-        "magnification": make_pair(settings, fixed_height, zetas, load, table, constant),
+        "roughness": make_pair(settings, heights, fixed_zeta, load, constant),
+        "magnification": make_pair(settings, fixed_height, zetas, load, constant),
     }
     axes = {"roughness": "h_rms_over_range", "magnification": "magnification"}
     variables = {}
@@ -71,7 +72,7 @@ def compare(settings, load, table, constant):
     )
 
 
-def make_pair(settings, h_rms, magnification, load, table, constant):
+def make_pair(settings, h_rms, magnification, load, constant):
     """`Pair` of surfaces of these rms heights and magnifications.
 
     The range and the adhesion length are the units of length.
@@ -95,6 +96,6 @@ def make_pair(settings, h_rms, magnification, load, table, constant):
         work_of_adhesion=1.0,
         range=1.0,
         rms_curvature=np.array([spectrum.rms_curvature for spectrum in spectra]),
-        a_v=table.a_v_at(hurst, load, 1 / h_rms, magnification).value,
+        a_v=find_a_v(hurst, load, 1 / h_rms, magnification)[0],
         constant_a_v=constant,
     )

@@ -9,7 +9,7 @@ import xarray as xr
 from common.job import start
 from common.pairs import SHARES, arrange_pairs, list_doubts
 from stickiness import datasets
-from stickiness.criteria.a_v_table import THEORY_ERROR
+from stickiness.criteria.a_v_theory import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.formatting import percent

@@ -14,10 +14,11 @@ from common.conventions import logarithmic_grid
 from common.job import start
 from common.pairs import SHARES
 from criteria.compare_criteria import write_comparison
+from criteria.self_affine_a_v import find_a_v
 from criteria.simulated_a_v import measure_a_v
 from stickiness import criteria, datasets, remaining
 from stickiness.criteria import equivalent_sphere
-from stickiness.criteria.a_v_table import NEEDED, AvTable
+from stickiness.criteria.a_v_theory import RANGES
 from stickiness.error_budget import with_budget
 from stickiness.spectrum.kinds import SelfAffine
 from stickiness.verdicts.limits import LIMIT_TEXT, LIMITS
@@ -29,12 +30,12 @@ RULE = "c in h_rms^2 < c lambda_L w/E*, for many waves and a short range"
 HURSTS = (0.5, 0.6, 0.7, 0.8, 0.9)
 BROAD = 1e4  # magnification of this rule
 SHORT = 1e-6  # its range over h_rms
-MISSING = "none for which a_V is tabulated, or none above 1"
+MISSING = "none above 1, or none below 10^14"
 MAP_VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
     "adhesion_length_over_range": ("1", "adhesion length over range"),
     "limit": LIMIT_TEXT,
-    "h_rms_limit": ("1", f"{DMT}, a_V as tabulated with its limits", MISSING),
+    "h_rms_limit": ("1", f"{DMT}, a_V by theory with its limits", MISSING),
     "h_rms_limit_edges": ("1", f"{EDGES}, with the limits of a_V and of the model", MISSING),
     "h_rms_limit_constant": ("1", f"{DMT}, constant a_V of a broad spectrum"),
     "h_rms_limit_printed": ("1", f"{DMT}, coefficient 9/4 as printed"),
@@ -52,14 +53,14 @@ MAP_VARIABLES = {  # units, description, and what NaN means
 }
 BAM_REPULSION = 0.75  # factor in later forms of the bearing-area model, see `bearing_area`
 SIGNS = {"low": -1, "value": 0, "high": 1}  # of the error of the model, by its limits
+NARROWEST = 10.0  # magnification
 
 
 def main(job):
     settings = job.params.map
     pressure = job.params.pressure
     a_v, parts = measure_a_v(job.input, pressure)
-    table = AvTable(datasets.read(job.input.a_v_table, NEEDED))
-    dataset = find_limits(settings, a_v, MapSurfaces(table, settings, pressure))
+    dataset = find_limits(settings, a_v, MapSurfaces(settings, pressure))
     dataset = dataset.assign(find_slopes(settings["slope_parameter"], settings["slope_a_v"]))
     dataset = dataset.assign(find_rule())
     dataset = dataset.assign(a_v=a_v).assign_coords(limit=list(LIMITS))
@@ -75,45 +76,33 @@ def main(job):
         title="map of the stickiness criterion",
         parameters={**settings, "pressure": pressure},
     )
-    write_comparison(job.params.compared, pressure, table, a_v, job.output.compared)
+    write_comparison(job.params.compared, pressure, a_v, job.output.compared)
 
 
 class MapSurfaces:
     """Self-affine surfaces of the map, with the range as unit of length."""
 
-    def __init__(self, table, settings, pressure):
-        self._table = table
+    def __init__(self, settings, pressure):
         self._pressure = pressure
         self._hurst = settings["hurst"]
         self._q1 = 2 * np.pi / settings["shortest_over_range"]
-        self._narrowest, self._broadest = table.bounds["magnification"]
-        self.largest = 1 / table.bounds["range"][0]  # h_rms/range at which a_V is still known
+        self.largest = 1 / RANGES[0]  # h_rms/range at which a_V is still known
+
+    def magnification(self, q0):
+        """Highest over lowest wave number, at least `NARROWEST`."""
+        return np.maximum(self._q1 / q0, NARROWEST)
 
     def slope(self, h, q0):
         """Root mean square gradient."""
-        zeta = np.maximum(self._q1 / q0, self._narrowest)
+        zeta = self.magnification(q0)
         every = np.unique(zeta)
         unit = [SelfAffine(hurst=self._hurst, q0=1.0, q1=z, h_rms=1.0).rms_slope for z in every]
         return h * q0 * np.interp(np.log(zeta), np.log(every), unit)
 
     def a_v(self, h, q0, which):
-        """Value, low or high limit of a_V at the range over h.
-
-        Beyond the table a_V is that of its largest magnification, at a range as large compared with
-        the finest waves, times its change at infinite magnification between the two ranges.
-        """
-        range_over_h = 1 / h
-        zeta = np.maximum(self._q1 / q0, self._narrowest)
-        # A surface within the table, whose finest waves are as large beside its range.
-        tabulated_zeta = np.minimum(zeta, self._broadest)
-        scaled_range = range_over_h * (zeta / tabulated_zeta) ** self._hurst
-        scaled_range = np.minimum(scaled_range, 1)
-        of_broad = self._look_up(range_over_h, np.inf).value
-        change = of_broad / self._look_up(scaled_range, np.inf).value
-        return getattr(self._look_up(scaled_range, tabulated_zeta), which) * change
-
-    def _look_up(self, range_over_h, zeta):
-        return self._table.a_v_at(self._hurst, self._pressure, range_over_h, zeta)
+        """Value, low or high limit of a_V at the range over h."""
+        value, low, high = find_a_v(self._hurst, self._pressure, 1 / h, self.magnification(q0))
+        return {"low": low, "value": value, "high": high}[which]
 
     def attraction(self, h, q0, length, which):
         """Attraction over repulsion by the edges of contact."""

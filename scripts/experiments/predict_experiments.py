@@ -18,7 +18,7 @@ from common.experiment_outcomes import COMPATIBLE, GRADES, MARKS, MISSED, OUTCOM
 from common.job import start
 from experiments import plot_experiments
 from stickiness import datasets
-from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
+from stickiness.criteria.a_v_theory import SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget

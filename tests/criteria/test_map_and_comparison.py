@@ -1,7 +1,5 @@
 """Limits of roughness on the map, and the adhesion that each criterion requires."""
 
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 
@@ -21,18 +19,20 @@ COMPARED |= {"magnification": {"minimum": 10, "maximum": 1e5, "per_decade": 2}}
 COMPARED |= {"quoted_h_rms_over_range": 1000, "quoted_magnification": 1e4}
 
 
-class ConstantAv:
-    """A table of a_V that has one value, 20 % low and 30 % high ends."""
+@pytest.fixture(autouse=True)
+def constant_a_v(monkeypatch):
+    """One a_V for all surfaces and ranges, with limits 20 % below and 30 % above it."""
 
-    bounds = {"magnification": (10.0, 1e8), "range": (1e-12, 1.0)}  # noqa: RUF012
-
-    def a_v_at(self, hurst, pressure, range_over_h_rms, magnification):
+    def find_a_v(hurst, load, range_over_h_rms, magnification):
         value = np.full(np.broadcast(range_over_h_rms, magnification).shape, 3.0)
-        return SimpleNamespace(value=value, low=0.8 * value, high=1.3 * value)
+        return value, 0.8 * value, 1.3 * value
+
+    for module in (map_criterion, compare_criteria):
+        monkeypatch.setattr(module, "find_a_v", find_a_v)
 
 
 def made_map():
-    surfaces = map_criterion.MapSurfaces(ConstantAv(), ASKED_MAP, 0.065)
+    surfaces = map_criterion.MapSurfaces(ASKED_MAP, 0.065)
     return map_criterion.find_limits(ASKED_MAP, 3.0, surfaces)
 
 
@@ -81,7 +81,7 @@ def test_the_rule_of_others_has_closed_forms():
 @pytest.mark.slow
 def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold():
     made = made_map()
-    roughness = map_criterion.MapSurfaces(ConstantAv(), ASKED_MAP, 0.065)
+    roughness = map_criterion.MapSurfaces(ASKED_MAP, 0.065)
     q0, length = 1e-4, 0.1
     at = {"range_times_q0": q0, "adhesion_length_over_range": length}
     one = made.sel(at, method="nearest")
@@ -98,7 +98,7 @@ def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold()
 
 @pytest.mark.slow
 def test_which_criteria_know_the_finest_waves():
-    data = compare_criteria.compare(COMPARED, 0.065, ConstantAv(), 3.0).against_magnification
+    data = compare_criteria.compare(COMPARED, 0.065, 3.0).against_magnification
     change = data.isel(magnification=-1) / data.isel(magnification=0)
     unmoved = ["violano_constant", "violano_printed", "bearing_area"]
     np.testing.assert_allclose(change.sel(criterion=unmoved), 1, rtol=1e-12)

@@ -9,7 +9,7 @@ import xarray as xr
 from criteria.simulated_a_v import measure_a_v
 from stickiness import criteria, datasets
 from stickiness import error_budget as budget
-from stickiness.criteria.a_v_table import VARIANTS, SurfaceAv, edge_range, local_a_v
+from stickiness.criteria.a_v_theory import VARIANTS, SurfaceAv, edge_range, local_a_v
 from stickiness.persson import Persson
 from stickiness.spectrum import SelfAffine
 

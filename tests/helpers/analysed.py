@@ -3,7 +3,7 @@
 import numpy as np
 
 from stickiness import Surface
-from stickiness.criteria.a_v_table import SurfaceAv
+from stickiness.criteria.a_v_theory import SurfaceAv
 from stickiness.spectrum import SelfAffine, SpectrumFamily
 from stickiness.verdicts.surface_data import tabulate_family
 

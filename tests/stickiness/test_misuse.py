@@ -19,7 +19,7 @@ from stickiness import (
 )
 from stickiness.accuracy import model_choice, multilevel
 from stickiness.adhesive import edge_zone
-from stickiness.criteria import a_v_table, equivalent_sphere, formulas
+from stickiness.criteria import a_v_theory, equivalent_sphere, formulas
 from stickiness.measured import instrument_spectrum, levelling, periodic, psd, topography
 from stickiness.persson import Persson
 from stickiness.plausibility import PlausibilityWarning
@@ -211,9 +211,9 @@ MISUSES = [
         "ranges must be an increasing sequence",
     ),
     (lambda: dmt.sum_over_gaps([0.1, 0.2], [1, 2, 3], LAW.traction), "with one area each"),
-    (lambda: a_v_table.local_a_v(0.1, 0.0, 0.1), "pressure must be positive"),
+    (lambda: a_v_theory.local_a_v(0.1, 0.0, 0.1), "pressure must be positive"),
     (
-        lambda: a_v_table.edge_range([1, 2], [np.nan, 1], [1, 1]),
+        lambda: a_v_theory.edge_range([1, 2], [np.nan, 1], [1, 1]),
         "infinite must be positive and finite",
     ),
     (

@@ -43,8 +43,8 @@ def test_a_script_alone_makes_what_it_makes_in_a_run(copy_of_finished, script, f
 
 
 def test_without_a_file_the_first_job_of_a_run_is_taken(copy_of_finished):
-    done = run_alone(copy_of_finished, "persson/persson_table.py")
-    assert done.stderr.startswith("scripts/persson/persson_table.py: makes results/tiny/persson/")
+    done = run_alone(copy_of_finished, "persson/persson_sweep.py")
+    assert done.stderr.startswith("scripts/persson/persson_sweep.py: makes results/tiny/persson/")
 
 
 @pytest.mark.parametrize(

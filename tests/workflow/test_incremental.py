@@ -14,7 +14,7 @@ SOLVING = SOLUTIONS | {"contact_maps", "solve_ensemble", "solve_adhesive", "adhe
 SOLVING |= {"follow_loop"}
 ANSWERING = {"answer_case", "answer_by_theory"}
 # What shows answers of cases, and the theory that goes with a case.
-SHOWING = {"persson_lattice", "compare_theory", "tabulate_a_v", "average_adhesive", "map_criterion"}
+SHOWING = {"persson_lattice", "compare_theory", "average_adhesive", "map_criterion"}
 SHOWING |= {"compare_criteria", "check_claims", "write_report", "write_findings"}
 SHOWING |= {"persson_sweep"}  # at the Hurst exponents of cases that have a role
 SHOWING |= {f"plot_fig{number}" for number in range(1, 14)}

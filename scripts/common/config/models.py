@@ -3,7 +3,7 @@
 from operator import attrgetter
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, model_validator
 
 from common.config.campaigns import HeightCampaign, LimitCampaign, Remaining, Tradeoff
 from common.config.experiments import Experiments
@@ -43,25 +43,9 @@ PAPER = {
 }
 # Roles whose cases these need with every quantity; of the others they need Hurst exponents alone.
 SIMULATED_ROLES = ("narrow_band", "middle_band", "broad_band", "wide_cell")
-# Keys of criteria, and axes of the table of a_V within which they must lie.
-WITHIN_TABLE = (
-    ("a_v.pressure", "pressure"),
-    ("map.hurst", "hurst"),
-    ("compared.hurst", "hurst"),
-    ("compared.magnification.minimum", "magnification"),
-    ("compared.magnification.maximum", "magnification"),
-    ("compared.quoted_magnification", "magnification"),
-    ("compared.h_rms_over_range.minimum", "range, inverted:"),
-    ("compared.h_rms_over_range.maximum", "range, inverted:"),
-    ("compared.quoted_h_rms_over_range", "range, inverted:"),
-)
-
-
-def check_ascending(values: list[float]) -> list[float]:
-    """Check that values ascend."""
-    if values != sorted(values):
-        raise ValueError("must be in increasing order")
-    return values
+# Rms heights over the range at which a_V is known, and the keys that lie between them.
+HEIGHTS_KNOWN = 0.1, 1e14
+HEIGHTS = ("h_rms_over_range.minimum", "h_rms_over_range.maximum", "quoted_h_rms_over_range")
 
 
 def check_quoted(variants: list[str]) -> list[str]:
@@ -69,18 +53,6 @@ def check_quoted(variants: list[str]) -> list[str]:
     if "afferrante2018" not in variants:
         raise ValueError("lacks 'afferrante2018', which is quoted")
     return variants
-
-
-Axis = Annotated[Values, Field(min_length=4), AfterValidator(check_ascending)]
-
-
-class Table(Section):
-    """Points at which a_V is tabulated, at least 4 along each axis, in increasing order."""
-
-    hurst: Annotated[Axis, Field(description="Hurst exponents")]
-    magnification: Annotated[Axis, Field(description="magnifications q1/q0")]
-    pressure: Annotated[Axis, Field(description="mean pressures over E* q0 h_rms")]
-    range: Grid = needed("range over h_rms")
 
 
 class Sweep(Section):
@@ -101,7 +73,6 @@ class Theory(Section):
         f.Several[Literal["afferrante2018", "almqvist2011"]], AfterValidator(check_quoted)
     ] = needed("afferrante2018 is quoted and must be there; others show the spread")
     gamma: f.Share = needed("gamma of Yang & Persson's correction; 1 switches the correction off")
-    table: Table = needed("points at which a_V is tabulated")
     sweeps: f.Names[Sweep] = needed("computations on continuous spectra, by name")
 
 
@@ -306,7 +277,7 @@ class Configuration(Section):
             yield "the paper's figures and claims", "", case, []
 
     def _limits(self):
-        """Yield keys that the grid of gaps and the table of a_V limit, with both limits."""
+        """Yield keys that the grid of gaps and theory limit, with both limits."""
         gaps = "gaps.minimum … gaps.maximum:", self.gaps.minimum, self.gaps.maximum
         for index, window in enumerate(self.a_v.windows):
             for end in window:
@@ -314,12 +285,9 @@ class Configuration(Section):
         for key, adhesion in self.adhesion.items():
             for value in adhesion.range_over_h_rms:
                 yield f"adhesion.{key}.range_over_h_rms", value, *gaps
-        table = self.theory.table
-        axes = dict(table)
-        axes["range, inverted:"] = 1 / table.range.maximum, 1 / table.range.minimum
-        for key, axis in WITHIN_TABLE:
-            limits = f"theory.table.{axis}", axes[axis][0], axes[axis][-1]
-            yield f"criteria.{key}", attrgetter(key)(self.criteria), *limits
+        for key in HEIGHTS:
+            value = attrgetter(key)(self.criteria.compared)
+            yield f"criteria.compared.{key}", value, "a_V is known at h_rms/range", *HEIGHTS_KNOWN
 
 
 MODELS = {

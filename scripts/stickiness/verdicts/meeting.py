@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.criteria.a_v_table import LOAD, RANGES, SurfaceAv, surface_a_v
+from stickiness.criteria.a_v_theory import LOAD, RANGES, SurfaceAv, surface_a_v
 from stickiness.criteria.pair import Pair
 from stickiness.entries.material import Material
 from stickiness.limited import Limited

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness import datasets
 from stickiness.arguments import check_length, side, with_gaps
-from stickiness.criteria.a_v_table import SurfaceAv, surface_a_v
+from stickiness.criteria.a_v_theory import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, find_doubts

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.criteria.a_v_table import RANGES
+from stickiness.criteria.a_v_theory import RANGES
 from stickiness.limited import Limited
 from stickiness.persson.theory import Persson
 from stickiness.remaining.solid_response import find_columns
