@@ -7,7 +7,7 @@ area. The DMT sum gives the attraction directly, but not the area that it draws 
 Areas are those at a gap of zero; ``_net`` is the compressed part, which converges far more slowly.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -15,7 +15,7 @@ import xarray as xr
 from scipy import special
 
 from adhesion import compare_edges, dmt_sum
-from adhesion.dmt_sum import fit_slope, linearity_error, quantities_of, weak_attraction
+from adhesion.dmt_sum import FITS, fit_slope, linearity_error, quantities_of, weak_attraction
 from common import adhesion_sets, conventions
 from common.adhesion_sets import AXES, MISSING, OUTSIDE, STATE, pressure_at, solver_error
 from common.conventions import LINEAR_UP_TO
@@ -27,7 +27,8 @@ from stickiness import datasets
 from stickiness.error_budget import SOURCES, split, with_budget
 from stickiness.statistics import students_t
 
-STATES = {n: text for n, text in STATE.items() if "area" in n or n == "external_pressure"}
+AREAS = ("repulsive_area", "net_repulsive_area", "attractive_area")
+STATES = {name: STATE[name] for name in ("external_pressure", *AREAS)}
 SLOPES = {
     "inverse_kappa": "1/kappa = p_ext A_nom/(A_rep E* h'_rms)",
     "inverse_kappa_net": "1/kappa with the net repulsive area",
@@ -35,23 +36,30 @@ SLOPES = {
     "inverse_kappa_ad_net": "1/kappa_ad with the net repulsive area",
     "inverse_kappa_ad_direct": "p_ad/(2 p_rep) of the adhesive contact",
 }
-FITS = {n: text for n, text in dmt_sum.QUANTITIES.items() if n.endswith("_fit")}
 RATIOS = {
     "dmt_ratio": "1/kappa_ad of the full simulation over the DMT sum",
     "dmt_ratio_at_gap": "fall of the pressure by adhesion at equal mean gap over the DMT sum",
     "weak_ratio": "fall of the pressure by adhesion at equal mean gap over its weak limit",
 }
-# Slopes and fits have as their control the quantity of the DMT sum of the same name.
-CONTROLS = {n: n.removesuffix("_net").removesuffix("_direct") for n in SLOPES | FITS}
-ALL = STATES | SLOPES | FITS | RATIOS
-NET = [name for name in ALL if "net" in name.split("_")]
-# Under tension at zero gap, next to the edge, lies a strip. By theory it is second order in the
-# strength for weak attraction, (sigma0/B)^2 where the pressure rises as B x^(1/2). Pixels make it
-# first order, so that the difference falls as the root of the pixel only.
+ALL = STATES | SLOPES | {name: dmt_sum.QUANTITIES[name] for name in FITS} | RATIOS
+# Quantities of the DMT sum that slopes and fits have as their control.
+CONTROLS = {
+    "inverse_kappa": "inverse_kappa",
+    "inverse_kappa_net": "inverse_kappa",
+    "inverse_kappa_ad": "inverse_kappa_ad",
+    "inverse_kappa_ad_net": "inverse_kappa_ad",
+    "inverse_kappa_ad_direct": "inverse_kappa_ad",
+    **{name: name for name in FITS},
+}
+# Averages of the compressed part, which leaves out a strip under tension at zero gap next to the
+# edge. By theory the strip is second order in the strength for weak attraction, (sigma0/B)^2 where
+# the pressure rises as B x^(1/2). Pixels make it first order, so that the difference falls as the
+# root of the pixel only.
+NET = ("net_repulsive_area", "inverse_kappa_net", "inverse_kappa_ad_net")
 SLOW = 1 / (np.sqrt(2) - 1)  # over the change from half the resolution
 # Pixels across the zone of attraction below which an attraction is a statement about the grid.
 NARROWEST = 1.5
-AREAS = ("repulsive_area", "net_repulsive_area")  # without adhesion, in the DMT sum
+CONTACT_AREAS = AREAS[:2]  # those without adhesion, in the DMT sum
 ERROR_TEXTS = {
     "discretisation": "change from half the resolution, or of the DMT sum what is left of it",
     "solver": "by the tolerance, as measured on the load; of strong attraction by the branch",
@@ -129,27 +137,10 @@ def take_dmt_sum(limit):
         dataset[name] = limit[source]
         dataset[f"{name}_error"] = limit[f"{source}_error"]
     dataset["external_pressure_error"] = limit.attraction_error
-    for name in AREAS:
+    for name in CONTACT_AREAS:
         dataset[name] = limit.area_fraction + none
         dataset[f"{name}_error"] = limit.area_fraction_error.where(limit.source != "model") + none
     return dataset
-
-
-@dataclass(frozen=True)
-class Masks:
-    """Where the averages of a set hold, along the axes of the set."""
-
-    reported: xr.DataArray  # points that every seed and grid resolves, or that need no solution
-    full: xr.DataArray  # points at which a full simulation is wanted
-    linear: xr.DataArray  # loads whose area is in proportion to the load
-
-    def choose(self, name):
-        """Points at which an average of this name is reported."""
-        if name in RATIOS:
-            return self.reported & self.full
-        if name in FITS:
-            return (self.reported | ~self.linear).all("pressure")
-        return self.reported
 
 
 def average(states, full, ensemble, limit, parameters):
@@ -166,7 +157,9 @@ def average(states, full, ensemble, limit, parameters):
     states = add_dmt(states, full)
     linear_alone = dmt_sum.find_linear(adhesion, ensemble)
     linear = linear_alone & ~(fine(states.repulsive_area).mean("seed") > LINEAR_UP_TO)
-    masks = Masks(reported=reported, full=full, linear=linear)
+    chosen = dict.fromkeys(ALL, reported)
+    chosen |= dict.fromkeys(RATIOS, reported & full)
+    chosen |= dict.fromkeys(FITS, (reported | ~linear).all("pressure"))
 
     # What is compared with the contact without adhesion: at equal area and at equal mean gap.
     states = add_slopes(states, ensemble, linear)
@@ -180,16 +173,19 @@ def average(states, full, ensemble, limit, parameters):
     source = xr.DataArray(list(SOURCES), dims="source", name="source")
     dataset = xr.Dataset()
     for name in ALL:
-        values = states[name].where(masks.choose(name))
+        values = states[name].where(chosen[name])
         # Only the fall by adhesion is in proportion to the control.
         fixed = values.pressure if name == "external_pressure" else 0.0
         dataset = add_errors(dataset, name, values - fixed, controls.get(name), plain=True)
         dataset[name] = dataset[name] + fixed
         value = dataset[name]
+        grid_factor = SLOW if name in NET else 1.0
+        # The largest along dimensions that the value lacks.
+        relative_solver = solver.max(set(solver.dims) - set(value.dims))
         unseen = abs(fine(enlarged[name] - states[name]).mean("seed"))
         errors = {
-            "discretisation": grid_error(dataset, name),
-            "solver": worst_solver_error(solver, value) * (abs(value) + fixed),
+            "discretisation": dataset[f"{name}_discretisation_error"] * grid_factor,
+            "solver": relative_solver * (abs(value) + fixed),
             "sampling": sampling_error(dataset, name, seeds, unseen),
             "bandwidth": 0.0,
             "model": abs(model_error(dataset, name, states, seeds, limit, linear)),
@@ -225,17 +221,6 @@ def find_controls(ensemble, seeds, adhesion, linear):
     }
 
 
-def grid_error(dataset, name):
-    """Error by the grid: the last change, widened for quantities that converge slowly."""
-    change = dataset[f"{name}_discretisation_error"]
-    return change * (SLOW if name in NET else 1.0)
-
-
-def worst_solver_error(solver, value):
-    """Relative error by the solver, the largest along dimensions that the value lacks."""
-    return solver.max(set(solver.dims) - set(value.dims))
-
-
 def sampling_error(dataset, name, seeds, unseen):
     """Error that covers 90 %: Student's t, and at least what the turned pixels leave open."""
     # t for the few seeds solved in full, which is conservative for multilevel means.
@@ -253,7 +238,7 @@ def model_error(dataset, name, states, seeds, limit, linear):
         error = limit.attraction_weak_error.sel(source="model", drop=True)
         return error / limit.attraction_weak * dataset[name]
     if name in FITS:
-        return linearity_error(dataset[name.removesuffix("_fit")], linear)
+        return linearity_error(dataset[FITS[name]], linear)
     return 0.0
 
 
@@ -267,7 +252,7 @@ def controls_of(adhesion, linear, solved):
     controls = {
         "external_pressure": -sums.attraction,
         "attractive_area": within + zero,
-        **dict.fromkeys(AREAS, alone.area_fraction + zero),
+        **dict.fromkeys(CONTACT_AREAS, alone.area_fraction + zero),
         **{name: sums[control] for name, control in CONTROLS.items()},
     }
     return xr.Dataset(controls)
@@ -284,7 +269,7 @@ def add_pixels(states, parameters):
     pixels = fine(states.area_alone).count("seed") * adhesion_sets.count_points(parameters)
     turned = pixels * abs(fine(states.repulsive_area - states.area_alone)).mean("seed")
     unseen = xr.apply_ufunc(special.gammaincinv, turned + 1, covered) - turned
-    return states.assign({n: states[n] + unseen / pixels for n in STATES if "area" in n})
+    return states.assign({name: states[name] + unseen / pixels for name in AREAS})
 
 
 def add_dmt(states, full):

@@ -26,11 +26,15 @@ QUANTITIES = {
     "inverse_kappa_fit": "1/kappa fitted through the origin over the loads up to 30 % area",
     "inverse_kappa_ad_fit": "1/kappa_ad, from the fall of the fitted 1/kappa",
 }
+# Fitted slopes, and the slopes load by load that they are fitted to.
+FITS = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_kappa_ad"}
+# Slopes with the attraction, and by how much it lowers them.
+FALLS = {"inverse_kappa": "inverse_kappa_ad", "inverse_kappa_fit": "inverse_kappa_ad_fit"}
 FEW = "fewer than two loads to fit, fewer than three in all, or a single seed"
-DMT_SUM_VARIABLES = describe_errors(QUANTITIES, plain=True, discretisation=grid_limits.INHERITED)
-DMT_SUM_VARIABLES |= {
-    n: (*t[:2], FEW) for n, t in DMT_SUM_VARIABLES.items() if "fit" in n or "weak" in n
-}
+describe = partial(describe_errors, plain=True, discretisation=grid_limits.INHERITED)
+of_loads = describe({name: QUANTITIES[name] for name in (*FITS, "attraction_weak")})
+DMT_SUM_VARIABLES = describe(QUANTITIES)
+DMT_SUM_VARIABLES |= {name: (*text[:2], FEW) for name, text in of_loads.items()}
 DMT_SUM_VARIABLES["dmt_error"] = ("1", "measured relative error of this 1/kappa_ad", OUTSIDE)
 MODEL = "of the DMT sum against full simulation, as measured"
 # Relative error of a slope between loads over the logarithm of their step, see `weak_attraction`.
@@ -177,7 +181,7 @@ def add_budgets(dataset, simulation, linear, slope_error):
         source: error.where(linear).max("pressure") for source, error in relative.items()
     }
     for name in QUANTITIES:
-        is_fit = "fit" in name
+        is_fit = name in FITS
         sources = relative_of_fits if is_fit else relative
         value = dataset[name]
 
@@ -188,13 +192,13 @@ def add_budgets(dataset, simulation, linear, slope_error):
         if name == "attraction_weak":
             model = slope_error.sel(pressure=value.pressure)
             model_text = "of slopes between loads, as measured"
-        if name.startswith("inverse_kappa") and "ad" not in name.split("_"):
+        if name in FALLS:
             # The fall by attraction from what is left without.
-            fall = dataset[name.replace("kappa", "kappa_ad")]
+            fall = dataset[FALLS[name]]
             attraction = 2 * fall * value / (1 - 2 * fall)
         model_error = model * abs(attraction)
         if is_fit:
-            left_out = linearity_error(dataset[name.removesuffix("_fit")], linear)
+            left_out = linearity_error(dataset[FITS[name]], linear)
             model_error = np.hypot(model_error, left_out)
             model_text = f"{MODEL}, and what the straight line leaves out"
 

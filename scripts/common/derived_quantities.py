@@ -114,12 +114,8 @@ def fit_a_v(areas, fit_interval):
 
 def fit_intervals(areas, windows):
     """Fit a_V and its standard error in every fit interval."""
-    values = []
-    errors = []
-    for window in windows:
-        value, error = fit_a_v(areas, window)
-        values.append(value)
-        errors.append(error)
+    fits = [fit_a_v(areas, window) for window in windows]
+    values, errors = zip(*fits, strict=True)
     low, high = np.transpose(np.array(windows, float))
     return xr.Dataset(
         {

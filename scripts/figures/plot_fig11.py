@@ -4,6 +4,7 @@ import numpy as np
 
 from common import remaining_table
 from common.job import start
+from figures.theory_curves import draw_work_limits
 from stickiness.pages import plotting
 from stickiness.pages.plotting import (
     BLACK,
@@ -16,7 +17,6 @@ from stickiness.pages.plotting import (
     make_dot,
     make_key,
 )
-from stickiness.remaining.errors import APPROACH, SEPARATION
 from stickiness.remaining.measurement import RESOLVED
 from stickiness.remaining.roughness import SHORT_RANGE, Roughness
 
@@ -107,11 +107,7 @@ def draw_hysteresis(ax, table):
             look = {"color": colour, "mfc": colour if pressed else "white", "markersize": 3.5}
             for name, marker in WORKS.items():
                 ax.plot(here.zone * (0.94 + 0.06 * i), here[name] / here.bound, marker, **look)
-    late = APPROACH.spread.low
-    jumps = SEPARATION.spread.high
-    for limit in np.exp([late, jumps]):
-        ax.axhline(limit, color=GREY, linestyle=":")
-    ax.axhline(1, color=GREY, linewidth=0.9)
+    draw_work_limits(ax)
     keys = [make_key("limits, 90 %", linestyle=":")]
     keys += [make_dot(f"ζ = {a} to {b}", color=c, marker="s") for (a, b), c in colours.items()]
     keys += [make_dot(name, marker=marker, mfc="white") for name, marker in WORKS.items()]

@@ -4,10 +4,9 @@ import numpy as np
 
 from common import remaining_table
 from common.job import start
-from figures.theory_curves import name_cell
+from figures.theory_curves import draw_work_limits, name_cell
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLUE, GREY, RED, make_dot
-from stickiness.remaining.errors import APPROACH, SEPARATION
 from stickiness.remaining.roughness import FINEST_SIMULATED, Roughness
 from stickiness.remaining.share import SHARP
 from stickiness.spectrum import SelfAffine
@@ -85,11 +84,7 @@ def draw_works(ax, table):
             colour = COLOURS[min(COLOURS, key=lambda hurst: abs(hurst - row.hurst))]
             look = {"color": colour, "mfc": colour if row.window > 1 else "white", "markersize": 4}
             ax.plot(row.magnification, getattr(row, name) / row.bound, marker, **look)
-    late = APPROACH.spread.low
-    jumps = SEPARATION.spread.high
-    for limit in np.exp([late, jumps]):
-        ax.axhline(limit, color=GREY, linestyle=":")
-    ax.axhline(1, color=GREY, linewidth=0.9)
+    draw_work_limits(ax)
     ax.legend(handles=[make_dot(name, marker=marker, color=GREY) for name, marker in WORKS.items()])
     ax.set(xscale="log", xlim=(3.5, 12), ylim=(0.6, 2), xlabel=MAGNIFICATION)
     ax.set_ylabel("work over energy gained")

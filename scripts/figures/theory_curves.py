@@ -1,11 +1,14 @@
-"""Curves of Persson's theory that several figures draw, and names of the cases beside them."""
+"""Curves of theory that several figures draw, and names of the cases beside them."""
+
+import numpy as np
 
 from common.conventions import VARIANT
 from common.theory_variants import between_corrections
 from stickiness import datasets
 from stickiness.formatting import number
 from stickiness.pages import plotting
-from stickiness.pages.plotting import make_key, state
+from stickiness.pages.plotting import GREY, make_key, state
+from stickiness.remaining.errors import APPROACH, SEPARATION
 
 DENSITY = r"probability density $h_\mathrm{rms}P(u)$"
 VARIANT_KEYS = [
@@ -33,6 +36,13 @@ def draw_theory(ax, x, values, colour, **look):
     low, high = between_corrections(values)
     plotting.draw_band(ax, x, low, high, colour)
     ax.plot(x, values.sel(variant=VARIANT), color=colour, **look)
+
+
+def draw_work_limits(ax):
+    """Limits of the works of approach and separation over the energy gained."""
+    for limit in np.exp([APPROACH.spread.low, SEPARATION.spread.high]):
+        ax.axhline(limit, color=GREY, linestyle=":")
+    ax.axhline(1, color=GREY, linewidth=0.9)
 
 
 def name_case(case):

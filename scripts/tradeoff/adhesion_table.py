@@ -83,10 +83,10 @@ def tabulate_adhesion(measured, records):
     of_states = records.problem == "adhesion"
     quantities = list_states(measured) if of_states else list_pull_offs(measured)
     for name, quantity, modelled in quantities:
-        quantity = drop_open_loads(quantity, measured, usual)
+        quantity = drop_open_loads(quantity, usual)
         if quantity.sizes["pressure"]:
             for knob in usual:
-                tabulate_setting(name, quantity, modelled, knob, measured, usual, unit, records)
+                tabulate_setting(name, quantity, modelled, knob, usual, unit, records)
         # The DMT sum costs nothing once the contact without adhesion is solved.
         error = quantity.limit.sel(usual) / quantity.full.sel(usual) - 1
         records.add("model", "DMT", split_loads(name, error), 0.0)
@@ -98,23 +98,23 @@ def tabulate_adhesion(measured, records):
             records.add_point("adhesive_cost", "", cost, pixels=pixels)
 
 
-def drop_open_loads(quantity, measured, usual):
+def drop_open_loads(quantity, usual):
     """Leave out the loads at which a window closes with some grid or tolerance."""
     for knob in usual:
-        along = usual | {knob: measured[knob]}
+        along = usual | {knob: quantity[knob]}
         solved = quantity.full.sel(along).notnull().any("seed").all(knob)
         quantity = quantity.sel(pressure=solved.values)
     return quantity
 
 
-def tabulate_setting(name, quantity, modelled, knob, measured, usual, unit, records):
+def tabulate_setting(name, quantity, modelled, knob, usual, unit, records):
     """Add rows and points of every grid or tolerance (`knob`), the other one as usual."""
-    finest = measured.pixels.max() if knob == "pixels" else measured.tolerance.min()
-    along = usual | {knob: measured[knob]}
+    finest = quantity.pixels.max() if knob == "pixels" else quantity.tolerance.min()
+    along = usual | {knob: quantity[knob]}
     errors = quantity.full.sel(along) / quantity.full.sel(usual | {knob: finest}) - 1
     costs = quantity.seconds.sel(along).mean("seed").mean("pressure") / unit
     label = "points per wavelength" if knob == "pixels" else knob
-    for value in measured[knob].drop_sel({knob: finest}).values:
+    for value in quantity[knob].drop_sel({knob: finest}).values:
         error = errors.sel({knob: value})
         records.add(label, f"{value:g}", split_loads(name, error), costs.sel({knob: value}))
         if modelled and value != COARSE:

@@ -56,13 +56,7 @@ def measure_states(surface, adhesion, output):
     ]
     states = measuring.record(settings, partial(solve_states, surface, adhesion))
     title = "full adhesion of the same realisations with various settings"
-    parameters = {
-        **surface,
-        "q0_h_rms": adhesion["q0_h_rms"],
-        "at_pixels": usual_pixels,
-        "tolerance": usual_tolerance,
-    }
-    measuring.write(states, output, title, parameters, **STATES)
+    measuring.write(states, output, title, describe(surface, adhesion), **STATES)
 
 
 def measure_pull_offs(surface, adhesion, output):
@@ -77,14 +71,18 @@ def measure_pull_offs(surface, adhesion, output):
     ]
     pull_offs = measuring.record(settings, partial(separate, surface, adhesion))
     title = "pull-off of the same realisations with various settings"
-    parameters = {
+    parameters = describe(surface, adhesion) | {"pressure": adhesion["pressure"]}
+    measuring.write(pull_offs, output, title, parameters, **PULL_OFFS)
+
+
+def describe(surface, adhesion):
+    """Parameters of a file: the surface, its roughness, and the usual grid and tolerance."""
+    return {
         **surface,
         "q0_h_rms": adhesion["q0_h_rms"],
-        "at_pixels": usual_pixels,
-        "pressure": adhesion["pressure"],
-        "tolerance": usual_tolerance,
+        "at_pixels": adhesion["at_pixels"],
+        "tolerance": adhesion["at_tolerance"],
     }
-    measuring.write(pull_offs, output, title, parameters, **PULL_OFFS)
 
 
 def solve_states(surface, adhesion, pixels, tolerance, seed):
