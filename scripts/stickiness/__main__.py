@@ -281,7 +281,7 @@ def read_materials(options: argparse.Namespace) -> dict[str, Any]:
             checked = entries.read_materials(options.tape)
         else:
             given = defaults | choose_given(options, "material")
-            checked = {"material": entries.check_material(given, numbers=False)}
+            checked = {"material": entries.check_material(given)}
         return {name: Material.from_entry(entry) for name, entry in checked.items()}
 
 
@@ -299,7 +299,7 @@ def analyse(options: argparse.Namespace) -> tuple[Any, dict[str, Any]]:
     }
     with one_line():
         given = described | choose_given(options, "surface")
-        entry = entries.check_surface(given, numbers=False)
+        entry = entries.check_surface(given)
         return Surface.from_entry(entry), entry
 
 

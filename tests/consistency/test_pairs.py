@@ -89,7 +89,7 @@ def make_several():
             np.save(file, make_heights(seed, side=side, h_rms=h_rms, waves=2))
             measurements.append({"file": str(file), "length": side, "height_unit": "m"})
         entry = {"kind": "measured", "measurements": measurements, "extend_to": 5e-6}
-        return Surface.from_entry(check_surface(entry))
+        return Surface.from_entry(check_surface(entry, arguments=True))
 
 
 def make_shells():

@@ -34,8 +34,8 @@ __all__ = [
 ]
 
 
-def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[str, Any]:
-    """Check an entry of a material.
+def check_material(entry: Mapping[str, Any]) -> dict[str, Any]:
+    """Check an entry of a material, as files have it: values with units are texts.
 
     Parameters
     ----------
@@ -43,8 +43,6 @@ def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[st
         Keys of a material as in docs/configuration.md. `label` and `source` may be missing, and
         None stands for what is absent, so that a checked entry may be checked again. `common`
         names one of `list_common_materials`, whose values other keys replace.
-    numbers : bool
-        Whether values with units may also be numbers in SI units. In files they are texts.
 
     Returns
     -------
@@ -62,7 +60,7 @@ def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[st
     ...     {
     ...         "youngs_modulus": "0.2 MPa",
     ...         "poisson_ratio": 0.5,
-    ...         "work_of_adhesion": 0.06,
+    ...         "work_of_adhesion": "60 mJ/m^2",
     ...         "range": "0.3 nm",
     ...     }
     ... )
@@ -71,17 +69,18 @@ def check_material(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[st
     """
     from stickiness.entries.material import Material
 
-    return _check(Material, Material.complete(entry), {"numbers": numbers})
+    return _check(Material, Material.complete(entry), {})
 
 
-def check_surface(entry: Mapping[str, Any], *, numbers: bool = True) -> dict[str, Any]:
+def check_surface(entry: Mapping[str, Any], *, arguments: bool = False) -> dict[str, Any]:
     """Check an entry of a real surface; see `check_material`.
 
-    A file that is measured is not looked for, since reading it tells more.
+    With `arguments` of Python, values with units may be numbers in SI units, too. A file that is
+    measured is not looked for, since reading it tells more.
     """
     from stickiness.entries.surface_entry import AnySurface, SurfaceEntry
 
-    context = {"numbers": numbers, "unread": True}
+    context = {"arguments": arguments, "unread": True}
     return _check(AnySurface, SurfaceEntry.complete(entry), context)
 
 
@@ -137,7 +136,7 @@ def read_materials(path: str | Path) -> dict[str, dict[str, Any]]:
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise EntryError(str(path), None, f"not valid YAML: {error}") from None
     try:
-        return _check(Materials, content, {"numbers": False})["materials"]
+        return _check(Materials, content, {})["materials"]
     except EntryError as error:
         key = f"{path}: {error.key}" if error.key else str(path)
         raise EntryError(key, error.value, error.message) from None

@@ -1,9 +1,8 @@
 """What models are made of: sections, numbers and values with units.
 
-Models are validated in one of three contexts. None is that of arguments in Python: values with
-units are numbers in SI units or texts, and improbable ones are allowed. With `numbers`, entries
-that were made in Python are checked: values may be numbers, too, but must be possible. Any other
-is that of files, in which values with units are texts.
+Models are validated in one of two contexts. None, or one with `arguments`, is that of arguments in
+Python: values with units are numbers in SI units or texts, and improbable ones are allowed. Any
+other is that of files, in which values with units are texts.
 """
 
 import inspect
@@ -137,13 +136,9 @@ def read_quantity(
     """Return a value in its SI unit; see `quantity`."""
     if isinstance(value, Quantity):
         return value
-    if info.context is None:
+    if info.context is None or info.context.get("arguments"):
         return _read_argument(value, unit, limits, zero)
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if is_number and info.context.get("numbers"):
-        quantity = Quantity(value, f"{value!r} {unit}")
-    else:
-        quantity = Quantity.read(value, unit)
+    quantity = Quantity.read(value, unit)
     if not 0 < quantity < math.inf:
         raise ValueError("must be positive and finite")
     if limits:

@@ -233,37 +233,25 @@ class Material(ElasticPair, f.Labelled):
         return self
 
     @model_validator(mode="after")
-    def check_layer(self) -> Self:
-        """Check what only layers have, and fill in that they are bonded."""
-        if self.thickness is None:
-            if self.backing is not None:
-                text = "belongs to a layer: give its thickness, too"
-                raise EntryError("backing", self.backing, text)
-            return self
-        if self.plane_strain_modulus is not None:
-            text = "a layer needs youngs_modulus and poisson_ratio instead of plane_strain_modulus"
-            raise EntryError("thickness", self.thickness, text)
-        if self.poisson_ratio < 0:
-            text = "must be between 0 and 0.5 for a layer"
-            raise EntryError("poisson_ratio", self.poisson_ratio, text)
-        if self.backing is None:
-            self.fill_in("backing", "bonded")
-        return self
-
-    @model_validator(mode="after")
-    def check_skin(self) -> Self:
-        """Check what only a half-space with a skin has."""
-        if self.skin is None:
-            return self
-        if self.thickness is not None:
+    def check_shape(self) -> Self:
+        """Check what only layers and skins have, and fill in that layers are bonded."""
+        if self.thickness is None and self.backing is not None:
+            text = "belongs to a layer: give its thickness, too"
+            raise EntryError("backing", self.backing, text)
+        if self.thickness is not None and self.skin is not None:
             text = "a layer cannot have a skin: leave out thickness, or skin"
             raise EntryError("thickness", self.thickness, text)
-        if self.plane_strain_modulus is not None:
-            text = "needs youngs_modulus and poisson_ratio instead of plane_strain_modulus"
-            raise EntryError("skin", None, text)
-        if self.poisson_ratio < 0:
-            text = "must be between 0 and 0.5 below a skin"
-            raise EntryError("poisson_ratio", self.poisson_ratio, text)
+        for key, name in (("thickness", "a layer"), ("skin", "a skin")):
+            if getattr(self, key) is None:
+                continue
+            if self.plane_strain_modulus is not None:
+                text = f"{name} needs youngs_modulus and poisson_ratio, not plane_strain_modulus"
+                raise EntryError(key, None, text)
+            if self.poisson_ratio < 0:
+                text = f"must be between 0 and 0.5 with {name}"
+                raise EntryError("poisson_ratio", self.poisson_ratio, text)
+        if self.thickness is not None and self.backing is None:
+            self.fill_in("backing", "bonded")
         return self
 
     @model_validator(mode="after")

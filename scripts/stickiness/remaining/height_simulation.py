@@ -29,7 +29,7 @@ from stickiness.remaining.standard_heights import (
     standardise,
 )
 from stickiness.remaining.trial_states import SimulatedHeights, TrialStates
-from stickiness.remaining.zero_load import descend
+from stickiness.remaining.zero_load import LONGEST_RANGE, descend
 from stickiness.repulsive import solver as repulsive
 from stickiness.repulsive.half_space import half_space, measure_slope
 from stickiness.repulsive.solver import ConvergenceError
@@ -47,7 +47,6 @@ CONTACT_AREAS = np.geomspace(1e-3, 0.9, 12)
 CONTACT_TOLERANCE = 1e-4
 ADHESION_TOLERANCE = 1e-3
 STIFFER = 1.02  #: energy of full contact over that of a half-space, from which a solid is stiffer
-LONGEST_RANGE = 2.0  #: of the attraction on such solids, over the rms height
 MOST_ITERATIONS = 3000
 FEW_ITERATIONS = 100  #: on such solids
 #: Ends of the bins in which gaps are counted, over the rms height.

@@ -241,7 +241,8 @@ class Surface:
         """
         from stickiness.entries import check_surface
 
-        return cls.from_entry(check_surface({"kind": "measured", "file": str(path), **options}))
+        given = {"kind": "measured", "file": str(path), **options}
+        return cls.from_entry(check_surface(given, arguments=True))
 
     @classmethod
     def from_entry(cls, entry: Mapping[str, Any]) -> Surface:

@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import ArrayLike
 
 from stickiness import __version__
-from stickiness.criteria.pair import NOT_JUDGED, REGIMES, WORDS
+from stickiness.criteria.pair import REGIMES, WORDS
 from stickiness.criteria.registry import CRITERIA, REMAINING
 from stickiness.entries.material import Material
 from stickiness.formatting import amount
@@ -26,7 +26,7 @@ from stickiness.verdicts.judgement import find_pair_doubts, judge
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.pair_variables import DECIDED_BY
 from stickiness.verdicts.rough_surface import Surface
-from stickiness.verdicts.thresholds import CONTACT_AREA, UNKNOWN
+from stickiness.verdicts.thresholds import CONTACT_AREA
 from stickiness.verdicts.wording import MOST_STRESS
 
 
@@ -375,11 +375,8 @@ def thresholds(
         threshold = read_limited(cell[name])
         return None if np.isnan(threshold).all() else threshold
 
-    moduli = read_limited(cell.modulus_threshold)
-    if int(cell.verdict) == NOT_JUDGED:
-        return Thresholds(moduli, UNKNOWN, None, UNKNOWN, None)
     return Thresholds(
-        modulus=moduli,
+        modulus=read_limited(cell.modulus_threshold),
         rms_height=read_limited(cell.rms_height_threshold),
         thickness=collect("thickness_threshold"),
         pressure=read_limited(cell.contact_pressure),

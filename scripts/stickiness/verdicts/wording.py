@@ -96,35 +96,33 @@ def tell_modulus(cell: xr.Dataset) -> str:
 
 def tell_threshold(cell: xr.Dataset) -> str:
     """Modulus below which a pair sticks, with its limits; "any" or "none" where no number is."""
-    value, low, high = read_limited(cell.modulus_threshold)
-    symbol = name_modulus(cell)
-    if low > MOST_STRESS:
-        return "any"
-    if high < LEAST_STRESS:
-        return "none"
-    if value > MOST_STRESS:
-        return f"{symbol} = {amount(low, 'Pa')} at least, probably any"
-    if value < LEAST_STRESS:
-        return f"none, or {symbol} = {amount(high, 'Pa')} at most"
-    write = in_unit("Pa", _DIGITS)
-    return f"{symbol} = {limited(value, low, high, write, least=LEAST_STRESS, most=MOST_STRESS)}"
+    threshold, _ = _tell_threshold(cell)
+    return threshold
 
 
 def tell_change(cell: xr.Dataset) -> str:
     """Modulus below which a pair sticks, beside its own, as the rest of a sentence."""
+    _, where = _tell_threshold(cell)
+    return f"sticks {where}; it is {amount(float(cell.quoted_modulus), 'Pa')}"
+
+
+def _tell_threshold(cell: xr.Dataset) -> tuple[str, str]:
+    """Modulus below which a pair sticks, alone and after "sticks"."""
     value, low, high = read_limited(cell.modulus_threshold)
-    symbol = name_modulus(cell)
     if low > MOST_STRESS:
-        sticks = "at any modulus"
-    elif high < LEAST_STRESS:
-        sticks = "at no modulus"
-    elif value > MOST_STRESS:
-        sticks = f"below {symbol} = {amount(low, 'Pa')}, and probably at any modulus"
-    elif value < LEAST_STRESS:
-        sticks = f"at no modulus, or below {symbol} = {amount(high, 'Pa')}"
-    else:
-        sticks = f"below {tell_threshold(cell)}"
-    return f"sticks {sticks}; it is {amount(float(cell.quoted_modulus), 'Pa')}"
+        return "any", "at any modulus"
+    if high < LEAST_STRESS:
+        return "none", "at no modulus"
+    symbol = name_modulus(cell)
+    if value > MOST_STRESS:
+        least = f"{symbol} = {amount(low, 'Pa')}"
+        return f"{least} at least, probably any", f"below {least}, and probably at any modulus"
+    if value < LEAST_STRESS:
+        most = f"{symbol} = {amount(high, 'Pa')}"
+        return f"none, or {most} at most", f"at no modulus, or below {most}"
+    write = in_unit("Pa", _DIGITS)
+    found = limited(value, low, high, write, least=LEAST_STRESS, most=MOST_STRESS)
+    return f"{symbol} = {found}", f"below {symbol} = {found}"
 
 
 def tell_contact(cell: xr.Dataset) -> str:
