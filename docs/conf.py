@@ -80,8 +80,7 @@ def copy_examples(app, error):
         target.mkdir(parents=True, exist_ok=True)
         for page in Path(__file__).parent.glob("example/*.html"):
             text = page.read_text(encoding="utf-8")
-            for name in ("bokeh.min.js", "bokeh-widgets.min.js"):
-                script = Path(bokeh.__file__).parent / "server/static/js" / name
-                inline = f"<script>{script.read_text(encoding='utf-8')}</script>"
-                text = text.replace(f'<script src="{name}"></script>', inline)
+            script = Path(bokeh.__file__).parent / "server/static/js/bokeh.min.js"
+            inline = f"<script>{script.read_text(encoding='utf-8')}</script>"
+            text = text.replace(f'<script src="{script.name}"></script>', inline)
             (target / page.name).write_text(text, encoding="utf-8")

@@ -33,8 +33,7 @@ PAGES = {
     "surface": (
         "../example/run/wall.html",
         1300,
-        "main > :not(h1, #contact, #contact + p, #contact + p + figure)"
-        "{ display: none !important }",
+        "main > :not(h1, #contact, #contact + figure){ display: none !important }",
     ),
 }
 FIGURES = ("fig11", "fig12", "fig13", "limits")

@@ -1,9 +1,4 @@
-# Real surfaces: parameters from the literature, or topographies analysed for their spectrum. Every
-# measured map has a picture of its contact.
-
-from common.provided import choose_pictured
-
-PICTURED_MATERIAL = choose_pictured(MATERIALS)
+# Real surfaces: parameters from the literature, or topographies analysed for their spectrum.
 
 
 def topographies(wildcards):
@@ -32,30 +27,3 @@ rule analyse_surface:
         "Analyse a real surface: {wildcards.real_surface}"
     script:
         "../scripts/real_surfaces/analyse_surface.py"
-
-
-rule picture_contact:
-    input:
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
-        topographies=topographies,
-    output:
-        contact=f"{RESULTS}/real_surfaces/pictures/{{real_surface}}.nc",
-        pull_off=f"{RESULTS}/real_surfaces/pull_off/{{real_surface}}.nc",
-    log:
-        f"{RESULTS}/logs/picture_contact/real_surfaces/pictures/{{real_surface}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/picture_contact/real_surfaces/pictures/{{real_surface}}.tsv"
-    conda:
-        "../envs/environment.yaml"
-    params:
-        surface=lambda wildcards: without_texts(REAL_SURFACES[wildcards.real_surface]),
-        material=PICTURED_MATERIAL,
-        entry={
-            **without_texts(MATERIALS[PICTURED_MATERIAL]),
-            "label": MATERIALS[PICTURED_MATERIAL]["label"],  # the page tells it
-        },
-        code=source_hash("real_surfaces/picture_contact.py"),
-    message:
-        "Picture contact on measured heights: {wildcards.real_surface}"
-    script:
-        "../scripts/real_surfaces/picture_contact.py"

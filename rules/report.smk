@@ -17,17 +17,6 @@ def figure_sources(wildcards, output):
     }
 
 
-def contact_of_surface(wildcards):
-    """Simulated contact of measured heights that the page of a surface shows, if there is any."""
-    name = wildcards.real_surface
-    if name not in MEASURED_SURFACES:
-        return {}
-    return {
-        "contact": f"{RESULTS}/real_surfaces/pictures/{name}.nc",
-        "pull_off": f"{RESULTS}/real_surfaces/pull_off/{name}.nc",
-    }
-
-
 rule write_report:
     input:
         template=project_file("report/report.html.j2"),
@@ -83,7 +72,6 @@ rule write_report:
 
 rule write_surface:
     input:
-        unpack(contact_of_surface),
         parts=[
             *PAGE_PARTS,
             *(

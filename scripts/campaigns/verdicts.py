@@ -149,5 +149,5 @@ def keep_contact(simulated):
 def replace_states(measured, simulated):
     """The measured surface with other states of contact."""
     states = tabulate_simulated(simulated)
-    others = measured.data.drop_vars(list(states.data_vars))
+    others = measured.data.drop_vars([*states.data_vars, "trial_gap_bin"])
     return stickiness.Surface(others.merge(states))

@@ -1,7 +1,5 @@
 """Materials and surfaces that come with the project; a user's entries are shown before them."""
 
-from stickiness.entries.material import Material
-
 MATERIALS = ("psa", "pdms", "natural_rubber", "pmma", "steel", "crystal", "soft_block")
 SURFACES = ("upper_line", "lower_line", "asphalt", "sandblasted_pmma", "ground_steel")
 SURFACES += ("polished_steel", "uncd_diamond")
@@ -18,16 +16,3 @@ def choose_mine(pairs):
     of_surfaces = [pair for pair in pairs if pair["name"] not in SURFACES]
     both = [pair for pair in of_materials if pair["name"] not in SURFACES]
     return both or of_materials or of_surfaces
-
-
-def choose_pictured(materials):
-    """The material whose pull-off is pictured: a user's one, deep if there is, or the softest."""
-    mine = [name for name in materials if name not in MATERIALS]
-    if mine:
-        return min(mine, key=lambda name: materials[name]["thickness"] is not None)
-
-    def find_modulus(name):
-        entry = materials[name] | {"surface": None}
-        return Material.from_entry(entry).plane_strain_modulus
-
-    return min(materials, key=find_modulus)

@@ -3,23 +3,18 @@
 from common import provided
 from common.job import start
 from stickiness import datasets
-from stickiness.pages.pressed_heights import Picture
 from stickiness.pages.surface_page import write_surface_page
 
 
 def main(job):
     inputs = job.input
     verdicts = datasets.read(inputs.verdicts, ["verdict", "remaining"])
-    picture = None
-    if inputs.get("contact"):
-        picture = Picture(datasets.read(inputs.contact), datasets.read(inputs.pull_off))
     names = map(str, verdicts.material.values)
     write_surface_page(
         job.output[0],
         entry=job.params.surface,
         surface=datasets.read(inputs.surface, ["h_rms", "rms_slope", "psd"]),
         verdicts=verdicts,
-        picture=picture,
         files=dict(inputs.items()),
         own=[name for name in names if name not in provided.MATERIALS],
     )

@@ -358,30 +358,31 @@ def make_page(
     materials: dict[str, Any],
     verdicts: Any,
 ) -> Path:
-    """Simulate a picture of contact, write page and data, and return the path of the page."""
+    """Write page and data, and return the path of the page."""
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # no word where it cannot keep fonts
     from stickiness import datasets
     from stickiness.entries import without_texts
-    from stickiness.pages.pressed_heights import picture_contact
+    from stickiness.pages.contact_figure import Simulated
     from stickiness.pages.surface_page import write_surface_page
-    from stickiness.solids import HALF_SPACE
+    from stickiness.verdicts.meeting import find_family, find_roughness
 
-    # The first deep material is pulled off, or else the first.
-    pulled = min(materials.values(), key=lambda material: material.solid != HALF_SPACE)
-    picture = picture_contact(surface, pulled)
     source = relative_path(options.file.resolve(), options.output.resolve())
     parameters = without_texts(entry) | {"file": source}
-    contents = {
-        "surface": surface.data,
-        "verdicts": verdicts,
-        "contact": picture.contact,
-        "pull_off": picture.pull_off,
+    contents = {"surface": surface.data, "verdicts": verdicts}
+    met = {
+        name: find_roughness(material, surface, find_family(material, surface))
+        for name, material in materials.items()
+    }
+    simulated = {
+        name: Simulated(rough.simulated, rough.lacking)
+        for name, rough in met.items()
+        if rough.simulated is not None
     }
     name = claim_name(options.output, name_page(options.file), source)
     try:
         files = {each: options.output / name / f"{each}.nc" for each in contents}
         for each, path in files.items():
-            title = f"{each.replace('_', ' ')} of {name}"
+            title = f"{each} of {name}"
             datasets.write(contents[each], path, title=title, parameters=parameters)
         page = options.output / f"{name}.html"
         write_surface_page(
@@ -389,8 +390,8 @@ def make_page(
             entry=entry,
             surface=surface.data,
             verdicts=verdicts,
-            picture=picture,
             files=files,
+            simulated=simulated,
         )
     except OSError as error:
         with suppress(OSError):

@@ -6,30 +6,22 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 import xarray as xr
-from bokeh.models import DataRange1d, Div
 from helpers.pages import Page, make_job
+from matplotlib.colors import to_hex
 
 from criteria import judge_surface
-from real_surfaces import picture_contact
 from report import write_surface
 from stickiness import Material, Surface, datasets, judge, surface, verdict
 from stickiness.criteria.pair import NOT_JUDGED, TOUCHES, WORDS
-from stickiness.entries import check_material, check_surface, without_texts
-from stickiness.formatting import amount, number, with_error
+from stickiness.entries import check_material, check_surface
+from stickiness.formatting import number, with_error
 from stickiness.measured import topography
-from stickiness.pages import (
-    contact_figure,
-    interactive,
-    plotting,
-    pressed_heights,
-    surface_figures,
-)
-from stickiness.pages.pressed_heights import MeasuredMap, Picture
+from stickiness.pages import contact_figure, plotting, surface_figures
 from stickiness.pages.rows import describe_pair
-from stickiness.pages.surface_page import list_loads
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.meeting import find_family, find_roughness
 from stickiness.verdicts.wording import tell_rates
 
 pytestmark = pytest.mark.usefixtures("coarse_simulation")
@@ -95,9 +87,9 @@ def judge_by_rule(analysed, folder, materials):
     return {"surface": surface_file, "verdicts": verdicts}
 
 
-def write_page(analysed, folder, materials=MATERIALS, judged=None, **pictures):
+def write_page(analysed, folder, materials=MATERIALS, judged=None):
     """The page of an analysed surface, by the rules that judge it, unless it is, and write it."""
-    inputs = (judged or judge_by_rule(analysed, folder, materials)) | pictures
+    inputs = judged or judge_by_rule(analysed, folder, materials)
     page = folder / "report/surfaces/plate.html"
     write_surface.main(make_job(inputs, {"page": str(page)}, surface=analysed.entry))
     return Page(page.read_text(encoding="utf-8"))
@@ -130,12 +122,6 @@ def pairs(judged):
     return datasets.read(judged["verdicts"]).sel(surface="plate")
 
 
-@pytest.fixture(scope="module")
-def taped(single, folder):
-    """The same files with the verdict of soft tape."""
-    return judge_by_rule(single, folder / "taped", {"tape": TAPE})
-
-
 @pytest.mark.slow
 def test_each_end_has_its_own_a_v_where_they_differ_in_shape(single, folder):
     one, other = Surface(single.data).a_v
@@ -162,7 +148,6 @@ def test_the_page_shows_what_is_in_the_files(page, single, pairs):
     }
     # Steel is stiff and does not stick; the gel is soft at 1 Hz and stiff beyond its relaxation.
     assert pairs.verdict.sel(material="steel") < TOUCHES
-    assert page.html.count("Bokeh.logger.set_level") == 1
     assert 'id="reading"' not in page.html  # the map is used as it was read
 
 
@@ -196,7 +181,7 @@ def test_an_implausible_surface_is_not_judged_and_its_page_says_why(folder):
     text = write_page(withheld, folder, judged=judged).text
     assert "range = 3e-07" in text
     assert "missing_value: 0" in text
-    assert surface_figures.find_curves(pairs, ["gel"], ["gel"]) == {}
+    assert surface_figures.find_curves(pairs, ["gel"]) == {}
     row = describe_pair(pairs.sel(material="gel"))
     assert row["text"]["remaining"] == "–"
     ignored = analyse(folder / "told.nc", file=file, plausibility="ignore")
@@ -254,8 +239,8 @@ def test_heights_as_read_are_kept_with_what_is_not_used():
 
 @pytest.mark.slow
 def test_curves_pass_through_the_pair_as_it_is(pairs):
-    axes = surface_figures.find_curves(pairs, ["steel", "gel"], ["gel"])
-    assert [curve.shown for curve in axes["modulus"].curves] == [False, True]
+    axes = surface_figures.find_curves(pairs, ["steel", "gel"])
+    assert [curve.place for curve in axes["modulus"].curves] == [0, 1]
     shown = {name: [curve.label for curve in axis.curves] for name, axis in axes.items()}
     both = ["steel", "gel <soft>"]
     assert shown == {"modulus": both, "roughness": both, "rate": ["gel <soft>"]}
@@ -273,7 +258,7 @@ def test_curves_pass_through_the_pair_as_it_is(pairs):
     reach = surface_figures.find_moduli(pair) / 1e6
     ends = axes["modulus"].curves[-1].points.x.agg(["min", "max"])
     np.testing.assert_allclose(ends, [reach.min() / 10, reach.max() * 10], rtol=0.3)
-    alone = surface_figures.find_curves(pairs, ["gel"], ["gel"])
+    alone = surface_figures.find_curves(pairs, ["gel"])
     assert alone["modulus"].label == "Young's modulus E [MPa]"
 
 
@@ -286,77 +271,94 @@ def test_rates_that_stick_are_told_with_both_limits(pairs):
     assert tell_rates(pairs.sel(material="steel")) == ""
 
 
-@pytest.fixture(scope="module")
-def picture(single):
-    """Contact and pull-off of coarser and higher heights, which are solved faster."""
-    s = SelfAffine(hurst=0.8, q0=6.0, q1=16.0, h_rms=1e-6)
-    h = surface.synthesise(s, n=64, length=2 * np.pi, seed=4)
-    heights = topography.Topography(h, 40e-6 / 64, 40e-6 / 64, "here")
-    measured = MeasuredMap(heights, cutoff=2 * np.pi / 2.5e-6)
-    ends = {"q0": float(single.data.q0), "q1": float(single.data.q1)}
-    rough = pressed_heights.prepare(measured, 128)
-    contact = pressed_heights.press(rough, ends["q0"], measured.cutoff)
-    rough = pressed_heights.prepare(measured, 64)
-    pull_off = pressed_heights.separate(rough, Material.from_entry(TAPE), **ends)
-    return Picture(
-        contact.assign_attrs(measurement="data/b.txt"),
-        pull_off.assign_attrs(material="soft tape", moment=""),
-    )
-
-
-def save_picture(folder, picture):
-    """Paths of the files of a picture, by the names of the rule's inputs."""
-    paths = {name: str(folder / f"{name}.nc") for name in picture._fields}
-    for name, path in paths.items():
-        datasets.write(getattr(picture, name), path, title="a", parameters={})
-    return paths
+@pytest.mark.slow
+def test_the_contact_shown_is_that_of_the_states_that_decided(single):
+    """Its energies give the share that states alone leave of the work of adhesion."""
+    materials = {"tape": TAPE, "gel": MATERIALS["gel"]}
+    pairs = judge_data(single.data, materials)
+    contact = contact_figure.find_contact(single.data, pairs)
+    assert [state.title for state in contact.states[:2]] == ["soft tape", "gel <soft>"]
+    assert contact.sides == pytest.approx((40e-6, 40e-6))
+    wall = Surface(single.data)
+    states = wall.simulated.whole
+    lacking = np.median(wall.lacking, keepdims=True)
+    for name, state in zip(materials, contact.states, strict=False):
+        pair = pairs.sel(material=name)
+        length = np.array([float(pair.work_of_adhesion / pair.plane_strain_modulus)])
+        range_ = np.array([float(pair.range)])
+        shift = wall.simulated.find_shift(length, range_, "exponential", lacking)
+        length *= np.exp(shift)
+        (index,) = states.find_deepest(length, range_)
+        # The potential of the gaps shown, of which bins have their mean, and the energy stored.
+        attracted = np.exp(-state.gap / range_).mean()
+        share = attracted - states.elastic_energy[index] / length
+        assert share == pytest.approx(states.share(length, range_), abs=0.02)
+        assert state.area == pytest.approx(states.gap_share[index, 0], abs=0.02)
+        assert state.gap.shape == (32, 32)
+    # The tape is softer than the gel at 1 Hz, and touches more. The last state is that of its
+    # threshold, where both are between.
+    tape, gel, threshold = (state.area for state in contact.states)
+    assert gel < threshold < tape
+    assert contact.threshold_of == "soft tape"
+    assert contact.states[-1].title == "10 % remains"
 
 
 @pytest.mark.slow
-def test_page_shows_contact_and_pull_off(single, folder, picture):
-    place = folder / "pictured"
-    materials = {"gel": MATERIALS["gel"], "tape": TAPE}
-    page = write_page(single, place, materials, **save_picture(place, picture))
-    contact, pull_off = picture
-    page.check(
-        f"{100 * float(contact.area_fraction[0]):.2g}",
-        f"to {100 * float(pull_off.separation.sel(limit='high')):.2g} %)",
-        "soft tape is pressed on",
-        "gel <soft> at 1 Hz",
-    )
-    assert "data/b.txt" in page.html
-    assert len(page.html) < 4e6
+def test_the_file_keeps_the_map_as_it_lies(single):
+    """In surfaces that touch at the summit, the first state, gaps follow from the heights."""
+    data = single.data
+    unit = float(data.standard_height_unit.isel(part=0))
+    heights = unit * data.standard_heights.values
+    bins = data.trial_gap_bin.isel(trial=0).values
+    gap = data.trial_gap.isel(part=0, trial=0).values[bins]
+    # A bin ends at 1.17 times its beginning.
+    np.testing.assert_allclose(gap, heights.max() - heights, rtol=0.17)
 
 
 @pytest.mark.slow
-def test_the_rule_names_the_material_that_is_pulled_off(single, folder, taped, monkeypatch):
-    monkeypatch.setattr(pressed_heights, "CONTACT_POINTS", 64)
-    monkeypatch.setattr(pressed_heights, "PULL_OFF_POINTS", 32)
-    inputs = {"surface": str(folder / "single.nc")}
-    outputs = {name: str(folder / f"ruled/{name}.nc") for name in Picture._fields}
-    made = {"surface": without_texts(single.entry), "material": "tape"}
-    for changes, reason in (
-        ({}, "the shortest range that the grid resolves"),
-        ({"surface": "plate"}, "the material has a roughness of its own"),
-    ):
-        entry = without_texts(TAPE | changes) | {"label": TAPE["label"]}
-        job = make_job(inputs, outputs, {"real_surface": "plate"}, **made, entry=entry)
-        picture_contact.main(job)
-        page = write_page(single, folder / "ruled", judged=taped, **outputs)
-        page.check(f"The pull-off of soft tape is not simulated: {reason}")
-
-
-@pytest.mark.slow
-def test_pressures_are_given_for_deep_and_smooth_solids(single, picture):
+def test_page_shows_the_contact_that_decided(single, folder):
+    film = check_material(GEL | {"label": "film", "thickness": "1 um"})
     rough = check_material(STEEL | {"label": "rough", "surface": "plate"})
-    film = check_material(GEL | {"label": "film", "thickness": "1 mm"})
-    pairs = judge_data(single.data, MATERIALS | {"rough": rough, "film": film})
-    assert pairs.half_space.values.tolist() == [1, 1, 0, 0]
-    rows = list_loads(picture.contact, pairs.sel(material=pairs.half_space == 1))
-    assert [list(row["pressures"]) for row in rows] == [["gel <soft> at 1 Hz", "steel"]] * 8
-    first = float(picture.contact.mean_pressure[0]) * 230e9
-    assert rows[0]["pressures"]["steel"] == amount(first, "Pa", 2)
-    assert all("±" in row[name] for row in rows for name in ("area", "gap"))
+    materials = {"tape": TAPE, "film": film}
+    page = write_page(single, folder / "shown", materials)
+    page.check("Where it touches", "decided on film is not shown", "by 32 points")
+    assert page.html.count('alt="Contact on the measured heights at zero load"') == 2
+    assert len(page.html) < 1e6
+    assert "Bokeh" not in page.html
+    pairs = judge_data(single.data, {"film": film, "rough": rough})
+    contact = contact_figure.find_contact(single.data, pairs)
+    assert contact.states == []
+    assert contact.not_kept == ["film"]  # theory decided on two rough solids
+    # Files of older versions keep no gaps.
+    pairs = judge_data(single.data, {"tape": TAPE})
+    without = single.data.drop_vars("trial_gap_bin")
+    assert contact_figure.find_contact(without, pairs).not_kept == ["soft tape"]
+
+
+@pytest.mark.slow
+def test_states_of_a_layer_are_shown_where_they_are_at_hand(single):
+    film = Material(
+        youngs_modulus="3 MPa",
+        poisson_ratio=0.5,
+        thickness="1 um",
+        work_of_adhesion="0.1 J/m^2",
+        range="0.3 nm",
+    )
+    wall = Surface(single.data)
+    pairs = judge({"film": film}, {"plate": wall}, curves=False, thresholds=False)
+    rough = find_roughness(film, wall, find_family(film, wall))
+    assert rough.simulated is not wall.simulated
+    given = {"film": contact_figure.Simulated(rough.simulated, rough.lacking)}
+    contact = contact_figure.find_contact(single.data, pairs.sel(surface="plate"), given)
+    is_among = [
+        any(
+            np.array_equal(contact.states[0].gap, states.find_gap(k))
+            for k in range(len(states.gap))
+        )
+        for states in (rough.simulated.whole, wall.simulated.whole)
+    ]
+    assert is_among == [True, False]
+    assert contact.not_kept == []
 
 
 def test_the_first_row_of_a_map_is_on_top():
@@ -371,25 +373,16 @@ def test_the_first_row_of_a_map_is_on_top():
     assert np.all(picture.get_array()[0] == 1.0)
 
 
-@pytest.mark.slow
-def test_both_figures_show_the_contact_and_the_curve(picture, tmp_path):
-    contact, pull_off = picture
-    nothing = xr.Dataset(attrs={"left_out": "it is dark"})
-    for shown in ((contact, pull_off), (contact, nothing), (nothing, nothing)):
-        contact_figure.draw_still(*shown, tmp_path / "still.png")
-        assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
-    codes, widest = contact_figure.code_maps(contact)
-    assert codes.shape == (8, 64, 64)
-    touching = (codes == contact_figure.CONTACT).transpose(0, 2, 1)
-    assert np.all(contact.contact.values[touching] >= 0.5)
-    gaps = np.minimum(contact.gap.values, widest)[~touching]
-    shown = codes.transpose(0, 2, 1)[~touching] * widest / (contact_figure.CONTACT - 1)
-    np.testing.assert_allclose(shown, gaps, atol=0.002 * widest)
-    drawn = interactive.draw_contact(contact, pull_off, list("abcdefgh"))
-    assert drawn.select_one({"type": Div}).render_as_text  # "gel <soft>" is a label, not a tag
-    assert drawn.select_one({"type": DataRange1d, "flipped": True})  # the first row is on top
-    slider = drawn.select_one({"name": "load"})
-    assert (slider.start, slider.end) == (0, 7)
-    curves, _, _, (lowest, highest) = contact_figure.follow_tension(pull_off)
-    assert sum(len(curve["gap"]) for _, _, curve in curves) == pull_off.sizes["state"]
-    assert lowest < 0 < max(curves[1][2]["tension"]) < highest
+def test_contact_is_orange_and_the_first_row_on_top():
+    gap = np.full((8, 4), 1e-6)
+    gap[:, 0] = 0.0
+    state = contact_figure.State("tape", gap)
+    contact = contact_figure.Contact([state], (8e-3, 4e-3), "", [])
+    with plotting.open_figure([], "A", 2) as panels:
+        contact_figure.draw_state(panels["A"], contact, state)
+        (image,) = panels["A"].images
+        assert panels["A"].get_ylim() == (4.0, 0.0)
+        assert panels["A"].get_title() == "tape: 25 % in contact"
+        assert to_hex(panels["A"].get_facecolor()) == plotting.RED.lower()
+    assert image.get_array().mask[0].all()
+    np.testing.assert_allclose(image.get_array()[1:].compressed(), 1.0)  # um

@@ -43,13 +43,13 @@ CHANGES = {
         "config/materials.yaml",
         ("{common: pdms}", "{common: pdms, label: silicone}"),
         {"judge", "write_surface", "write_report"},
-        {"analyse_surface", "picture_contact", "plot_fig6", *SOLUTIONS},
+        {"analyse_surface", "plot_fig6", *SOLUTIONS},
     ),
     "label of a surface": (
         "config/tiny_surfaces.yaml",
         ("label: ultrananocrystalline diamond", "label: diamond"),
         {"judge", "write_surface", "write_report", "check_claims"},
-        {"analyse_surface", "picture_contact", "plot_fig6", *SOLUTIONS},
+        {"analyse_surface", "plot_fig6", *SOLUTIONS},
     ),
     "experiment": (
         "config/tiny_experiments.yaml",

@@ -11,7 +11,7 @@ pytestmark = pytest.mark.workflow
 
 # Kinds of files that hold states.
 KINDS = ("contact/.*/seeds", "contact/.*/coarse", "contact/.*/maps", "adhesion/full/.*/seeds")
-KINDS += ("adhesion/full/.*/maps", "adhesion/loops/", "real_surfaces/pictures/")
+KINDS += ("adhesion/full/.*/maps", "adhesion/loops/")
 SIGNED = r"(?!range)(\w+ ){0,3}(pressure|gap|tension|attraction)( over E| over h_rms|,| of a|$)"
 
 

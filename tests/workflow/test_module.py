@@ -71,7 +71,7 @@ def test_a_prefix_holds_for_results_alone(folder):
     (folder / "Snakefile").write_text(text, encoding="utf-8")
     (folder / "data").mkdir()
     (folder / "data/wall.txt").write_text("not read in a dry-run", encoding="utf-8")
-    rules = ("analyse_surface", "judge_surface", "picture_contact", "write_surface")
+    rules = ("analyse_surface", "judge_surface", "write_surface")
     assert jobs(dry_run(folder, f"deep/{PAGE}")) == {f"stickiness_{rule}": 1 for rule in rules}
 
 

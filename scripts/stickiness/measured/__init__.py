@@ -1,8 +1,7 @@
 """Measured topographies, from the file to a spectrum with its errors.
 
 `read` gives the heights of a file, `from_array` cleans those of an array, `analyse` makes their
-spectrum and `draw` its moments with their errors. `periodise` and `band_limited` make heights that
-the solvers take.
+spectrum and `draw` its moments with their errors. `periodise` makes heights that the solvers take.
 """
 
 from importlib import import_module
@@ -12,7 +11,7 @@ _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "from_array", "read"), "topography"),
     **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
     **dict.fromkeys(("Draws", "draw"), "stitching"),
-    **dict.fromkeys(("band_limited", "periodise"), "periodic"),
+    "periodise": "periodic",
 }
 
 __all__ = [*_PLACES]  # noqa: PLE0604

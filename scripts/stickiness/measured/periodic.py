@@ -80,48 +80,6 @@ def _steps_between_sides(heights: NDArray) -> NDArray:
     return fft.ifft2(fft.fft2(steps) / laplacian).real
 
 
-def band_limited(
-    heights: ArrayLike, sides: tuple[float, float], q_max: float, pixels: float
-) -> NDArray:
-    """Periodic heights without waves beyond `q_max`, on a grid that resolves the others.
-
-    Parameters
-    ----------
-    heights : (nx, ny) array
-        Heights of one period, in any unit.
-    sides : pair of float
-        Sides of the period along x and y [length].
-    q_max : float
-        Highest wave number that is kept [1/length].
-    pixels : float
-        Grid points per shortest wavelength, at least.
-
-    Returns
-    -------
-    (mx, my) array
-        Heights; mx and my are multiples of four, so that every second point is a grid, too.
-
-    Raises
-    ------
-    ValueError
-        If the grid of `heights` does not hold waves up to `q_max`.
-    """
-    heights = np.asarray(heights, dtype=float)
-    nyquist = np.pi * min(n / side for n, side in zip(heights.shape, sides, strict=True))
-    if not 0 < q_max < nyquist * (1 + 1e-9):
-        raise ValueError(f"q_max must be in 0 < q <= {nyquist:.6g} (Nyquist), got {q_max!r}")
-    modes = _modes_below(heights, sides, q_max) / heights.size
-    # A grid that resolves these, and the modes at their places on it.
-    i, j = (np.rint(fft.fftfreq(n, 1 / n)).astype(int) for n in heights.shape)
-    quarters = [int(np.ceil(side * q_max / (2 * np.pi) * pixels / 4)) for side in sides]
-    mx, my = (4 * fft.next_fast_len(quarter, real=True) for quarter in quarters)
-    keep_x = np.flatnonzero(np.abs(i) < mx / 2)
-    keep_y = np.flatnonzero(np.abs(j) < my / 2)
-    fine = np.zeros((mx, my), dtype=complex)
-    fine[np.ix_(i[keep_x] % mx, j[keep_y] % my)] = modes[np.ix_(keep_x, keep_y)]
-    return fft.ifft2(fine).real * fine.size
-
-
 def filter_waves(heights: NDArray, sides: tuple[float, float], q_max: float) -> NDArray:
     """Periodic heights (nx, ny) without waves beyond `q_max`, on the same grid."""
     return fft.ifft2(_modes_below(heights, sides, q_max)).real

@@ -1,84 +1,123 @@
-"""Picture of contact and pull-off of measured heights, and what its interactive form shares."""
+"""Picture of the contact that decided: states at zero load, simulated on the measured heights."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping
+from typing import NamedTuple
 
 import numpy as np
-from matplotlib import colormaps
-from matplotlib.cm import ScalarMappable
-from matplotlib.colors import ListedColormap, Normalize, to_hex
+import xarray as xr
+from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from stickiness.formatting import percent, unit_for
-from stickiness.pages import plotting
-from stickiness.pages.plotting import BLUE, GREY, RED
+from stickiness.pages.plotting import RED
+from stickiness.remaining.trial_states import SimulatedHeights
+from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.pair_variables import BY_BOUND, BY_SIMULATION
+from stickiness.verdicts.rough_surface import Surface
+from stickiness.verdicts.wording import LEAST_STRESS, MOST_STRESS
 
-CONTACT = 255  # code of a pixel in contact; lower ones are gaps
-GAPS = [to_hex(colormaps["bone_r"](code / (CONTACT - 1))) for code in range(CONTACT)]
-
-
-def draw_still(contact, pull_off, output):
-    """Write contact at some loads above the curve of tension, or why nothing was simulated."""
-    if contact.attrs["left_out"]:
-        with plotting.open_figure([output], [["text"]], 0.6) as panels:
-            panels["text"].axis("off")
-            reason = f"Not simulated: {contact.attrs['left_out']}."
-            panels["text"].text(0, 0.5, reason, va="center", wrap=True)
-        return
-    codes, widest = code_maps(contact)
-    (width, height), unit = sides_of(contact)
-    ratios = [min(max(1.5 * height / width, 0.8), 3.0)]
-    rows = "ABCD"
-    if not pull_off.attrs["left_out"]:
-        rows = f"{rows};.EE."
-        ratios = [*ratios, 2.2]
-    with plotting.open_figure([output], rows, sum(ratios) + 0.9, height_ratios=ratios) as panels:
-        maps = [panels[letter] for letter in "ABCD"]
-        loads = np.linspace(1, len(codes) - 1, len(maps)).round().astype(int)
-        look = {"cmap": ListedColormap([*GAPS, RED]), "vmin": 0, "vmax": CONTACT}
-        look |= {"extent": [0, width, height, 0], "interpolation": "nearest"}
-        for ax, index in zip(maps, loads, strict=True):
-            ax.imshow(codes[index], **look)
-            ax.set_title(f"{percent(contact.area_fraction[index])} contact", loc="right")
-            ax.set_xlabel(f"x [{unit}]")
-            ax.tick_params(labelleft=ax is maps[0])
-        per_gap, unit = unit_for(widest, "m")
-        scale = ScalarMappable(Normalize(0, widest * per_gap), ListedColormap(GAPS))
-        ax.figure.colorbar(scale, ax=maps, shrink=0.8, label=f"gap [{unit}]")
-        if "E" in panels:
-            curves, gap, tension, limits = follow_tension(pull_off)
-            for name, colour, curve in curves:
-                panels["E"].plot(curve["gap"], curve["tension"], color=colour, label=name)
-            panels["E"].axhline(0, color=GREY, linewidth=0.7)
-            panels["E"].set(ylim=limits, xlabel=gap, ylabel=tension)
-            panels["E"].legend(loc="lower right")
+MATERIALS = 3  # shown at most
+LONGEST_LINE = 45  # characters of a title
+MOST_SHOWN = 0.995  # quantile of the gaps up to which colours tell them apart
 
 
-def code_maps(contact):
-    """Code of every pixel by load, y and x, and the gap [m] of the highest code of gaps."""
-    # A pixel is a block of two by two points, and in contact if half of them are.
-    widest = float(contact.gap.isel(pressure=0).quantile(0.995))
-    codes = np.rint((CONTACT - 1) * np.clip(contact.gap / widest, 0, 1))
-    codes = codes.where(contact.contact < 0.5, CONTACT).transpose("pressure", "y", "x")
-    return codes.values.astype("u1"), widest
+class State(NamedTuple):
+    """A state of contact on the map."""
+
+    title: str
+    gap: NDArray  # [m], 0 in contact, ``(n0, n1)``
+
+    @property
+    def area(self) -> float:
+        """Share of the map that is in contact."""
+        return float((self.gap <= 0).mean())
 
 
-def sides_of(dataset):
-    """Sides of the map along x and y in a unit that suits them; positions are pixel centres."""
-    sides = [float(dataset[axis][0] + dataset[axis][-1]) for axis in ("x", "y")]
-    factor, unit = unit_for(max(sides), "m")
-    return [factor * side for side in sides], unit
+class Contact(NamedTuple):
+    """States of contact on the map of a surface; without any if none are at hand."""
+
+    states: list[State]
+    sides: tuple[float, float]  # of the map [m]
+    threshold_of: str  # the material in the last state with the modulus of its threshold, if any
+    not_kept: list[str]  # materials whose verdict rests on states that are not at hand
 
 
-def follow_tension(pull_off):
-    """Curves of tension against gap with their names and colours, labels, and limits of tension."""
-    per_gap, gap = unit_for(float(pull_off.mean_gap.max()), "m")
-    largest = float(pull_off.mean_traction.max())
-    per_tension, tension = unit_for(max(largest, 1.0), "Pa")
-    curves = []
-    ways = ((0, "approach", BLUE), (1, "separation", RED))
-    for way, name, colour in ways:
-        states = pull_off.isel(state=pull_off.separating.values == way)
-        gaps = states.mean_gap.values
-        tensions = states.mean_traction.values
-        curves.append((name, colour, {"gap": gaps * per_gap, "tension": tensions * per_tension}))
-    # The squeeze may press far harder than the surfaces attract each other.
-    lowest = max(-2 * largest, 1.1 * float(pull_off.mean_traction.min()))
-    limits = lowest * per_tension, 1.3 * largest * per_tension
-    return curves, f"mean gap [{gap}]", f"mean tension [{tension}]", limits
+class Simulated(NamedTuple):
+    """States simulated on the heights, and the energy that they lack over that of full contact."""
+
+    heights: SimulatedHeights
+    lacking: NDArray | float
+
+
+def find_contact(
+    data: xr.Dataset, pairs: xr.Dataset, simulated: Mapping[str, Simulated] | None = None
+) -> Contact | None:
+    """Find the simulated states that decided on `pairs` of a surface; None if none did.
+
+    The last state is that of the first material with the modulus at which the wanted share remains,
+    if there is such a modulus. The `data` of the surface keep states of a half-space. Those that
+    were `simulated` with other solids are given by the names of the materials.
+    """
+    names = pairs.material.values[pairs.decided_by.isin([BY_BOUND, BY_SIMULATION]).values]
+    if not names.size:
+        return None
+    at_hand = dict(simulated or {})
+    surface = Surface(data)
+    kept = surface.simulated
+    if kept is not None and kept.whole.gap_bin is not None:
+        smooth = [name for name in names if pairs.half_space.sel(material=name)]
+        at_hand |= dict.fromkeys(smooth, Simulated(kept, surface.lacking))
+    shown = [name for name in names if name in at_hand][:MATERIALS]
+    missing = [name for name in names if name not in at_hand]
+
+    def find(name: str, title: str, factor: float = 1.0) -> State:
+        return _find_state(at_hand[name], pairs.sel(material=name), title, factor)
+
+    labels = {name: pairs.material_label.sel(material=name).item() for name in names}
+    states = [find(name, labels[name]) for name in shown]
+    threshold_of = ""
+    for name in shown[:1]:
+        pair = pairs.sel(material=name)
+        threshold = read_limited(pair.modulus_threshold).value
+        if LEAST_STRESS < threshold < MOST_STRESS:
+            threshold_of = labels[name]
+            title = f"{percent(pairs.wanted_share)} remains"
+            states.append(find(name, title, threshold / float(pair.quoted_modulus)))
+    first, second = data.standard_sides.isel(part=0).values * float(data.standard_length_unit)
+    return Contact(states, (first, second), threshold_of, [labels[name] for name in missing])
+
+
+def _find_state(simulated: Simulated, pair: xr.Dataset, title: str, factor: float) -> State:
+    """State of least energy of a pair at zero load, with a factor on its modulus."""
+    adhesion_length = float(pair.work_of_adhesion / pair.plane_strain_modulus) / factor
+    (index,) = simulated.heights.find_deepest(
+        np.array([adhesion_length]),
+        np.array([float(pair.range)]),
+        pair.law.item(),
+        np.array([np.median(simulated.lacking)]),
+    )
+    return State(title, simulated.heights.whole.find_gap(index))
+
+
+def draw_state(ax: Axes, contact: Contact, state: State) -> None:
+    """Draw one of the states: contact in orange, the gap in shades of grey, alike in all."""
+    widest = max(float(np.quantile(each.gap, MOST_SHOWN)) for each in contact.states)
+    per_gap, gap_unit = unit_for(widest, "m")
+    per_side, unit = unit_for(max(contact.sides), "m")
+    width, height = (per_side * side for side in contact.sides)
+    ax.set_facecolor(RED)  # seen where there is no gap
+    image = ax.imshow(
+        np.ma.masked_less_equal(state.gap.T * per_gap, 0),
+        cmap="bone_r",
+        vmin=0,
+        vmax=widest * per_gap,
+        extent=(0, width, height, 0),  # the first row is on top
+        interpolation="nearest",
+    )
+    title = textwrap.fill(f"{state.title}: {percent(state.area)} in contact", LONGEST_LINE)
+    ax.set_title(title)
+    ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
+    ax.figure.colorbar(image, ax=ax, label=f"gap [{gap_unit}]", shrink=0.8)

@@ -22,7 +22,7 @@ from stickiness.verdicts.wording import LEAST_STRESS, MOST_STRESS, is_judged, na
 HURST = 0.8  # of the paper's lines
 LINES = {1e-3: r"$C_0$ = $10^{-3}$ and $10^{-5}$ m$^{0.4}$", 1e-5: None}
 LEAST_CHANGE = 0.02  # of the rms height that a picture shows
-SHOWN = 3  # materials in print: more is a bundle
+SHOWN = 3  # curves in a panel: more is a bundle
 DASHES = ("solid", "dashed", "dotted", "dotdash", "dashdot", [8, 3, 2, 3, 2, 3], [12, 3])
 LEAST_PERCENT = 0.1  # that a logarithmic axis shows
 ROOM = 10.0  # factor by which a curve along the modulus goes beyond the threshold and the pair
@@ -153,7 +153,6 @@ class Curve(NamedTuple):
     place: int  # among all materials of the page, for its look
     points: pd.DataFrame  # x, and low limit, value and high limit of the share [%]
     own: pd.Series  # the point of the pair as it is
-    shown: bool  # at first
 
 
 class Axis(NamedTuple):
@@ -164,26 +163,21 @@ class Axis(NamedTuple):
     curves: list[Curve]
 
 
-def find_curves(
-    pairs: xr.Dataset, names: Sequence[str], at_first: Sequence[str]
-) -> dict[str, Axis]:
-    """Curves of the judged materials by axis, in the order of their `names`.
-
-    Those of the materials `at_first` are shown at first.
-    """
+def find_curves(pairs: xr.Dataset, names: Sequence[str]) -> dict[str, Axis]:
+    """Curves of the judged materials by axis, in the order of their `names`."""
     cells = {name: pairs.sel(material=name) for name in names}
     judged = {name: cell for name, cell in cells.items() if is_judged(cell)}
     if not judged:
         return {}
     # Moduli are in the unit in which the threshold of the first material is told.
-    first = next((name for name in at_first if name in judged), next(iter(judged)))
-    per_pascal, unit = unit_for(find_moduli(judged[first])[-1], "Pa")
+    first = next(iter(judged.values()))
+    per_pascal, unit = unit_for(find_moduli(first)[-1], "Pa")
     symbols = {name_modulus(cell) for cell in judged.values()}
     symbol = MODULI[symbols.pop()] if len(symbols) == 1 else "modulus E or E*, as given"
     axes = {}
     for axis, label in LABELS.items():
         curves = []
-        for place, (name, cell) in enumerate(judged.items()):
+        for place, cell in enumerate(judged.values()):
             is_known = bool(np.isfinite(cell[f"remaining_by_{axis}"]).any())
             if is_known and (axis != "rate" or int(cell.depends_on_rate)):
                 points, own = follow(axis, cell, per_pascal)
@@ -192,7 +186,6 @@ def find_curves(
                     place=place,
                     points=points,
                     own=own,
-                    shown=name in at_first,
                 )
                 curves.append(curve)
         if curves:
@@ -231,14 +224,20 @@ def find_scale(curves: Sequence[Curve]) -> tuple[str, tuple[float, float]]:
     return ("linear", (-2, 102)) if most <= 100 else ("log", (LEAST_PERCENT, 1.5 * most))
 
 
-def draw_still(ax: Axes, axis: Axis) -> None:
-    """Draw the curves of the first materials along an axis, for print."""
-    for curve in [curve for curve in axis.curves if curve.shown][:SHOWN]:
+def draw_curves(ax: Axes, axis: Axis) -> None:
+    """Draw all curves along an axis."""
+    for curve in axis.curves:
         draw_curve(ax, curve)
     ax.axhline(100 * axis.wanted, color=GREY, linewidth=0.9, linestyle="--")
     scale, limits = find_scale(axis.curves)
     ax.set(xscale="log", yscale=scale, ylim=limits, xlabel=axis.label, ylabel=REMAINS)
     ax.figure.legend(loc="outside lower center", handlelength=3)
+
+
+def split_curves(axis: Axis) -> list[Axis]:
+    """Split an axis into axes of at most `SHOWN` curves."""
+    starts = range(0, len(axis.curves), SHOWN)
+    return [axis._replace(curves=axis.curves[start : start + SHOWN]) for start in starts]
 
 
 def draw_curve(ax: Axes, curve: Curve) -> None:

@@ -3,21 +3,23 @@
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from stickiness.formatting import amount, number, quantity_with_error, with_error
-from stickiness.pages import contact_figure, interactive, plotting, surface_figures
-from stickiness.pages.pressed_heights import Picture
+from stickiness.pages import contact_figure, plotting, surface_figures
 from stickiness.pages.rendering import TEMPLATES, embed_png, write_page
 from stickiness.pages.rows import describe_pair, describe_surface, explain
 from stickiness.statistics import COVERS
 from stickiness.verdicts import wording
-from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
+from stickiness.verdicts.judgement import (
+    BY_GAUSSIAN_THEORY,
+    BY_SHAPED_THEORY,
+    DECIDED_BY,
+)
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
 
@@ -28,9 +30,9 @@ def write_surface_page(
     entry: Mapping[str, Any],
     surface: xr.Dataset,
     verdicts: xr.Dataset,
-    picture: Picture | None,
     files: Mapping[str, str | Path],
     own: Sequence[str] | None = None,
+    simulated: Mapping[str, contact_figure.Simulated] | None = None,
 ) -> None:
     """Write the page of a surface.
 
@@ -44,13 +46,12 @@ def write_surface_page(
         `Surface.data`.
     verdicts : Dataset
         What `judge` returns, with curves and thresholds, for this surface alone.
-    picture : Picture or None
-        What `picture_contact` returns; None of a surface that was not measured.
     files : mapping
-        Files of data that the page links to: surface, verdicts and, with a picture, contact and
-        pull_off.
+        Files of data that the page links to: surface and verdicts.
     own : sequence of str, optional
-        Names of the materials that are shown first, and the others on request. By default all.
+        Names of the materials that are shown, and the others in tables on request. By default all.
+    simulated : mapping of str to contact_figure.Simulated, optional
+        States simulated with layers, by the names of the materials; files do not keep them.
     """
     pairs = verdicts.squeeze("surface")
     names = list(map(str, pairs.material.values))
@@ -58,12 +59,12 @@ def write_surface_page(
     names = [*own, *(name for name in names if name not in own)]
     at_first = own or names[: surface_figures.SHOWN]
     rows = [describe_verdict(pairs.sel(material=name)) | {"mine": name in own} for name in names]
-    followed = surface_figures.find_curves(pairs, names, at_first)
-    curves: dict[str, Any] = {}
-    if followed:
-        curves["interactive"] = interactive.embed(interactive.draw_curves(followed))
-        curves["still"] = [draw_panel(surface_figures.draw_still, a) for a in followed.values()]
-        curves["axes"] = list(followed)
+    axes = surface_figures.find_curves(pairs, at_first)
+    curves = [
+        draw_panel(surface_figures.draw_curves, part)
+        for axis in axes.values()
+        for part in surface_figures.split_curves(axis)
+    ]
     reading = []
     if "heights_as_read" in surface and surface_figures.shows_change(surface):
         ways = (surface_figures.draw_as_read, surface_figures.draw_as_used)
@@ -71,10 +72,8 @@ def write_surface_page(
     pictured = [surface[name] for name in ("heights", "profile") if name in surface][:1]
     panels = [draw_panel(surface_figures.draw_heights, heights) for heights in pictured]
     panels.append(draw_panel(surface_figures.draw_spectrum, surface))
-    contact = None
-    if picture is not None:
-        suited = [name for name in own if pairs.half_space.sel(material=name)]
-        contact = describe_contact(picture, pairs.sel(material=suited))
+    shown = pairs.sel(material=at_first)
+    contact = contact_figure.find_contact(surface, shown, simulated)
     write_page(
         TEMPLATES / "surface.html.j2",
         page,
@@ -92,10 +91,13 @@ def write_surface_page(
         contact_area=CONTACT_AREA,
         theories=(DECIDED_BY[BY_GAUSSIAN_THEORY], DECIDED_BY[BY_SHAPED_THEORY]),
         verdicts=rows,
-        shown_at_first=len(at_first),
+        axes=list(axes),
         curves=curves,
         contact=contact,
-        library=interactive.library() if curves or contact else "",
+        states=[
+            draw_panel(contact_figure.draw_state, contact, state)
+            for state in (contact.states if contact else ())
+        ],
     )
 
 
@@ -126,84 +128,9 @@ def list_doubts(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     return list(dict.fromkeys(told))
 
 
-def draw_png(draw: Callable[..., None], *shown: Any) -> dict[str, Any]:
-    """Picture that a function draws into a file, its `output`, as text for a page."""
+def draw_panel(*drawn: Any) -> dict[str, Any]:
+    """Picture of one panel as text for a page; arguments as of `surface_figures.draw_panel`."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "picture.png")
-        draw(*shown, output=file)
+        surface_figures.draw_panel(*drawn, output=file)
         return embed_png(file)
-
-
-def draw_panel(*drawn: Any) -> dict[str, Any]:
-    """Picture of one panel; arguments as of `surface_figures.draw_panel`."""
-    return draw_png(surface_figures.draw_panel, *drawn)
-
-
-def describe_contact(picture: Picture, suited: xr.Dataset) -> dict[str, Any] | None:
-    """Simulated contact and pull-off of the measured heights; None where there is no map.
-
-    `suited` are the pairs whose material is as the simulated solid: deep and smooth.
-    """
-    contact, pull_off = picture
-    if contact.attrs["left_out"]:
-        return None
-    loads = list_loads(contact, suited)
-    texts = []
-    for load in loads:
-        pressures = [f"{pressure} for {label}" for label, pressure in load["pressures"].items()]
-        pressure = ", ".join(pressures) or f"{load['pressure']} E* q₀ hᵣₘₛ"
-        texts.append(
-            f"Mean pressure: {pressure}. Contact area: {load['area']}. Mean gap: {load['gap']}."
-        )
-    compared = () if pull_off.attrs["left_out"] else ("separation", "pull_off")
-    outside = [name for name in compared if not overlap(pull_off, name)]
-    return {
-        "interactive": interactive.embed(interactive.draw_contact(contact, pull_off, texts)),
-        "still": [draw_png(contact_figure.draw_still, contact, pull_off)],
-        "data": contact,
-        "loads": loads,
-        "pulled": pull_off.attrs["material"],
-        "moment": pull_off.attrs["moment"],
-        "pull_off": pull_off,
-        "outside": outside,
-        "pulled_works": {name: read_limited(pull_off[name]) for name in compared},
-        "too_high": all(
-            read_limited(pull_off[name]).value < read_limited(pull_off[f"predicted_{name}"]).value
-            for name in outside
-        ),
-    }
-
-
-def list_loads(contact: xr.Dataset, suited: xr.Dataset) -> list[dict[str, Any]]:
-    """Texts of every load: pressure over E* and for each suited material, area and mean gap."""
-    moduli = {}
-    for name in suited.material.values:
-        pair = suited.sel(material=name)
-        label = f"{pair.material_label.item()} {wording.tell_moment(pair)}".strip()
-        moduli[label] = float(pair.plane_strain_modulus)
-    rows = []
-    for index in range(contact.sizes["pressure"]):
-        load = contact.isel(pressure=index)
-        area = with_error(100 * load.area_fraction, 100 * load.area_fraction_discretisation_error)
-        gap = quantity_with_error(
-            float(load.mean_gap), float(load.mean_gap_discretisation_error), "m"
-        )
-        pressures = {
-            label: amount(float(load.mean_pressure) * modulus, "Pa", 2)
-            for label, modulus in moduli.items()
-        }
-        rows.append(
-            {
-                "pressure": number(load.pressure, 2),
-                "pressures": pressures,
-                "area": f"({area}) %",
-                "gap": gap,
-            }
-        )
-    return rows
-
-
-def overlap(pull_off: xr.Dataset, name: str) -> bool:
-    """Whether the limits of simulation and model have values in common."""
-    simulated, predicted = (read_limited(pull_off[each]) for each in (name, f"predicted_{name}"))
-    return bool(simulated.low <= predicted.high and predicted.low <= simulated.high)

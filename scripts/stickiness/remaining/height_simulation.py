@@ -86,13 +86,20 @@ def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> S
     length_unit = standard.length_unit
     in_unit = solid.in_unit(length_unit)
 
-    def simulate(part: StandardMap, pull: bool = False) -> TrialStates:
-        states = find_trial_states(part.mirrored, part.mirrored_sides, solid=in_unit, pull=pull)
+    def simulate(part: StandardMap, is_whole: bool = False) -> TrialStates:
+        states = find_trial_states(
+            part.mirrored,
+            part.mirrored_sides,
+            solid=in_unit,
+            pull=is_whole,
+            # Pictures show the whole map, without its mirror images.
+            pictured=part.heights.shape if is_whole else None,
+        )
         return states.scaled(height_unit=part.height_unit, length_unit=length_unit)
 
     return SimulatedHeights(
         quarters=tuple(simulate(quarter) for quarter in standard.quarters),
-        whole=simulate(standard.whole, pull=True),
+        whole=simulate(standard.whole, is_whole=True),
         resolved_energy=standard.resolved_energy,
         pixel=standard.pixel,
     )
@@ -103,6 +110,7 @@ def find_trial_states(
     length: float | tuple[float, float],
     solid: Solid = HALF_SPACE,
     pull: bool = True,
+    pictured: tuple[int, ...] | None = None,
 ) -> TrialStates:
     """Simulate states of contact on periodic heights.
 
@@ -116,6 +124,8 @@ def find_trial_states(
         Elastic solid; the thickness of a layer is in the unit of `length`.
     pull : bool
         Whether to pull the surfaces off, for `TrialStates.distance`.
+    pictured : pair of ints, optional
+        Points along both sides of whose gaps pictures are kept, in `TrialStates.gap_bin`.
 
     Raises
     ------
@@ -132,7 +142,7 @@ def find_trial_states(
     0.0884 0.27
     """
     heights = grid("heights", heights)
-    cell = _Cell(heights, check_length(length, heights.shape), solid)
+    cell = _Cell(heights, check_length(length, heights.shape), solid, pictured or (0, 0))
     # Surfaces that touch at the summit, and contact without adhesion up to full contact.
     counted = [
         cell.count(0.0, heights.max() - heights),
@@ -178,6 +188,7 @@ def find_trial_states(
         simulated_range=ranges,
         simulated_share=shares,
         simulated_distance=distances,
+        gap_bin=None if pictured is None else np.array([state.gap_bin for state in counted]),
     )
     if not cell.is_stiffer:
         return trial_states
@@ -192,6 +203,7 @@ class _CountedState(NamedTuple):
     elastic_energy: float  #: [length]
     gap_share: NDArray  #: of the nominal area, ``(bin,)``
     gap: NDArray  #: mean of every bin [length], ``(bin,)``
+    gap_bin: NDArray  #: of every pixel that is pictured, ``(n0, n1)``
 
 
 def press(
@@ -216,6 +228,7 @@ class _Cell:
     heights: NDArray  #: [length]
     sides: tuple[float, float]  #: [length]
     solid: Solid
+    pictured: tuple[int, ...] = (0, 0)  #: points along both sides of which gaps are kept
 
     @cached_property
     def h_rms(self) -> float:
@@ -258,7 +271,12 @@ class _Cell:
         index = np.searchsorted(GAP_BINS, gap.ravel() / self.h_rms)
         counts = np.bincount(index, minlength=GAP_BINS.size + 1)
         sums = np.bincount(index, weights=gap.ravel(), minlength=GAP_BINS.size + 1)
-        return _CountedState(elastic_energy, counts / gap.size, sums / np.maximum(counts, 1))
+        return _CountedState(
+            elastic_energy=elastic_energy,
+            gap_share=counts / gap.size,
+            gap=sums / np.maximum(counts, 1),
+            gap_bin=index.reshape(gap.shape)[: self.pictured[0], : self.pictured[1]].astype("u1"),
+        )
 
     def count_contact(self, contact: repulsive.Contact) -> _CountedState:
         """Count the gaps of a contact without adhesion."""

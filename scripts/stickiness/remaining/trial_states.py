@@ -67,6 +67,8 @@ class TrialStates:
     simulated_share: NDArray
     #: Work that remains over the largest tension on separation [length]; NaN where not simulated
     simulated_distance: NDArray
+    #: Bin of the gap of every pixel, for pictures; None where it is not kept, ``(state, n0, n1)``
+    gap_bin: NDArray | None = None
 
     def scaled(self, height_unit: float, length_unit: float) -> Self:
         """Return the states in other units: of heights and gaps, and of lengths along the surface.
@@ -93,6 +95,7 @@ class TrialStates:
             gap_share=self.gap_share[kept],
             gap=self.gap[kept],
             has_adhesion=self.has_adhesion[kept],
+            gap_bin=None if self.gap_bin is None else self.gap_bin[kept],
         )
 
     def share(self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL) -> NDArray:
@@ -106,6 +109,18 @@ class TrialStates:
             Name in `traction_laws.LAWS`, of a potential that is convex in the gap.
         """
         return np.maximum(self._gains(adhesion_length, range, law).max(axis=1), 0.0)
+
+    def find_deepest(
+        self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL
+    ) -> NDArray:
+        """Index of the deepest of the states, which gives `share`, ``(n,)``."""
+        return self._gains(adhesion_length, range, law).argmax(axis=1)
+
+    def find_gap(self, state: int) -> NDArray:
+        """Gap of every pixel in a state [length], the mean of its bin, ``(n0, n1)``."""
+        if self.gap_bin is None:
+            raise ValueError("the gaps of these states are not kept")
+        return self.gap[state][self.gap_bin[state]]
 
     def area(self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL) -> NDArray:
         """Share of the nominal area in contact at zero load, ``(n,)``; as `share`.
@@ -287,6 +302,13 @@ class SimulatedHeights:
         """Share of the nominal area in contact at zero load, ``(n,)``; arguments as of `share`."""
         shift = self.find_shift(adhesion_length, range, law, lacking)
         return self.whole.area(adhesion_length * np.exp(shift), range, law)
+
+    def find_deepest(
+        self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray
+    ) -> NDArray:
+        """Index of the deepest state of the whole map, ``(n,)``; arguments as of `share`."""
+        shift = self.find_shift(adhesion_length, range, law, lacking)
+        return self.whole.find_deepest(adhesion_length * np.exp(shift), range, law)
 
     def distance(
         self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray

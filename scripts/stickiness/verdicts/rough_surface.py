@@ -63,8 +63,6 @@ class Surface:
         what the workflow stores in ``real_surfaces/<surface>.nc``.
     shells : Spectrum, optional
         Spectrum of a periodic cell, whose waves are discrete and have no density to tabulate.
-    measurements : tuple of Measurement
-        Levelled heights that were analysed, for a picture of their contact. Files do not keep them.
 
     See Also
     --------
@@ -81,7 +79,6 @@ class Surface:
 
     data: xr.Dataset
     shells: Spectrum | None = None
-    measurements: tuple[Measurement, ...] = ()
 
     @classmethod
     def from_spectrum(cls, spectrum: Spectrum, rough: Spectrum | None = None) -> Surface:
@@ -265,7 +262,7 @@ class Surface:
         )
         if entry["contact"] is not None:
             data = lengthen(data, entry["contact"])
-        return cls(data, measurements=tuple(measurements))
+        return cls(data)
 
     @classmethod
     def open(cls, path: str | Path) -> Surface:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -69,7 +70,15 @@ def simulate_surface(
     simulated = _simulate(standard, HALF_SPACE)
     if simulated is None:
         return None
-    return tabulate_simulated(simulated).merge(_tabulate_standard(standard))
+    dataset = tabulate_simulated(simulated).merge(_tabulate_standard(standard))
+    gap_bin = simulated.whole.gap_bin
+    if gap_bin is None:
+        return dataset
+    # A quarter may have more states, as in `_stack`.
+    states = np.minimum(np.arange(dataset.sizes["trial"]), len(gap_bin) - 1)
+    dataset["trial_gap_bin"] = ("trial", "standard_x", "standard_y"), gap_bin[states]
+    dataset["trial_gap_bin"].encoding = {"zlib": True}
+    return dataset
 
 
 def simulate_on(data: xr.Dataset, solid: Solid) -> SimulatedHeights | None:
@@ -171,6 +180,8 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
         )
         for part in range(data.sizes["part"])
     )
+    if "trial_gap_bin" in data:
+        whole = replace(whole, gap_bin=data.trial_gap_bin.values)
     return SimulatedHeights(
         whole=whole,
         quarters=tuple(quarters),

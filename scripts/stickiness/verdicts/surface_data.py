@@ -61,6 +61,7 @@ SURFACE_VARIABLES = {
     "trial_energy": ("m", "elastic energy per area over E* of every state simulated"),
     "trial_gap_share": ("1", "share of the area in every bin of gaps; the first is contact"),
     "trial_gap": ("m", "mean gap of every bin"),
+    "trial_gap_bin": ("1", "bin of the gap of every point of the map; 0 is contact"),
     "trial_has_adhesion": ("1", "1 where a state was simulated with adhesion"),
     "simulated_full_contact": ("m", "elastic energy of full contact of the heights simulated"),
     "simulated_length": ("m", "adhesion lengths simulated"),

@@ -304,3 +304,23 @@ def test_surfaces_that_touch_at_the_summit_hold_by_a_long_range_at_any_modulus()
     stiff = np.array([1e-6 * states.full_contact_energy])
     assert rigid > 0.1
     assert states.share(stiff, np.array([range_])) == pytest.approx(rigid, rel=1e-2)
+
+
+def test_states_keep_a_picture_of_their_gaps(simulated):
+    heights, states = simulated
+    assert states.gap_bin is None
+    with pytest.raises(ValueError, match="not kept"):
+        states.find_gap(0)
+    kept = find_trial_states(heights, 1.0, pull=False, pictured=heights.shape)
+    for index, bins in enumerate(kept.gap_bin):
+        counts = np.bincount(bins.ravel(), minlength=kept.gap_share.shape[1])
+        np.testing.assert_allclose(counts / bins.size, kept.gap_share[index], rtol=1e-12)
+    # Surfaces that touch at the summit, in bins that end at 1.17 times their beginning.
+    np.testing.assert_allclose(kept.find_gap(0), heights.max() - heights, rtol=0.17)
+    # The deepest state is the one that tells the share.
+    lengths = kept.full_contact_energy * np.array([0.1, 0.5, 2.0])
+    ranges = np.full(3, 0.2 * heights.std())
+    for length, range_, share in zip(lengths, ranges, kept.share(lengths, ranges), strict=True):
+        (deepest,) = kept.find_deepest(np.array([length]), np.array([range_]))
+        attracted = np.exp(-kept.find_gap(deepest) / range_).mean()
+        assert attracted - kept.elastic_energy[deepest] / length == pytest.approx(share, abs=1e-9)
