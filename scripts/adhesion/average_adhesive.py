@@ -89,8 +89,8 @@ def main(job):
     ensemble = datasets.read(job.input.ensemble, ["attractive_area", "area_fraction", "rms_slope"])
     errors = {"dmt_valid": job.params.jtb, "dmt_error": job.params.dmt_error}
     dmt_sum.write_limit(job.params.adhesion, ensemble, job.input.laws, errors, job.output.limit)
-    limit = datasets.read(job.output.limit)
-    dataset = take_dmt_sum(limit)
+    dmt = datasets.read(job.output.limit)
+    dataset = take_dmt_sum(dmt)
 
     # Full simulations at the points that ask for them.
     full = xr.DataArray(np.array(job.params.full), dims=AXES)
@@ -101,7 +101,7 @@ def main(job):
         states = read_block(job.input.realisations, ["external_pressure"], job.params.seeds)
         origin = datasets.parameters(states)
         seeds = job.params.seeds
-        solved = average(states, full, ensemble, limit, origin)
+        solved = average(states, full, ensemble, dmt, origin)
         for name in dataset.keys() & solved.keys():
             chosen = full if "pressure" in dataset[name].dims else full.any("pressure")
             solved[name] = solved[name].where(chosen, dataset[name])
@@ -109,13 +109,13 @@ def main(job):
 
     dataset = dataset.drop_vars(n for n in dataset if n.endswith("_discretisation_error"))
     dataset["model"] = (AXES, np.where(full, "full", "dmt"))
-    strength = limit.adhesion_length_over_range / limit.q0_h_rms
-    dataset["zone_strength"] = zone_width(ensemble, limit) * strength / limit.range_over_h_rms
+    strength = dmt.adhesion_length_over_range / dmt.q0_h_rms
+    dataset["zone_strength"] = zone_width(ensemble, dmt) * strength / dmt.range_over_h_rms
     dataset = conventions.annotate(dataset, **AVERAGE_VARIABLES)
     for name in [name for name in ALL if name in dataset]:
         dataset = with_budget(dataset, name, **split(dataset[f"{name}_error"], ERROR_TEXTS))
     title = "adhesive contact averaged over realisations, by the model chosen"
-    parameters = {**origin, **datasets.parameters(limit), "seeds": seeds}
+    parameters = {**origin, **datasets.parameters(dmt), "seeds": seeds}
     datasets.write(dataset, job.output.averages, title=title, parameters=parameters)
 
     # The edges of contact, compared with the model that verdicts use.
@@ -128,28 +128,28 @@ def main(job):
     datasets.write(edges, job.output.edges, title=title, parameters=parameters)
 
 
-def take_dmt_sum(limit):
+def take_dmt_sum(dmt):
     """Take the averages from the DMT sum: every area is the one without adhesion."""
-    none = xr.zeros_like(limit.inverse_kappa)
-    dataset = limit[["q0_h_rms", "dmt_valid", "dmt_error"]]
-    dataset = dataset.assign(external_pressure=limit.pressure - limit.attraction)
+    none = xr.zeros_like(dmt.inverse_kappa)
+    dataset = dmt[["q0_h_rms", "dmt_valid", "dmt_error"]]
+    dataset = dataset.assign(external_pressure=dmt.pressure - dmt.attraction)
     for name, source in CONTROLS.items():
-        dataset[name] = limit[source]
-        dataset[f"{name}_error"] = limit[f"{source}_error"]
-    dataset["external_pressure_error"] = limit.attraction_error
+        dataset[name] = dmt[source]
+        dataset[f"{name}_error"] = dmt[f"{source}_error"]
+    dataset["external_pressure_error"] = dmt.attraction_error
     for name in CONTACT_AREAS:
-        dataset[name] = limit.area_fraction + none
-        dataset[f"{name}_error"] = limit.area_fraction_error.where(limit.source != "model") + none
+        dataset[name] = dmt.area_fraction + none
+        dataset[f"{name}_error"] = dmt.area_fraction_error.where(dmt.source != "model") + none
     return dataset
 
 
-def average(states, full, ensemble, limit, parameters):
+def average(states, full, ensemble, dmt, parameters):
     """Average the realisations: full simulations, or the DMT sum where there are none.
 
-    Every average ``NAME`` comes with its errors by source, ``NAME_error``. `limit` is the DMT sum
+    Every average ``NAME`` comes with its errors by source, ``NAME_error``. `dmt` is the DMT sum
     of the set, `parameters` are those of the file of the states.
     """
-    adhesion = datasets.parameters(limit)
+    adhesion = datasets.parameters(dmt)
     seeds = adhesion_sets.seeds_on_both(states)
     reported = find_reported(states, full, ensemble, parameters)
 
@@ -188,7 +188,7 @@ def average(states, full, ensemble, limit, parameters):
             "solver": relative_solver * (abs(value) + fixed),
             "sampling": sampling_error(dataset, name, seeds, unseen),
             "bandwidth": 0.0,
-            "model": abs(model_error(dataset, name, states, seeds, limit, linear)),
+            "model": abs(model_error(dataset, name, states, seeds, dmt, linear)),
         }
         parts = [(xr.zeros_like(value) + errors[s]).transpose(*value.dims) for s in SOURCES]
         dataset[f"{name}_error"] = xr.concat(parts, source)
@@ -228,15 +228,15 @@ def sampling_error(dataset, name, seeds, unseen):
     return np.maximum(sampling, unseen)
 
 
-def model_error(dataset, name, states, seeds, limit, linear):
+def model_error(dataset, name, states, seeds, dmt, linear):
     """Change of a quantity by another way of comparing with contact without adhesion; 0 if none."""
     if f"{name}_equal_area" in states:
         # Equal area in place of equal mean gap.
         change = fine(states[f"{name}_equal_area"] - states[name]).sel(seed=seeds)
         return change.mean("seed", skipna=False)
     if name == "weak_ratio":
-        error = limit.attraction_weak_error.sel(source="model", drop=True)
-        return error / limit.attraction_weak * dataset[name]
+        error = dmt.attraction_weak_error.sel(source="model", drop=True)
+        return error / dmt.attraction_weak * dataset[name]
     if name in FITS:
         return linearity_error(dataset[FITS[name]], linear)
     return 0.0
@@ -332,14 +332,14 @@ def add_ratios_at_gap(states, ensemble, adhesion):
     )
 
 
-def ratio_of_means(values, limit):
+def ratio_of_means(values, reference):
     """Ratio of two means over seeds, as one sample a seed.
 
     The samples average to the ratio, and scatter about it as the ratio does to first order.
     """
-    mean_limit = limit.where(values.notnull()).mean("seed")
-    best = values.mean("seed") / mean_limit
-    return best + (values - best * limit) / mean_limit
+    mean_reference = reference.where(values.notnull()).mean("seed")
+    best = values.mean("seed") / mean_reference
+    return best + (values - best * reference) / mean_reference
 
 
 def zone_width(ensemble, points):

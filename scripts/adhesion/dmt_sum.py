@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 import xarray as xr
 
-from common import conventions, grid_limits
+from common import continuum_values, conventions
 from common.adhesion_sets import AXES, OUTSIDE, axes, scaled_law
 from common.conventions import LINEAR_UP_TO
 from common.ensemble_means import add_errors, coarse, describe_errors
@@ -31,7 +31,7 @@ FITS = {"inverse_kappa_fit": "inverse_kappa", "inverse_kappa_ad_fit": "inverse_k
 # Slopes with the attraction, and by how much it lowers them.
 FALLS = {"inverse_kappa": "inverse_kappa_ad", "inverse_kappa_fit": "inverse_kappa_ad_fit"}
 FEW = "fewer than two loads to fit, fewer than three in all, or a single seed"
-describe = partial(describe_errors, plain=True, discretisation=grid_limits.INHERITED)
+describe = partial(describe_errors, plain=True, discretisation=continuum_values.INHERITED)
 of_loads = describe({name: QUANTITIES[name] for name in (*FITS, "attraction_weak")})
 DMT_SUM_VARIABLES = describe(QUANTITIES)
 DMT_SUM_VARIABLES |= {name: (*text[:2], FEW) for name, text in of_loads.items()}
@@ -143,15 +143,17 @@ def write_limit(adhesion, ensemble, laws, errors, output):
     # Means over the seeds in the limit of fine grids, corrected by coarse solutions of many more.
     linear = find_linear(adhesion, ensemble)
     quantities = partial(quantities_of, adhesion, linear)
-    inherited = grid_limits.inherit(
+    inherited = continuum_values.inherit(
         ensemble, quantities, ["area_fraction", "attractive_area", "mean_gap"]
     )
     values = quantities(ensemble)
     more = coarse(ensemble, quantities)
     for name in QUANTITIES:
         controls = more and replace(more, values=more.values[name])
-        limit = grid_limits.Limit(inherited.shift[name], inherited.error[name])
-        dataset = add_errors(dataset, name, values[name], controls, plain=True, limit=limit)
+        correction = continuum_values.Correction(inherited.shift[name], inherited.error[name])
+        dataset = add_errors(
+            dataset, name, values[name], controls, plain=True, correction=correction
+        )
 
     simulation = Simulation(read_models(laws), datasets.parameters(ensemble))
     steps = np.diff(np.log(ensemble.pressure), prepend=np.nan, append=np.nan)
@@ -208,7 +210,7 @@ def add_budgets(dataset, simulation, linear, slope_error):
         dataset = with_budget(
             dataset,
             name,
-            discretisation=ErrorComponent(grid, grid_limits.INHERITED),
+            discretisation=ErrorComponent(grid, continuum_values.INHERITED),
             solver=ErrorComponent(solver, "by the tolerance, as measured"),
             sampling=ErrorComponent(sampling, "Student's t"),
             bandwidth=SIMULATED["bandwidth"],

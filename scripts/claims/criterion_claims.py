@@ -36,10 +36,10 @@ def slope_angle(map):
     roughness = sorted_map.h_rms_over_range.values
     angles = sorted_map.slope_angle.transpose("slope_parameter", ...).values
     crossing = np.array([np.interp(-90, -angle, roughness) for angle in angles])
-    expected = criteria.h_rms_limit(sorted_map.slope_parameter.values, 1.0, 1.0, a_v)
+    expected = criteria.h_rms_threshold(sorted_map.slope_parameter.values, 1.0, 1.0, a_v)
     worst = float(np.max(np.abs(crossing / expected - 1)))
-    by_edges = sorted_map.h_rms_limit_edges.sel(limit="value")
-    ratio = sorted_map.h_rms_limit.sel(limit="value") / by_edges
+    by_edges = sorted_map.h_rms_threshold_edges.sel(limit="value")
+    ratio = sorted_map.h_rms_threshold.sel(limit="value") / by_edges
     weak = by_edges > sorted_map.weak_limit
     return Finding(
         crossing[-1],
@@ -66,7 +66,7 @@ def largest_dmt(a_v):
 @claim(13)
 def roughness_limits(map):
     """Largest sticky roughness of the paper's examples."""
-    limits = [criteria.h_rms_limit(EXAMPLES, CRYSTAL, 1.0, a_v) for a_v in list_a_v(map)]
+    limits = [criteria.h_rms_threshold(EXAMPLES, CRYSTAL, 1.0, a_v) for a_v in list_a_v(map)]
     printed, derived, low, high = limits
     close = np.abs(printed / PRINTED_LIMITS - 1) < 0.1
     return Finding(

@@ -22,7 +22,7 @@ def recompute():
     h_rms = np.sqrt(np.pi * ASPHALT["C0"] / hurst) * q0**-hurst
     for name, value in a_v.items():
         for exponent in (6, 9, 12):
-            limit = formulas.h_rms_limit(10.0**-exponent, CRYSTAL, 1.0, value)
+            limit = formulas.h_rms_threshold(10.0**-exponent, CRYSTAL, 1.0, value)
             second[f"h_over_range_limit_{name}_1e-{exponent}"] = limit
         threshold = formulas.modulus_threshold(h_rms, q0, WORK_OF_ADHESION, RANGE, value)
         second[f"asphalt_modulus_Pa_{name}"] = threshold
@@ -51,7 +51,9 @@ def recompute():
         # edge per area has none.
         "4": {f"pressure_exponent_{n}": 3 - k for n, k in (("printed", 1.5), ("correct", 3.0))},
         "5": {
-            "h_over_range_limit_1e-12": formulas.h_rms_limit(1e-12, CRYSTAL, 1.0, a_v["printed"])
+            "h_over_range_limit_1e-12": formulas.h_rms_threshold(
+                1e-12, CRYSTAL, 1.0, a_v["printed"]
+            )
         },
         "6": sixth,
     }

@@ -8,7 +8,7 @@ simulation or theory in every fit interval (`window`) of the configuration.
 import numpy as np
 import xarray as xr
 
-from common import grid_limits
+from common import continuum_values
 from common.conventions import LINEAR_UP_TO, annotate, middles
 from common.ensemble_means import add_errors, coarse, describe_errors, standard_error
 from common.error_budgets import BY_THEORY, QUADRATURE, SIMULATED, Simulation, theory_parts
@@ -25,7 +25,7 @@ KAPPA_VARIABLES = describe_errors(
         "kappa_fit": f"{KAPPA}, fitted through the origin up to {LINEAR_UP_TO:.0%} area",
     },
     plain=True,
-    discretisation=grid_limits.INHERITED,
+    discretisation=continuum_values.INHERITED,
 )
 A_V_VARIABLES = {
     "a_v": "a_V, slope of A_ad against (3/2) p (range/h_rms)^(2/3)",
@@ -37,7 +37,7 @@ A_V_VARIABLES = {
         "local exponent d ln A_ad/d ln range",
         "a range that the grid does not resolve, or no area within one of them",
     ),
-    **describe_errors({"a_v": "a_V"}, discretisation=grid_limits.INHERITED),
+    **describe_errors({"a_v": "a_V"}, discretisation=continuum_values.INHERITED),
 }
 
 
@@ -145,10 +145,10 @@ def fit_kappa(ensemble, models):
         ("kappa", slope_of_area, ensemble.pressure),
         ("kappa_fit", fit_slope, largest),
     ):
-        limit = grid_limits.inherit(ensemble, quantity, ["area_fraction"])
+        correction = continuum_values.inherit(ensemble, quantity, ["area_fraction"])
         values = quantity(ensemble)
         more = coarse(ensemble, quantity)
-        dataset = add_errors(dataset, name, values, more, plain=True, limit=limit)
+        dataset = add_errors(dataset, name, values, more, plain=True, correction=correction)
         texts = {n: text for n, text in KAPPA_VARIABLES.items() if n.startswith(name)}
         dataset = annotate(dataset, **texts)
         parts = simulation.parts(
@@ -156,7 +156,7 @@ def fit_kappa(ensemble, models):
             dataset[name].assign_coords(pressure=load),
             dataset[f"{name}_standard_error"],
             dataset[f"{name}_discretisation_error"],
-            text=grid_limits.INHERITED,
+            text=continuum_values.INHERITED,
         )
         dataset = with_budget(dataset, name, **parts)
     for ending in ENDINGS:
@@ -196,8 +196,10 @@ def average_a_v(dataset, ensemble, windows):
     def quantity(solved):
         return fit_intervals(solved, windows).a_v
 
-    limit = grid_limits.inherit(ensemble, quantity, ["attractive_area"])
-    return add_errors(dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), limit=limit)
+    correction = continuum_values.inherit(ensemble, quantity, ["attractive_area"])
+    return add_errors(
+        dataset, "a_v", dataset.a_v, coarse(ensemble, quantity), correction=correction
+    )
 
 
 def add_simulation_budgets(dataset, ensemble, models):
@@ -208,10 +210,10 @@ def add_simulation_budgets(dataset, ensemble, models):
         dataset.a_v_mean,
         dataset.a_v_standard_error,
         dataset.a_v_discretisation_error,
-        text=grid_limits.INHERITED,
+        text=continuum_values.INHERITED,
     )
     dataset = with_budget(dataset, "a_v_mean", **parts)
-    limit = grid_limits.inherit(ensemble, local_exponent, ["attractive_area"])
+    correction = continuum_values.inherit(ensemble, local_exponent, ["attractive_area"])
     steps = np.diff(np.log(ensemble["range"].values)).min()
     solver = 2 * simulation.solver("attractive_area", dataset.exponent) / steps
     factor = simulation.factors("attractive_area", dataset.exponent)
@@ -219,7 +221,7 @@ def add_simulation_budgets(dataset, ensemble, models):
     return with_budget(
         dataset,
         "exponent",
-        discretisation=ErrorComponent(limit.error, grid_limits.INHERITED),
+        discretisation=ErrorComponent(correction.error, continuum_values.INHERITED),
         solver=ErrorComponent(solver, "of neighbouring areas, by the tolerance, as measured"),
         sampling=ErrorComponent(sampling, "Student's t, of the plain mean of seeds"),
         **SIMULATED,

@@ -137,19 +137,19 @@ def _mean_from_half(values, on_finest, more):
     )
 
 
-def add_errors(dataset, name, values, more=None, plain=False, limit=None):
+def add_errors(dataset, name, values, more=None, plain=False, correction=None):
     """Add ``NAME_mean`` (`plain`: ``NAME``) of `values` to a dataset, and its `SUFFIXES`.
 
-    `more` is the same of coarse solutions, see `coarse`. A `grid_limits.Limit` takes mean and
+    `more` is the same of coarse solutions, see `coarse`. A `continuum_values.Limit` takes mean and
     discretisation error to the limit of fine grids; without it that error is the change from half
     the resolution.
     """
     value, error = ensemble_mean(values, more)
-    if limit is None:
+    if correction is None:
         left = discretisation_error(values)
     else:
-        value = value + limit.shift
-        left = limit.error
+        value = value + correction.shift
+        left = correction.error
     return dataset.assign(
         {
             name if plain else f"{name}_mean": value,

@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
+from common.continuum_values import LEFT
 from common.conventions import GAPS_MEASURED, VARIANT
-from common.grid_limits import LEFT
 from stickiness.accuracy.error_models import OUTSIDE, Settings, Surface, single_error
 from stickiness.accuracy.quantities import COLUMNS, has_error_model
 from stickiness.accuracy.settings import Problem, covering_factor

@@ -8,17 +8,17 @@ from operator import itemgetter
 
 import xarray as xr
 
-from common import conventions, grid_limits
+from common import continuum_values, conventions
 from common.contact_curves import (
     CONTACT_VARIABLES,
     MEASURED_TEXTS,
     coarse_seeds,
     describe_others,
 )
+from common.continuum_values import EXTRAPOLATION
 from common.derived_quantities import fit_kappa, gap_density
 from common.ensemble_means import PREFIX, add_errors, coarse, describe_errors, mean
 from common.error_budgets import Simulation
-from common.grid_limits import EXTRAPOLATION
 from common.model_surfaces import read_block, skewness_of
 from stickiness import datasets
 from stickiness.accuracy.error_models import read_models
@@ -35,10 +35,10 @@ AVERAGED["gap_density"] = gap_density
 TEXTS = {name: conventions.SHARED_VARIABLES[name][1] for name in AVERAGED}
 ENSEMBLE_VARIABLES = {
     **MEASURED_TEXTS,
-    **describe_errors(TEXTS, discretisation=grid_limits.DIRECT),
+    **describe_errors(TEXTS, discretisation=continuum_values.DIRECT),
     **describe_errors(
         {name: text for name, (_, text, _) in MEASURED_TEXTS.items()},
-        discretisation=grid_limits.FIRST_ORDER,
+        discretisation=continuum_values.FIRST_ORDER,
     ),
     "rms_slope": conventions.RMS_SLOPE,
     "edge_gap_mean": "gap next to the contact over h_rms: smallest range resolved",
@@ -100,12 +100,12 @@ def add_statistics(realisations, others, averaged=AVERAGED):
         values = quantity(realisations)
         more = coarse(dataset, quantity)
         if name in MEASURED:
-            limit = grid_limits.estimate_first_order(values)
+            correction = continuum_values.estimate_first_order(values)
         else:
-            limit = grid_limits.estimate(name, realisations, quantity)
-        dataset = add_errors(dataset, name, values, more, limit=limit)
+            correction = continuum_values.estimate(name, realisations, quantity)
+        dataset = add_errors(dataset, name, values, more, correction=correction)
         if name == "attractive_area":  # the one quantity that is extrapolated
-            dataset[f"{name}_{EXTRAPOLATION}"] = limit.shift
+            dataset[f"{name}_{EXTRAPOLATION}"] = correction.shift
     return dataset
 
 
@@ -129,7 +129,7 @@ def write_means(realisations, others, parameters, laws, output, averaged=AVERAGE
         parameters["descriptor_seeds"] = others.sizes["other"]
     simulation = Simulation(read_models(laws), parameters)
     for name in averaged:
-        left = grid_limits.FIRST_ORDER if name in MEASURED else grid_limits.LEFT
+        left = continuum_values.FIRST_ORDER if name in MEASURED else continuum_values.LEFT
         parts = simulation.parts(
             name,
             dataset[f"{name}_mean"],

@@ -35,10 +35,10 @@ MAP_VARIABLES = {  # units, description, and what NaN means
     "range_times_q0": ("1", "range times lowest wave number"),
     "adhesion_length_over_range": ("1", "adhesion length over range"),
     "limit": LIMIT_TEXT,
-    "h_rms_limit": ("1", f"{DMT}, a_V by theory with its limits", MISSING),
-    "h_rms_limit_edges": ("1", f"{EDGES}, with the limits of a_V and of the model", MISSING),
-    "h_rms_limit_constant": ("1", f"{DMT}, constant a_V of a broad spectrum"),
-    "h_rms_limit_printed": ("1", f"{DMT}, coefficient 9/4 as printed"),
+    "h_rms_threshold": ("1", f"{DMT}, a_V by theory with its limits", MISSING),
+    "h_rms_threshold_edges": ("1", f"{EDGES}, with the limits of a_V and of the model", MISSING),
+    "h_rms_threshold_constant": ("1", f"{DMT}, constant a_V of a broad spectrum"),
+    "h_rms_threshold_printed": ("1", f"{DMT}, coefficient 9/4 as printed"),
     "weak_limit": ("1", "smallest h_rms/range at which the edges of contact are weak", MISSING),
     "jtb_limit": ("1", "smallest h_rms/range at which the DMT limit holds (JTB)"),
     "a_v": ("1", "constant a_V of a broad spectrum"),
@@ -67,9 +67,9 @@ def main(job):
     dataset = datasets.annotate(dataset, **MAP_VARIABLES)
     dataset = with_budget(dataset, "a_v", **parts)
     # In proportion to a_V^(3/5).
-    scale = 3 / 5 * dataset.h_rms_limit_constant / a_v
+    scale = 3 / 5 * dataset.h_rms_threshold_constant / a_v
     parts = {name: replace(each, error=each.error * scale) for name, each in parts.items()}
-    dataset = with_budget(dataset, "h_rms_limit_constant", **parts)
+    dataset = with_budget(dataset, "h_rms_threshold_constant", **parts)
     datasets.write(
         dataset,
         job.output.map,
@@ -135,16 +135,16 @@ def find_limits(settings, constant_a_v, surfaces):
 
     by_dmt = [partial(surfaces.by_dmt, which=which) for which in SIGNS]
     by_edges = [partial(surfaces.by_edges, which=which, sign=sign) for which, sign in SIGNS.items()]
-    limited = {"h_rms_limit": by_dmt, "h_rms_limit_edges": by_edges}
+    limited = {"h_rms_threshold": by_dmt, "h_rms_threshold_edges": by_edges}
     variables = {
         name: (("limit", *dims), [find(ratio) for ratio in ratios])
         for name, ratios in limited.items()
     }
     variables["weak_limit"] = dims, find(surfaces.over_weak)
-    constant = criteria.h_rms_limit(q0, length, 1.0, constant_a_v)
-    printed = criteria.h_rms_limit(q0, length, 1.0, criteria.PRINTED_A_V)
-    variables["h_rms_limit_constant"] = dims, constant
-    variables["h_rms_limit_printed"] = dims, printed
+    constant = criteria.h_rms_threshold(q0, length, 1.0, constant_a_v)
+    printed = criteria.h_rms_threshold(q0, length, 1.0, criteria.PRINTED_A_V)
+    variables["h_rms_threshold_constant"] = dims, constant
+    variables["h_rms_threshold_printed"] = dims, printed
     variables["jtb_limit"] = dims, criteria.jtb_limit(q0, length, 1.0)
     return xr.Dataset(variables, coords=axes | {"limit": list(LIMITS)})
 

@@ -11,7 +11,7 @@ from stickiness.pages.plotting import BLACK, BLUE, COLOURS, GREEN, GREY, RED, in
 from stickiness.verdicts.limits import LIMITS
 
 LENGTH = "adhesion_length_over_range"
-EDGES = "h_rms_limit_edges"
+EDGES = "h_rms_threshold_edges"
 PARAMETER = r"$\epsilon q_0/(l_a/\epsilon)$"
 ROUGHNESS = r"roughness $h_\mathrm{rms}/\epsilon$"
 
@@ -45,7 +45,7 @@ def draw_plane(ax, data):
     range_times_q0 = np.array([*H_RMS_LIMITS])
     parameters = range_times_q0 / CRYSTAL
     ax.plot([*H_RMS_LIMITS.values()], parameters, label="the paper's numbers", **look)
-    recomputed = criteria.h_rms_limit(range_times_q0, CRYSTAL, 1.0, criteria.PRINTED_A_V)
+    recomputed = criteria.h_rms_threshold(range_times_q0, CRYSTAL, 1.0, criteria.PRINTED_A_V)
     look |= {"marker": "+", "mew": 1.4, "markersize": 6}
     ax.plot(recomputed, parameters, label="recomputed as printed", **look)
     draw_edges(ax, data)
@@ -58,7 +58,7 @@ def draw_plane(ax, data):
 def find_parameter(h_over_range, a_v):
     """Largest range q0/(l_a/range) that sticks by the criterion with a constant a_V."""
     # The limit of h_rms/range falls as the parameter to the power -3/5.
-    at_one = criteria.h_rms_limit(1.0, 1.0, 1.0, a_v)
+    at_one = criteria.h_rms_threshold(1.0, 1.0, 1.0, a_v)
     return (at_one / h_over_range) ** (5 / 3)
 
 

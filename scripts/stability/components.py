@@ -306,7 +306,7 @@ def probe_psd(hurst, grid):
     heights = surface.synthesise(s, n=grid, length=SIDE, seed=3)
     plane = psd.power_spectrum(heights, step)
     yield compare("Parseval", plane.total(), np.var(heights))
-    limits = instrument_spectrum.Limits(detect=False)
+    limits = instrument_spectrum.TrustedWaves(detect=False)
     topography = Topography(heights, step, step, "probe")
     fit = instrument_spectrum.analyse(topography, "none", limits).fit
     yield check("Hurst exponent", abs(fit.hurst - hurst) / max(fit.hurst_se, 0.02), 5)
@@ -321,7 +321,7 @@ def probe_criteria(range_over_h_rms, adhesion_length_over_range):
     a_v = 3.0
     eps = range_over_h_rms
     la = adhesion_length_over_range * eps
-    limit = criteria.h_rms_limit(1.0, la, eps, a_v)
+    limit = criteria.h_rms_threshold(1.0, la, eps, a_v)
     yield compare("threshold", criteria.violano(limit, 1.0, la, eps, a_v).margin, 1)
     margin = 75 / 4 / adhesion_length_over_range
     yield compare("DMT range", 1 / criteria.jtb_limit(1.0, la, eps), margin)

@@ -21,7 +21,7 @@ REFUSED_SIDE = (
 )
 
 
-class Limits(NamedTuple):
+class PlausibleRange(NamedTuple):
     """Values of real solids and surfaces in SI units, most with room to spare."""
 
     least: float
@@ -43,18 +43,24 @@ _OF_WORK = (
 )
 _OF_HEIGHT = "atoms are larger than 0.05 nm; give heights in m (1e-6 for 1 um)"
 #: By the name of the argument, or of the key in the configuration.
-LIMITS = {
-    "length": Limits(SHORTEST_SIDE, LONGEST_SIDE, LONGEST_SIDE, _OF_LENGTH),
-    "h_rms": Limits(5e-11, LONGEST_SIDE, LONGEST_SIDE, _OF_HEIGHT),
-    "rms_slope": Limits(1e-7, 1.0, 1.0, _OF_SLOPE),
-    "youngs_modulus": Limits(10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"),
-    "work_of_adhesion": Limits(1e-6, 0.2, 10.0, _OF_WORK, "J/m^2"),
-    "poisson_ratio": Limits(0.0, 0.5, 0.5, "hardly any solid becomes wider when it is stretched"),
-    "range": Limits(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
-    "thickness": Limits(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),
-    "skin_thickness": Limits(1e-10, 1e-3, 1.0, "oxides have 1 nm to 30 um, paints 0.3 mm", "m"),
+PLAUSIBLE = {
+    "length": PlausibleRange(SHORTEST_SIDE, LONGEST_SIDE, LONGEST_SIDE, _OF_LENGTH),
+    "h_rms": PlausibleRange(5e-11, LONGEST_SIDE, LONGEST_SIDE, _OF_HEIGHT),
+    "rms_slope": PlausibleRange(1e-7, 1.0, 1.0, _OF_SLOPE),
+    "youngs_modulus": PlausibleRange(
+        10.0, 1e13, 1e13, "gels are stiffer and diamond is softer", "Pa"
+    ),
+    "work_of_adhesion": PlausibleRange(1e-6, 0.2, 10.0, _OF_WORK, "J/m^2"),
+    "poisson_ratio": PlausibleRange(
+        0.0, 0.5, 0.5, "hardly any solid becomes wider when it is stretched"
+    ),
+    "range": PlausibleRange(1e-11, 1e-7, 1e-5, "molecules attract over 0.2 to 1 nm", "m"),
+    "thickness": PlausibleRange(1e-10, 1e-2, 1.0, "adhesives have 1 um to 3 mm", "m"),
+    "skin_thickness": PlausibleRange(
+        1e-10, 1e-3, 1.0, "oxides have 1 nm to 30 um, paints 0.3 mm", "m"
+    ),
 }
-LIMITS["plane_strain_modulus"] = LIMITS["youngs_modulus"]
+PLAUSIBLE["plane_strain_modulus"] = PLAUSIBLE["youngs_modulus"]
 
 
 class PlausibilityWarning(UserWarning):
@@ -78,9 +84,9 @@ def warn_of_heights(rms_height: float, length: float) -> None:
 
 
 def find_doubts(**values: float) -> Iterator[str]:
-    """Sentences about values, by their name in `LIMITS`, that hardly any real pair has in SI."""
+    """Sentences about values, by their name in `PLAUSIBLE`, that hardly any real pair has in SI."""
     for name, value in values.items():
-        low, high, _, reason, unit = LIMITS[name]
+        low, high, _, reason, unit = PLAUSIBLE[name]
         if not low <= value <= high:
             text = f"{name} = {value:.3g} is outside {low:g} to {high:g}: {reason}"
             yield text + (f"; give it in {unit}" if unit else "")

@@ -16,10 +16,12 @@ def test_largest_dmt_is_where_threshold_and_jtb_line_cross(a_v):
     assert h == pytest.approx(4 / 75 * (c**0.6 * 18.75) ** 2.5)
     length = 0.05
     q0 = length * (c / h ** (5 / 3))  # threshold at h, solved for q0
-    assert criteria.h_rms_limit(q0, length, 1.0, a_v) == pytest.approx(h)
+    assert criteria.h_rms_threshold(q0, length, 1.0, a_v) == pytest.approx(h)
     assert criteria.jtb_limit(q0, length, 1.0) == pytest.approx(h)
     # A longer adhesion length raises the JTB line above the threshold.
-    assert criteria.jtb_limit(q0, 2 * length, 1.0) > criteria.h_rms_limit(q0, 2 * length, 1.0, a_v)
+    assert criteria.jtb_limit(q0, 2 * length, 1.0) > criteria.h_rms_threshold(
+        q0, 2 * length, 1.0, a_v
+    )
 
 
 def test_formula_against_itself_is_qualified_and_wrong_angles_are_not(files):

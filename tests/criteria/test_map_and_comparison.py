@@ -38,9 +38,9 @@ def made_map():
 
 def test_map_with_constant_a_v_has_the_closed_form():
     made = made_map()
-    low, value, high = made.h_rms_limit.transpose("limit", ...)
+    low, value, high = made.h_rms_threshold.transpose("limit", ...)
     inside = value.notnull()
-    ratio = (value / made.h_rms_limit_constant).where(inside)
+    ratio = (value / made.h_rms_threshold_constant).where(inside)
     np.testing.assert_allclose(ratio.values[inside.values], 1, rtol=1e-5)
     for limit, share in ((low, 0.8), (high, 1.3)):
         ratio = limit.drop_vars("limit") / value.drop_vars("limit")
@@ -91,7 +91,7 @@ def test_edges_of_the_map_are_weak_above_its_line_and_balance_on_the_threshold()
         return equivalent_sphere.attraction(h, q0, slope, length, 1.0, 3.0)
 
     assert edges(float(one.weak_limit)).strength == pytest.approx(equivalent_sphere.WEAK, rel=1e-4)
-    low, value, high = one.h_rms_limit_edges.values
+    low, value, high = one.h_rms_threshold_edges.values
     assert edges(value).ratio == pytest.approx(1, rel=1e-4)
     assert low < value < high
 

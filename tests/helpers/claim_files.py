@@ -176,7 +176,7 @@ def stickiness_map():
     dims = "range_times_q0", "adhesion_length_over_range"
     q0, length = np.geomspace(1e-12, 1e-2, 11), np.array([0.01, 0.1])
     limit = 1 / np.sqrt(q0[:, None]) * length
-    factors = {"h_rms_limit": (1.0, 1.0, 1.0), "h_rms_limit_edges": (1.0, 2.0, 3.0)}
+    factors = {"h_rms_threshold": (1.0, 1.0, 1.0), "h_rms_threshold_edges": (1.0, 2.0, 3.0)}
     limits = {
         name: (("limit", *dims), np.multiply.outer(three, limit)) for name, three in factors.items()
     }

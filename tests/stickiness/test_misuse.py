@@ -331,7 +331,7 @@ MISUSES = [
     (lambda: psd.power_spectrum(0 * HEIGHTS, 1.0).anisotropy(1.0, 3.0), "no modes between"),
     (lambda: analysed(0 * HEIGHTS + 3), "heights must not be flat, got 3 thr"),
     (lambda: instrument_spectrum.tip_cutoff(HEIGHTS, (1.0, 1.0), 0.0), "radius must be positive"),
-    (lambda: instrument_spectrum.Limits(resolution=0.0), "resolution must be positive"),
+    (lambda: instrument_spectrum.TrustedWaves(resolution=0.0), "resolution must be positive"),
     (lambda: units.si("nan m", "m"), "not finite"),
 ]
 

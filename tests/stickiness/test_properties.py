@@ -50,7 +50,7 @@ def test_theory_scales(hurst, decades, load, unit, flat, log_gap):
 def test_a_measured_law_does_not_know_the_unit(seed, hurst, log_unit, log_flat):
     unit, height = 10**log_unit, 10 ** (log_unit + log_flat)
     h = heights_of(seed, 32, hurst, 12)
-    limits = instrument_spectrum.Limits(detect=False)
+    limits = instrument_spectrum.TrustedWaves(detect=False)
     maps = Topography(h, 1.0, 1.0, "one"), Topography(h * height, unit, unit, "other")
     one, other = (instrument_spectrum.analyse(each, "none", limits).fit for each in maps)
     assert other.hurst == pytest.approx(one.hurst, abs=1e-7)
@@ -118,7 +118,7 @@ def test_shift_mirror_and_transpose_of_heights(seed, n, load, shift, transpose):
 @given(seeds, hursts)
 def test_spectra_and_their_stitching_do_not_depend_on_order(seed, hurst):
     """The same maps give the same bits, and stitch to one spectrum in whatever order."""
-    limits = instrument_spectrum.Limits(detect=False)
+    limits = instrument_spectrum.TrustedWaves(detect=False)
     wide, close = (
         instrument_spectrum.analyse(
             Topography(heights_of(seed + k, 64, hurst, 24)[: 64 - k], step, step, "map"),

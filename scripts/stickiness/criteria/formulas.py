@@ -21,7 +21,7 @@ from stickiness.spectrum.kinds import Spectrum
 __all__ = [  # noqa: PLE0604
     *("CRYSTAL_RANGE_RATIO", "DAHLQUIST_LIMIT", "PRINTED_A_V", "PR_CONSTANT", "DmtValidity"),
     *("Verdict", "bearing_area", "dahlquist", "dmt_validity"),
-    *("fuller_tabor", "h_rms_limit", "inverse_kappa", "inverse_kappa_ad", "jtb_limit"),
+    *("fuller_tabor", "h_rms_threshold", "inverse_kappa", "inverse_kappa_ad", "jtb_limit"),
     *("modulus_threshold", "pastewka_robbins", "pastewka_robbins_a_v"),
     *("pastewka_robbins_a_v_power_law", "persson_tosatti", "slope_angle"),
     *("traction_ratio", "violano", "violano_printed"),
@@ -126,7 +126,7 @@ def slope_angle(inverse_kappa: ArrayLike) -> float | NDArray:
 
 
 @takes_positive
-def h_rms_limit(
+def h_rms_threshold(
     q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike, a_v: ArrayLike
 ) -> float | NDArray:
     """Largest h_rms [length] that sticks: range [(3 a_V/2) (l_a/range)/(range q0)]^(3/5).
@@ -163,7 +163,7 @@ def violano(
 ) -> Verdict:
     """Violano et al. (2019): sticky when h_rms/range < [(3 a_V/2)(l_a/range)/(range q0)]^(3/5).
 
-    The margin is `h_rms_limit` over h_rms. Parameters as in `traction_ratio`. The criterion
+    The margin is `h_rms_threshold` over h_rms. Parameters as in `traction_ratio`. The criterion
     rests on DMT gaps; `dmt_validity` tells where these are valid.
 
     Examples
@@ -171,7 +171,7 @@ def violano(
     >>> violano(h_rms=100.0, q0=1e-6, adhesion_length=0.05, range=1.0, a_v=3.0).sticky
     True
     """
-    return _verdict("violano", h_rms_limit(q0, adhesion_length, range, a_v) / h_rms)
+    return _verdict("violano", h_rms_threshold(q0, adhesion_length, range, a_v) / h_rms)
 
 
 @takes_positive
@@ -179,7 +179,7 @@ def violano_printed(
     h_rms: ArrayLike, q0: ArrayLike, adhesion_length: ArrayLike, range: ArrayLike
 ) -> Verdict:
     """`violano` with the coefficient 9/4 as printed, that is with a_V = 3/2."""
-    limit = h_rms_limit(q0, adhesion_length, range, PRINTED_A_V)
+    limit = h_rms_threshold(q0, adhesion_length, range, PRINTED_A_V)
     return _verdict("violano_printed", limit / h_rms)
 
 

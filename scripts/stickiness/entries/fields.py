@@ -33,7 +33,7 @@ from pydantic_core import CoreSchema
 
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.formatting import printable
-from stickiness.plausibility import LIMITS
+from stickiness.plausibility import PLAUSIBLE
 from stickiness.traction_laws import LAWS, PREDICTED
 from stickiness.units import Quantity
 
@@ -142,7 +142,7 @@ def read_quantity(
     if not 0 < quantity < math.inf:
         raise ValueError("must be positive and finite")
     if limits:
-        possible = LIMITS[limits]
+        possible = PLAUSIBLE[limits]
         if not possible.least <= quantity <= possible.most:
             between = f"{possible.least:g} … {possible.most:g} {unit}"
             raise ValueError(f"must be in {between}: {possible.reason}")
@@ -161,7 +161,7 @@ def _read_argument(value: Any, unit: str, limits: str, zero: bool) -> float:
     if not (0 < quantity < math.inf or (zero and quantity == 0)):
         raise ValueError(f"must be {'zero or ' if zero else ''}positive and finite")
     if limits and not 1e-30 <= quantity <= 1e30:  # else products of it may leave floats
-        raise ValueError(f"must be between 1e-30 and 1e30 {unit}: {LIMITS[limits].reason}")
+        raise ValueError(f"must be between 1e-30 and 1e30 {unit}: {PLAUSIBLE[limits].reason}")
     return quantity
 
 

@@ -105,7 +105,7 @@ class SelfAffineEntry(SurfaceEntry, f.Direction):
             h_rms=float(roughest) if key == "h_rms" else None,
             C0=float(roughest) if key == "C0" else None,
         )
-        if rough.h_rms < plausibility.LIMITS["h_rms"].least:
+        if rough.h_rms < plausibility.PLAUSIBLE["h_rms"].least:
             raise EntryError(key, roughest, _tell_flat(rough.h_rms))
         if rough.rms_slope > plausibility.LARGEST_SLOPE:
             text = (
@@ -145,7 +145,7 @@ class SurfaceTextureEntry(SurfaceEntry):
         if any(width >= (self.lambda_c or 8e-3) for width in widths):
             raise EntryError("RSm", self.RSm, "must be below lambda_c, at most 8 mm")
         rq = _as_list(self.Rq) or [texture.RQ_OVER_RA * ra for ra in _as_list(self.Ra)]
-        if rq[-1] < plausibility.LIMITS["h_rms"].least:
+        if rq[-1] < plausibility.PLAUSIBLE["h_rms"].least:
             key = "Ra" if self.Rq is None else "Rq"
             raise EntryError(key, getattr(self, key), _tell_flat(rq[-1]))
         if widths and 2 * math.pi * rq[0] > plausibility.LARGEST_SLOPE * max(widths):
@@ -168,7 +168,7 @@ LEAST_WAVE = 1e-10  #: [m]; no wave of a surface is shorter than an atom
 
 
 def _tell_flat(h_rms: float) -> str:
-    least = plausibility.LIMITS["h_rms"].least
+    least = plausibility.PLAUSIBLE["h_rms"].least
     return f"means an rms height of {h_rms:.2g} m, below {least:g} m: atoms are larger; correct it"
 
 

@@ -9,7 +9,7 @@ from importlib import import_module
 # Loaded when they are first used: checks of the configuration need one light module alone.
 _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "from_array", "read"), "topography"),
-    **dict.fromkeys(("Limits", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
+    **dict.fromkeys(("TrustedWaves", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
     **dict.fromkeys(("Draws", "draw"), "stitching"),
     "periodise": "periodic",
 }

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from stickiness.measured import levelling
 from stickiness.measured.self_affine_fit import SelfAffineFit
-from stickiness.plausibility import LIMITS, LONGEST_SIDE, REFUSED_SIDE, SHORTEST_SIDE
+from stickiness.plausibility import LONGEST_SIDE, PLAUSIBLE, REFUSED_SIDE, SHORTEST_SIDE
 from stickiness.statistics import COVERS
 
 # Share of the points with one value above which it stands out, if it is so many times as frequent
@@ -97,9 +97,9 @@ def doubt_sizes(
         )
         return
     h_rms = float(np.std(level))
-    if h_rms < LIMITS["h_rms"].least:
+    if h_rms < PLAUSIBLE["h_rms"].least:
         yield (
-            f"the rms height is {h_rms:.2g} m, below {LIMITS['h_rms'].least:g} m: atoms are "
+            f"the rms height is {h_rms:.2g} m, below {PLAUSIBLE['h_rms'].least:g} m: atoms are "
             "larger; correct height_unit"
         )
     axes = [axis for axis, n in enumerate(heights.shape) if n > 1]

@@ -71,8 +71,8 @@ class MeasuredSpectrum:
 
 
 @dataclass(frozen=True)
-class Limits:
-    """Limits of an instrument, all optional; lengths in the unit of the heights."""
+class TrustedWaves:
+    """What tells which waves of a measurement are trusted; lengths in the unit of the heights."""
 
     fit_from: float | None = None  #: longest wavelength of the fit interval
     fit_to: float | None = None  #: shortest one; overrides all that follow
@@ -89,7 +89,7 @@ class Limits:
 def analyse(
     heights: Topography | Profile,
     taper: Taper = "hann",
-    limits: Limits | None = None,
+    instrument: TrustedWaves | None = None,
     demand: bool = True,
     alone: bool = True,
 ) -> MeasuredSpectrum:
@@ -101,7 +101,7 @@ def analyse(
         Levelled heights, in any one unit of length.
     taper : {"none", "hann", "hann_radial"}
         "hann" fades along both axes, "hann_radial" from the centre; "none" if they are periodic.
-    limits : Limits, optional
+    instrument : TrustedWaves, optional
         Default: the cutoff is detected, and at most half the Nyquist wave number.
     demand : bool
         False: fit all waves of the grid, few or noise as they may be, to show what was measured.
@@ -119,7 +119,7 @@ def analyse(
     ValueError
         If the heights are flat, the limits leave too little for a fit, or a profile is noise.
     """
-    limits = Limits() if limits is None else limits
+    instrument = TrustedWaves() if instrument is None else instrument
     levelled = numbers("heights", heights.heights)
     if levelled.size and np.ptp(levelled) <= 1e-13 * np.max(np.abs(levelled)):  # but for rounding
         raise ValueError(f"heights must not be flat, got {levelled.flat[0]:.6g} throughout")
@@ -133,10 +133,10 @@ def analyse(
 
     # The interval of the fit. `modes.blur` is by the taper, not by the instrument.
     q_min = (LOWEST_MODES if modes.blur else 1) * max(modes.steps)
-    if limits.fit_from is not None:
-        q_min = 2 * np.pi / limits.fit_from
+    if instrument.fit_from is not None:
+        q_min = 2 * np.pi / instrument.fit_from
     if demand:
-        cutoff = _find_cutoff(limits, narrow, q_min, nyquist, levelled, heights.steps)
+        cutoff = _find_cutoff(instrument, narrow, q_min, nyquist, levelled, heights.steps)
     else:
         q_min = lowest
         cutoff = of_grid
@@ -150,7 +150,7 @@ def analyse(
         return _fit_profile(line, q_min, q_max, NYQUIST_SHARE * nyquist, enough)
 
     fitted, fit = fit_to(cutoff.q)
-    while demand and limits.detect and fit.q_rolloff is not None and fit.fall > END_EXPONENT:
+    while demand and instrument.detect and fit.q_rolloff is not None and fit.fall > END_EXPONENT:
         reason = f"blur of the instrument (C falls as q^-{fit.fall:.1f} beyond)"
         cutoff = Cutoff(fit.q_rolloff, reason, detected=True)
         fitted, fit = fit_to(cutoff.q)
@@ -257,19 +257,19 @@ def abel_ratio(q: ArrayLike, hurst: float, q_rolloff: float | None = None) -> ND
     return level / (sloped + flat)
 
 
-def _find_cutoff(limits, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
+def _find_cutoff(instrument, rings, q_min, q_nyquist, heights, steps) -> Cutoff:
     """Lowest of the cutoffs that are given, detected or general."""
-    if limits.fit_to is not None:
-        return Cutoff(2 * np.pi / limits.fit_to, "as given (fit_to)", is_noise_beyond=True)
+    if instrument.fit_to is not None:
+        return Cutoff(2 * np.pi / instrument.fit_to, "as given (fit_to)", is_noise_beyond=True)
     candidates = [Cutoff(NYQUIST_SHARE * q_nyquist, "half the Nyquist wave number")]
-    if limits.resolution is not None:
-        resolved = 2 * np.pi / limits.resolution
+    if instrument.resolution is not None:
+        resolved = 2 * np.pi / instrument.resolution
         candidates.append(Cutoff(resolved, "resolution of the instrument", is_noise_beyond=True))
-    if limits.tip_radius is not None:
-        blunt = tip_cutoff(heights, steps, limits.tip_radius)
+    if instrument.tip_radius is not None:
+        blunt = tip_cutoff(heights, steps, instrument.tip_radius)
         if blunt is not None:
             candidates.append(Cutoff(2 * np.pi / blunt, "shape of the tip", detected=True))
-    if limits.detect:
+    if instrument.detect:
         bend = find_bend(rings, q_min, q_nyquist)
         if bend is not None:
             candidates.append(bend)

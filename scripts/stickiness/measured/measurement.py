@@ -10,13 +10,13 @@ from typing import Any
 from numpy.typing import NDArray
 
 from stickiness.measured import instrument_spectrum, topography
-from stickiness.measured.instrument_spectrum import Limits, MeasuredSpectrum
+from stickiness.measured.instrument_spectrum import MeasuredSpectrum, TrustedWaves
 from stickiness.measured.psd import Taper
 from stickiness.measured.topography import Profile, Step, Topography
 
 FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
-_LIMIT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  # lengths of `Limits`
+_INSTRUMENT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  # lengths of `TrustedWaves`
 # Keys of heights in files and arrays.
 _CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan"}
 _READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
@@ -28,7 +28,7 @@ class Measurement:
 
     heights: Topography | Profile
     window: Taper = "hann"  #: taper of the heights before they are transformed
-    limits: Limits = field(default_factory=Limits)  #: of the instrument
+    instrument: TrustedWaves = field(default_factory=TrustedWaves)
 
     @classmethod
     def from_entry(cls, entry: Mapping[str, Any]) -> Measurement:
@@ -51,8 +51,8 @@ class Measurement:
 
     @classmethod
     def _level(cls, heights: Topography | Profile, entry: Mapping[str, Any]) -> Measurement:
-        """Level heights, and set the limits of their spectrum."""
-        lengths = {key: float(entry[key]) for key in _LIMIT_KEYS if entry.get(key) is not None}
+        """Level heights, and say which of their waves are trusted."""
+        lengths = {key: float(entry[key]) for key in _INSTRUMENT_KEYS if entry.get(key) is not None}
         levelled = heights.detrended(entry["detrend"])
         window = entry["window"]
         if window == "detect":
@@ -68,7 +68,7 @@ class Measurement:
         return cls(
             heights=levelled,
             window=window,
-            limits=Limits(**lengths, detect=entry["cutoff"] == "detect"),
+            instrument=TrustedWaves(**lengths, detect=entry["cutoff"] == "detect"),
         )
 
     def find_spectrum(self, alone: bool = True) -> tuple[MeasuredSpectrum, str]:
@@ -83,7 +83,7 @@ class Measurement:
         """
         try:
             spectrum = instrument_spectrum.analyse(
-                self.heights, self.window, self.limits, alone=alone
+                self.heights, self.window, self.instrument, alone=alone
             )
             return spectrum, ""
         except ValueError as error:

@@ -21,7 +21,7 @@ from stickiness.measured.instrument_spectrum import Cutoff, MeasuredSpectrum
 from stickiness.measured.measurement import Measurement, find_spectra
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import DROP_RIMS, MASK_SPIKES, Profile, Topography
-from stickiness.plausibility import LIMITS
+from stickiness.plausibility import PLAUSIBLE
 from stickiness.remaining.height_shape import find_shape_of
 from stickiness.remaining.uneven_roughness import find_unevenness
 from stickiness.spectrum.direction import find_ratio
@@ -99,7 +99,7 @@ def analyse(
         SEED,
         extend_to=q_extended,
         continue_to=2 * np.pi / stitching.SHORTEST_WAVE,
-        steepest=LIMITS["rms_slope"].usual,
+        steepest=PLAUSIBLE["rms_slope"].usual,
     )
     dataset = _tabulate(heights, spectrum, draws, q_extended)
 

@@ -21,7 +21,7 @@ from stickiness.formatting import (
     number,
     percent,
 )
-from stickiness.plausibility import LIMITS
+from stickiness.plausibility import PLAUSIBLE
 from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
 from stickiness.solids import Film, Layer, Skin
 from stickiness.solids.moduli import REFERENCE_FREQUENCY, Prony, Table
@@ -180,13 +180,13 @@ def tell_improbable(cell: xr.Dataset) -> str:
     """Improbable values that decide, which make a verdict doubtful; empty if there are none."""
     improbable = []
     slope = float(cell.pair_rms_slope.sel(end="rough"))
-    if slope > LIMITS["rms_slope"].usual:
+    if slope > PLAUSIBLE["rms_slope"].usual:
         improbable.append(f"the rms slope is {number(slope, 2)}")
     work = float(cell.work_of_adhesion)
-    if work > LIMITS["work_of_adhesion"].usual and not cell.work_on_smooth:
+    if work > PLAUSIBLE["work_of_adhesion"].usual and not cell.work_on_smooth:
         improbable.append(f"the work of adhesion is {number(work, 2)} J/m^2")
     range_ = float(cell.range)
-    if range_ > LIMITS["range"].usual:
+    if range_ > PLAUSIBLE["range"].usual:
         improbable.append(f"the range is {amount(range_, 'm', 2)}")
     return f"doubtful, for {' and '.join(improbable)}" if improbable else ""
 
@@ -213,7 +213,9 @@ def tell_widest(cell: xr.Dataset) -> str:
 def tell_doubt(doubt: str) -> str:
     """A doubt as readers see it: names of quantities without underscores."""
     quantity, _, _ = doubt.partition(" = ")
-    return doubt.replace(quantity, quantity.replace("_", " "), 1) if quantity in LIMITS else doubt
+    return (
+        doubt.replace(quantity, quantity.replace("_", " "), 1) if quantity in PLAUSIBLE else doubt
+    )
 
 
 def tell_verdict(cell: xr.Dataset) -> str:

@@ -75,7 +75,7 @@ def test_slope_angle_turns_continuously_from_arctan_2_to_pi():
 
 def test_limits_sit_on_the_threshold():
     h, q0, length, eps = POINT.values()
-    limit = criteria.h_rms_limit(q0, length, eps, 2.8)
+    limit = criteria.h_rms_threshold(q0, length, eps, 2.8)
     assert criteria.traction_ratio(limit, q0, length, eps, 2.8) == pytest.approx(1, rel=1e-13)
     # The modulus at which l_a = work of adhesion/E* puts the same surface on the threshold.
     modulus = criteria.modulus_threshold(h, q0, 0.05, eps, 2.8)

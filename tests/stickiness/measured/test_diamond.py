@@ -12,7 +12,7 @@ import pytest
 from scipy import special
 
 from stickiness.measured import instrument_spectrum, stitching, topography
-from stickiness.measured.instrument_spectrum import Limits
+from stickiness.measured.instrument_spectrum import TrustedWaves
 from stickiness.measured.psd import merge_rings
 from stickiness.statistics import COVERS
 
@@ -27,9 +27,9 @@ def level(variable, detrend="plane"):
 @pytest.fixture(scope="module")
 def spectra():
     """Spectra of the stylus, the TEM, and the AFM as if its tip were sharp."""
-    tip = Limits(tip_radius=5e-6)
+    tip = TrustedWaves(tip_radius=5e-6)
     return {
-        "stylus": instrument_spectrum.analyse(level("stylus", "quadratic"), limits=tip),
+        "stylus": instrument_spectrum.analyse(level("stylus", "quadratic"), instrument=tip),
         "TEM": instrument_spectrum.analyse(level("TEM"), alone=False),
         "AFM": instrument_spectrum.analyse(level("AFM")),
     }
@@ -77,7 +77,9 @@ def test_rms_heights_of_the_levelled_measurements():
 def test_the_tip_of_the_afm_leaves_no_waves():
     for radius in (17 * NM, 26 * NM):
         with pytest.raises(ValueError, match="shape of the tip ends the spectrum everywhere"):
-            instrument_spectrum.analyse(level("AFM"), limits=Limits(tip_radius=radius), alone=False)
+            instrument_spectrum.analyse(
+                level("AFM"), instrument=TrustedWaves(tip_radius=radius), alone=False
+            )
 
 
 def test_stylus_and_tem_leave_a_gap_that_decides(spectra):
@@ -136,7 +138,9 @@ def test_waves_that_the_tem_does_not_resolve_lie_within_the_limits(spectra):
 
 
 def test_the_law_stays_when_the_afm_counts_to_where_it_agrees(spectra):
-    sharp = instrument_spectrum.analyse(level("AFM"), limits=Limits(fit_to=16 * NM), alone=False)
+    sharp = instrument_spectrum.analyse(
+        level("AFM"), instrument=TrustedWaves(fit_to=16 * NM), alone=False
+    )
     plain = stitching.stitch([replace(sharp, trusted=False), spectra["TEM"], spectra["stylus"]])
     more = stitching.stitch([sharp, spectra["TEM"], spectra["stylus"]])
     assert abs(more.fit.hurst - plain.fit.hurst) < COVERS * plain.fit.hurst_se

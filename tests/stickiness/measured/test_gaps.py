@@ -9,7 +9,7 @@ from scipy import optimize
 
 from stickiness import surface
 from stickiness.measured import instrument_spectrum, stitching
-from stickiness.measured.instrument_spectrum import Limits
+from stickiness.measured.instrument_spectrum import TrustedWaves
 from stickiness.measured.stitching import Gap
 from stickiness.measured.topography import Profile, Topography, from_array
 from stickiness.spectrum import SelfAffine
@@ -23,7 +23,7 @@ def measure(psd, length, points, seed, alone=True, **limits):
     """Spectrum of a profile across an isotropic surface."""
     heights = synthesise_profile(psd, length, points, seed)
     profile = Profile(heights, length / points, "here").detrended()
-    return instrument_spectrum.analyse(profile, limits=Limits(**limits), alone=alone)
+    return instrument_spectrum.analyse(profile, instrument=TrustedWaves(**limits), alone=alone)
 
 
 def roll_off(wavelength, hurst, h_rms=20 * NM):

@@ -8,7 +8,7 @@ from scipy import ndimage
 
 from stickiness import surface
 from stickiness.measured import instrument_spectrum, psd, stitching
-from stickiness.measured.instrument_spectrum import Limits, find_bend, tip_cutoff
+from stickiness.measured.instrument_spectrum import TrustedWaves, find_bend, tip_cutoff
 from stickiness.measured.topography import Profile, Topography
 from stickiness.spectrum import SelfAffine
 
@@ -92,15 +92,17 @@ def test_tip_cutoff_of_a_wave_is_known():
 @pytest.mark.parametrize(
     ("limits", "reason", "wavelength"),
     [
-        (Limits(), "half the Nyquist", None),
-        (Limits(resolution=0.2), "resolution of the instrument", 0.2),
-        (Limits(fit_to=0.1, resolution=0.2), "as given", 0.1),
-        (Limits(resolution=0.001), "half the Nyquist", None),
+        (TrustedWaves(), "half the Nyquist", None),
+        (TrustedWaves(resolution=0.2), "resolution of the instrument", 0.2),
+        (TrustedWaves(fit_to=0.1, resolution=0.2), "as given", 0.1),
+        (TrustedWaves(resolution=0.001), "half the Nyquist", None),
     ],
 )
 def test_lowest_limit_is_the_cutoff_and_says_why(limits, reason, wavelength):
     _, h, dx = patch()
-    found = instrument_spectrum.analyse(Topography(h, dx, dx, "here").detrended(), limits=limits)
+    found = instrument_spectrum.analyse(
+        Topography(h, dx, dx, "here").detrended(), instrument=limits
+    )
     assert reason in found.cutoff.reason
     if wavelength:
         # The highest ring within: the lattice is fine there.
@@ -111,9 +113,13 @@ def test_lowest_limit_is_the_cutoff_and_says_why(limits, reason, wavelength):
 def test_limits_that_leave_nothing_are_named():
     _, h, dx = patch()
     with pytest.raises(ValueError, match="resolution of the instrument ends the spectrum at"):
-        instrument_spectrum.analyse(Topography(h, dx, dx, "here"), limits=Limits(resolution=2.0))
+        instrument_spectrum.analyse(
+            Topography(h, dx, dx, "here"), instrument=TrustedWaves(resolution=2.0)
+        )
     with pytest.raises(ValueError, match="shape of the tip ends the spectrum everywhere"):
-        instrument_spectrum.analyse(Topography(h, dx, dx, "here"), limits=Limits(tip_radius=1e6))
+        instrument_spectrum.analyse(
+            Topography(h, dx, dx, "here"), instrument=TrustedWaves(tip_radius=1e6)
+        )
 
 
 @pytest.mark.slow

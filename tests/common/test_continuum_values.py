@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from common import ensemble_means, grid_limits
+from common import continuum_values, ensemble_means
 from common.contact_curves import load_curve
 from common.derived_quantities import average_a_v, fit_intervals, fit_slope, slope_of_area
 from contact.ensembles import AVERAGED, add_statistics
@@ -46,7 +46,8 @@ def ensemble(solved):
 )
 def test_grids_are_those_of_doubled_resolution(grids, chosen):
     assert (
-        grid_limits.find_halved(xr.Dataset(coords={"resolution": np.array(grids, float)})) == chosen
+        continuum_values.find_halved(xr.Dataset(coords={"resolution": np.array(grids, float)}))
+        == chosen
     )
 
 
@@ -82,19 +83,19 @@ def test_nothing_is_extrapolated_or_uncertain_where_there_is_no_edge(solved):
         closed[name] = 0 * closed[name]
     closed["area_fraction"] = closed["pixel_area_fraction"] = 0 * closed.area_fraction + 1
     for name, quantity in AVERAGED.items():
-        limit = grid_limits.estimate(name, closed, quantity)
+        limit = continuum_values.estimate(name, closed, quantity)
         np.testing.assert_array_equal(limit.shift, 0)
         if name == "area_fraction":
             np.testing.assert_array_equal(limit.error, 0)
 
 
 def test_slopes_inherit_the_relative_error_of_the_area(ensemble):
-    limit = grid_limits.inherit(ensemble, slope_of_area, ["area_fraction"])
+    limit = continuum_values.inherit(ensemble, slope_of_area, ["area_fraction"])
     relative = ensemble.area_fraction_discretisation_error / ensemble.area_fraction_mean
     mean = ensemble.area_fraction_mean * ensemble.rms_slope.mean() / ensemble.pressure
     np.testing.assert_allclose(limit.error, mean * relative, rtol=1e-9)
     np.testing.assert_array_equal(limit.shift, 0)
-    fit = grid_limits.inherit(ensemble, fit_slope, ["area_fraction"])
+    fit = continuum_values.inherit(ensemble, fit_slope, ["area_fraction"])
     assert limit.error.min() < fit.error < limit.error.max()
 
 
@@ -119,7 +120,7 @@ def test_errors_of_two_means_add_in_quadrature(ensemble):
     def product(solved):
         return solved.area_fraction * solved.mean_gap
 
-    found = grid_limits.inherit(ensemble, product, ["area_fraction", "mean_gap"])
+    found = continuum_values.inherit(ensemble, product, ["area_fraction", "mean_gap"])
     relative = [
         ensemble[f"{name}_discretisation_error"] / ensemble[f"{name}_mean"]
         for name in ("area_fraction", "mean_gap")

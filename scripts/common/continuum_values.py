@@ -20,7 +20,7 @@ _STEP = 1e-4  # share of a shift or an error in finite differences: first order 
 
 
 @dataclass(frozen=True)
-class Limit:
+class Correction:
     """What to add to a mean over the solutions on the finest grid, and the error it then has."""
 
     shift: xr.DataArray
@@ -39,7 +39,7 @@ def estimate(name, realisations, quantity):
     means = [values.isel(resolution=k, drop=True).mean("seed") for k in find_halved(realisations)]
     part = subpixel_part(name, fine, quantity(fine)).mean("seed")
     limit = richardson.estimate(name, means, part, fine.edges.sum("seed"), climbs)
-    return Limit(limit.value - means[-1], limit.error)
+    return Correction(limit.value - means[-1], limit.error)
 
 
 def estimate_first_order(values):
@@ -49,7 +49,7 @@ def estimate_first_order(values):
     """
     fine = values.isel(resolution=-1, drop=True).mean("seed")
     half = values.isel(resolution=-2, drop=True).mean("seed")
-    return Limit(xr.zeros_like(fine), 2 * abs(fine - half))
+    return Correction(xr.zeros_like(fine), 2 * abs(fine - half))
 
 
 def find_halved(realisations):
@@ -98,4 +98,4 @@ def inherit(ensemble, quantity, names):
         square = square + change(name, ensemble[f"{name}_discretisation_error"]) ** 2
         if f"{name}_{EXTRAPOLATION}" in ensemble:
             shift = shift + change(name, ensemble[f"{name}_{EXTRAPOLATION}"])
-    return Limit(shift, np.sqrt(square))
+    return Correction(shift, np.sqrt(square))
