@@ -1,6 +1,6 @@
 # The claims of the paper, each recomputed and given a verdict.
 
-from common.paper_claims import find_differences
+from common.paper import find_differences
 from snakemake.exceptions import WorkflowError
 
 # Surfaces that the paper speaks of. A table of one's own may lack them.

@@ -1,6 +1,6 @@
 # The paper's six figures, panel by panel, and seven on what the models are good for: 7 the DMT sum,
 # 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much adhesion remains, 12
-# what of it heights decide, 13 what remains with sharp edges. scripts/common/paper_panels.py
+# what of it heights decide, 13 what remains with sharp edges. scripts/common/paper.py
 # lists the parameters of the paper.
 
 

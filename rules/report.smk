@@ -1,6 +1,6 @@
 # The report of all results, and for every real surface its verdicts and a page.
 
-from common.paper_panels import compare_panels
+from common.paper import compare_panels
 
 
 def figure_sources(wildcards, output):

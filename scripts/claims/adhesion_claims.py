@@ -5,9 +5,7 @@ import xarray as xr
 
 from claims import ledger
 from claims.ledger import OPEN, QUALIFIED, Finding, choose, claim, describe_cell, grade
-from common.conventions import at_load
-from common.paper_claims import RANGE_2
-from common.paper_panels import A_V_FIG4B
+from common.paper import A_V_FIG4B, RANGE_2, at_load
 from stickiness import criteria, datasets, error_budget
 
 LENGTH = "adhesion_length_over_range"

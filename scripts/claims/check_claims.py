@@ -53,7 +53,7 @@ def read(path):
 def examine(claim, files, paths, prose, differences):
     """Make a row of the ledger: the finding of a claim, its prose and the files behind it.
 
-    With `differences` of the configuration from the claim (`common.paper_claims`), it has no grade.
+    With `differences` of the configuration from the claim (`common.paper`), it has no grade.
     """
     finding = claim(files)
     template = make_environment(Path(prose).parent).get_template(Path(prose).name)

@@ -12,9 +12,19 @@ from claims.ledger import (
     grade,
     value_and_error,
 )
-from common.conventions import LINEAR_UP_TO, VARIANT, at_load
-from common.paper_claims import LOADS_OF_A_V, LOADS_OF_GAPS, ZETAS_OF_A_V
-from common.paper_panels import A_V, HURST, HURST_3C, ZETA_3B, ZETA_3D, ZETAS_3A
+from common.conventions import LINEAR_UP_TO, VARIANT
+from common.paper import (
+    A_V,
+    HURST,
+    HURST_3C,
+    LOADS_OF_A_V,
+    LOADS_OF_GAPS,
+    ZETA_3B,
+    ZETA_3D,
+    ZETAS_3A,
+    ZETAS_OF_A_V,
+    at_load,
+)
 from stickiness import datasets
 from stickiness.criteria import a_v_fit
 

@@ -10,8 +10,15 @@ from scipy.optimize import brentq
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED, Finding, claim, describe_cell, grade
 from common.experiment_outcomes import COMPATIBLE, GRADES, MISSED, SILENT, SOME, describe
 from common.model_surfaces import cell_size, model_spectrum
-from common.paper_claims import PRINTED_MODULUS, RANGE, WORK_OF_ADHESION
-from common.paper_panels import C0_LINES, CRYSTAL, H_RMS_LIMITS, HURST
+from common.paper import (
+    C0_LINES,
+    CRYSTAL,
+    H_RMS_LIMITS,
+    HURST,
+    PRINTED_MODULUS,
+    RANGE,
+    WORK_OF_ADHESION,
+)
 from stickiness import adhesive, criteria, datasets
 from stickiness import surface as synthesis
 from stickiness.criteria import equivalent_sphere

@@ -7,8 +7,7 @@ doi:10.1080/00218464.2019.1685384.
 import numpy as np
 from scipy.integrate import quad
 
-from common.paper_claims import ASPHALT, RANGE, WORK_OF_ADHESION
-from common.paper_panels import A_V, CRYSTAL
+from common.paper import A_V, ASPHALT, CRYSTAL, RANGE, WORK_OF_ADHESION
 from stickiness.criteria import formulas
 
 

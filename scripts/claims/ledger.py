@@ -107,7 +107,7 @@ def describe_cell(data):
 def choose(data, **paper):
     """Points of a dataset nearest to those of the paper, by dimension.
 
-    If the configuration lacks these, `common.paper_claims` says so, and the claim has no grade.
+    If the configuration lacks these, `common.paper` says so, and the claim has no grade.
     Texts therefore take the parameters from the coordinates of the chosen points.
     """
     for name, values in paper.items():

@@ -9,7 +9,6 @@ from stickiness import datasets
 
 Q0 = 1.0
 VARIANT = "afferrante2018"  # of the theory, where one is quoted
-LOAD = 0.065  # over E* q0 h_rms, the load of the paper's Figures 3A and 3C
 GAPS_MEASURED = (0.01, 1.0)  # over h_rms, where the error model of P(u) was measured
 FIT_MEASURED = (0.01, 0.1)  # over h_rms, fit interval of the a_V that has an error model
 LINEAR_UP_TO = 0.3  # area fraction up to which the paper calls the area linear in load
@@ -64,11 +63,6 @@ def add_convergence(dataset, tolerance, prefix=""):
     met = (dataset[f"{prefix}residual"] <= tolerance).astype("i1")
     text = f"1 where the residual is at most {tolerance:g}, 0 where there is no state"
     return dataset.assign({f"{prefix}converged": met.assign_attrs(units="1", long_name=text)})
-
-
-def at_load(data):
-    """Data at the load of the paper's Figures 3A and 3C."""
-    return data.sel(pressure=LOAD, method="nearest")
 
 
 def logarithmic_grid(grid):

@@ -5,9 +5,9 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
-from common.conventions import LOAD
 from common.edge_points import COLUMNS, select_certain
 from common.job import start
+from common.paper import LOAD, at_load
 from figures.theory_curves import (
     draw_theory,
     draw_variants,
@@ -147,7 +147,7 @@ def draw_exponents(ax, fit, cases):
         label = number(magnification) if magnification in fit.magnification[[0, -1]] else None
         draw_theory(ax, curve["range"], curve, colour, label=label)
     for index, case in enumerate(cases):
-        exponent = case.exponent.sel(pressure=LOAD, method="nearest")
+        exponent = at_load(case.exponent)
         exponent = exponent.isel(range=slice(None, None, 2))
         look = pick_look(index, linestyle="none", markersize=3, label=f"BEM, {name_case(case)}")
         ax.plot(exponent["range"], exponent, **look)

@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from common import paper_panels
-from common.conventions import LOAD, VARIANT
+from common.conventions import VARIANT
 from common.job import start
+from common.paper import A_V, LOAD
 from figures.theory_curves import draw_theory, name_case, name_cell
 from stickiness import criteria, datasets
 from stickiness.formatting import number
@@ -79,8 +79,8 @@ def draw_magnifications(ax, theory, cases):
         look = pick_look(index, label=case.label)
         plotting.draw_points(ax, x, area, "attractive_area_mean", **look)
     x = np.array([0, LARGEST_RANGE**EXPONENT])
-    look = {"color": BLACK, "zorder": 5, "label": state(a_v=paper_panels.A_V)}
-    ax.plot(x, 1.5 * paper_panels.A_V * pressure * x, ":", **look)
+    look = {"color": BLACK, "zorder": 5, "label": state(a_v=A_V)}
+    ax.plot(x, 1.5 * A_V * pressure * x, ":", **look)
     handles, _ = ax.get_legend_handles_labels()
     handles = handles[theory.sizes["magnification"] :]
     ax.legend(handles=handles, loc="upper right", title="BEM")

@@ -7,7 +7,7 @@ from matplotlib.legend_handler import HandlerTuple
 from common.adhesion_sets import scaled_law
 from common.conventions import VARIANT
 from common.job import start
-from common.paper_panels import A_V_FIG4B
+from common.paper import A_V_FIG4B
 from stickiness import criteria, datasets, dmt
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLACK, COLOURS, GREY, MARKERS, RED, make_dot, make_key, state

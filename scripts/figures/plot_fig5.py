@@ -3,7 +3,7 @@
 import numpy as np
 
 from common.job import start
-from common.paper_panels import A_V, CRYSTAL, H_RMS_LIMITS
+from common.paper import A_V, CRYSTAL, H_RMS_LIMITS
 from stickiness import criteria, datasets
 from stickiness.formatting import number
 from stickiness.pages import plotting

@@ -3,7 +3,7 @@
 import numpy as np
 
 from common.job import start
-from common.paper_panels import C0_LINES, HURST
+from common.paper import C0_LINES, HURST
 from stickiness import datasets
 from stickiness.pages import plotting
 from stickiness.pages.plotting import BLACK, COLOURS, GREY, state

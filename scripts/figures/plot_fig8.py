@@ -4,8 +4,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from common.conventions import LINEAR_UP_TO, LOAD, VARIANT
+from common.conventions import LINEAR_UP_TO, VARIANT
 from common.job import start
+from common.paper import LOAD, at_load
 from figures.theory_curves import name_cell
 from stickiness import datasets
 from stickiness.formatting import interval
@@ -128,7 +129,7 @@ def root_mean_square(name, theory, cases):
     for case in cases:
         of_theory = case.sel(variant=theory)
         if name == "gap_density":  # at the load of the paper's figures, where simulation knows it
-            loaded = of_theory.sel(pressure=LOAD, method="nearest")
+            loaded = at_load(of_theory)
             difference = loaded.gap_density_difference
             error = loaded.gap_density_difference_total_error
             certain = (error < known_to * (1 + difference)) & (loaded.gap < largest_gap)

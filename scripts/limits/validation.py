@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 from common import heights_table, tradeoff_table
-from common.conventions import LOAD
+from common.paper import LOAD
 from limits import comparisons
 from limits.calibrate_limits import COVERAGE, MOST_RATIO, summarise_pull_offs
 from stickiness.accuracy import error_models

@@ -4,11 +4,12 @@ import pandas as pd
 
 from common import heights_table, remaining_table
 from common import tradeoff_table as summary
-from common.conventions import VARIANT, at_load
+from common.conventions import VARIANT
 from common.edge_points import select_certain
 from common.experiment_outcomes import OUTCOMES, describe
 from common.job import start
 from common.pairs import count_pairs
+from common.paper import at_load
 from report.pages import find_pixels
 from stickiness import datasets, error_budget
 from stickiness.criteria import equivalent_sphere

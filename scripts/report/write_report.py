@@ -8,9 +8,9 @@ import pandas as pd
 
 from common import experiment_outcomes as experiments
 from common import heights_table, remaining_models
-from common.conventions import at_load
 from common.job import start
 from common.pairs import arrange_pairs, count_pairs
+from common.paper import at_load
 from report import pages
 from report.pages import find_pixels
 from stickiness import datasets, error_budget

@@ -6,14 +6,14 @@ from helpers.claim_files import adhesive, loop
 
 from claims import adhesion_claims
 from claims.ledger import NOT, OPEN, QUALIFIED, REPRODUCED
-from common.conventions import LOAD
+from common.paper import at_load
 
 
 @pytest.mark.slow
 def test_threshold_lies_between_the_lengths_around_it(files):
     full = files["adhesive_fig2"]
     claim = adhesion_claims.kappa_threshold(files)
-    below = full.inverse_kappa.sel(pressure=LOAD, method="nearest").isel(range_over_h_rms=0)
+    below = at_load(full.inverse_kappa).isel(range_over_h_rms=0)
     # the last length with a positive slope and the first with a negative one
     lengths = full.adhesion_length_over_range.values
     first = int(np.flatnonzero(below.values < 0)[0])

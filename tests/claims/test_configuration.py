@@ -9,8 +9,7 @@ from helpers.committed import ROOT, read_committed
 from claims import check_claims, errata
 from claims.check_claims import CLAIMS
 from claims.ledger import DIFFERS, VERDICTS
-from common import conventions, paper_panels
-from common.paper_claims import find_differences
+from common.paper import find_differences
 from report.write_report import CLAIM_TONES
 from stickiness.pages.rendering import make_environment, write_page
 
@@ -123,7 +122,3 @@ def test_every_verdict_has_a_mark_a_meaning_and_a_tone(tmp_path):
     path = tmp_path / "claims.md"
     write_page(ROOT / "report/claims.md.j2", path, claims=[row], recomputed=errata.recompute())
     assert f"**≠ {DIFFERS}** (loops.fig4a.surface: H = 0.6 (paper: 0.8))" in path.read_text("utf-8")
-
-
-def test_the_load_of_the_pipeline_is_that_of_the_paper():
-    assert conventions.LOAD == paper_panels.LOAD

@@ -8,7 +8,7 @@ from helpers.claim_files import LOADS, ensemble, fig3c, fit, kappa, sweep
 from claims import contact_claims as contact
 from claims.ledger import NOT, QUALIFIED, REPRODUCED
 from common import conventions
-from common.conventions import LOAD
+from common.paper import LOAD
 
 
 def test_kappa_is_that_of_the_load_and_not_of_the_fit(files):

@@ -13,7 +13,7 @@ from helpers.experiments import EXPERIMENTS, make_dataset
 from adhesion.follow_loop import add_quoted
 from common import conventions
 from common.config.conditions import CONDITIONS
-from common.conventions import LOAD
+from common.paper import LOAD
 from stickiness import criteria, surface
 from stickiness import error_budget as budget
 from stickiness.criteria.registry import REMAINING

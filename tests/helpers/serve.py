@@ -24,7 +24,7 @@ LONGEST = 1800  # seconds
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 PROJECT = {path.stem for path in SCRIPTS.iterdir()}  # its packages
 # What the rules and several of their scripts import.
-USED = ("common.config.load", "common.paper_panels", "stickiness.pages.surface_page")
+USED = ("common.config.load", "common.paper", "stickiness.pages.surface_page")
 USED += ("stickiness.verdicts.verdict", "matplotlib.backends.backend_pdf", "netCDF4", "pint")
 USED += ("PIL.PngImagePlugin", "openpyxl", "scipy.optimize", "scipy.stats")
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from common import heights_table
-from common.conventions import at_load
+from common.paper import at_load
 from stickiness import Material, Surface, datasets, example_wall, verdict
 from stickiness.criteria.pair import WORDS
 

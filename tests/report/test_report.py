@@ -301,7 +301,7 @@ def page(claims, verdicts, surfaces, tmp_path_factory):
     path = folder / "report/report.html"
     settings = {"presets": PRESETS, "fidelity": "draft", "surfaces": SURFACES}
     settings["materials"] = MATERIALS
-    differs = {"text": "ε/h_rms = 0.1", "paper": "0.0075", "equal": False, "key": "adhesion.fig2"}
+    differs = {"here": "ε/h_rms = 0.1", "paper": "0.0075", "equal": False, "key": "adhesion.fig2"}
     settings["panels"] = [{"panel": "2G–I", "parameters": [differs]}]
     settings["figure_sources"] = {f"fig{n}": [inputs["claims"]] for n in range(1, 4)}
     write_report.main(make_job(inputs, {"page": str(path)}, **settings))

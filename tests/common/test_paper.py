@@ -3,7 +3,7 @@
 import pytest
 from helpers.committed import ROOT, read_committed
 
-from common.paper_panels import PANELS, compare_panels
+from common.paper import PANELS, compare_panels
 from stickiness.pages.rendering import make_environment
 
 
@@ -16,7 +16,7 @@ def config(monkeypatch):
 def list_differences(config):
     """Texts of the parameters that differ from the paper's known ones, by panel."""
     return {
-        (row["panel"], each["text"], each["paper"])
+        (row["panel"], each["here"], each["paper"])
         for row in compare_panels(config)
         for each in row["parameters"]
         if each["paper"] and not each["equal"]
@@ -25,8 +25,10 @@ def list_differences(config):
 
 def test_the_committed_configuration_has_the_parameters_of_the_paper(config):
     assert list_differences(config) == set()
+    shown = [each["here"] for row in compare_panels(config) for each in row["parameters"]]
+    assert not [text for text in shown if text.endswith("= –")], "keys that have no value"
     (maps,) = [row for row in compare_panels(config) if row["panel"] == "2G–I"]
-    assert [each["text"] for each in maps["parameters"]] == ["ε/h_rms = 0.0075", "l_a/ε = 0.2"]
+    assert [each["here"] for each in maps["parameters"]] == ["ε/h_rms = 0.0075", "l_a/ε = 0.2"]
 
 
 def test_a_parameter_that_differs_is_shown_with_the_value_of_the_paper(config):
