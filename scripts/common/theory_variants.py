@@ -8,13 +8,13 @@ from stickiness.persson.kernels import CORRECTIONS
 from stickiness.persson.theory import Persson
 
 
-def theories(spectrum, variants, gamma, nodes=1.0):
+def theories(spectrum, variants, gamma):
     """Theories of a spectrum by names: the `variants`, then the quoted one otherwise corrected."""
-    first = Persson(spectrum, variants[0], gamma, nodes)
+    first = Persson(spectrum, variants[0], gamma)
     named = {name: first.with_variant(name) for name in variants}
     for correction in CORRECTIONS[1:]:  # each with the gamma of its source
         name = f"{VARIANT}, {correction}"
-        named[name] = Persson(spectrum, VARIANT, nodes=nodes, correction=correction)
+        named[name] = Persson(spectrum, VARIANT, correction=correction)
     return named
 
 
