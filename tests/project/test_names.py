@@ -1,4 +1,4 @@
-"""Words of one meaning: what is no longer said in names of modules, functions, classes and columns."""
+"""Words of one meaning: retired names stay out of modules, functions, classes and columns."""
 
 import re
 from pathlib import Path
