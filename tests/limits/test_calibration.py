@@ -17,6 +17,7 @@ from stickiness import datasets
 from stickiness.remaining import calibration
 
 ROOT = Path(__file__).parents[2]
+TABLE = ROOT / "scripts/stickiness/remaining/calibration.csv"
 LEAST = 0.82  #: share of the unseen simulations of a kind within limits of 90 %
 #: Median ratio of both limits of the threshold, on unseen surfaces, that limits may not exceed.
 WIDEST = {
@@ -61,7 +62,7 @@ def calibrated(tmp_path_factory):
 
 def test_the_committed_limits_are_those_of_the_committed_tables(calibrated):
     made = pd.read_csv(calibrated.table, comment="#").set_index(["kind", "quantity"])
-    committed = pd.read_csv(ROOT / "config/limits.csv", comment="#")
+    committed = pd.read_csv(TABLE, comment="#")
     committed = committed.set_index(["kind", "quantity"])
     assert made.index.equals(committed.index)
     numbers = ["value", "low", "high", "fitted", "unseen"]
@@ -70,7 +71,7 @@ def test_the_committed_limits_are_those_of_the_committed_tables(calibrated):
 
 def test_the_library_reads_the_committed_table():
     spread = calibration.find_spread("patch", "ln_work")
-    committed = pd.read_csv(ROOT / "config/limits.csv", comment="#")
+    committed = pd.read_csv(TABLE, comment="#")
     committed = committed.set_index(["kind", "quantity"]).loc[("patch", "ln_work")]
     assert tuple(spread) == tuple(committed[["value", "low", "high"]])
     with pytest.raises(KeyError):

@@ -1,8 +1,8 @@
 """How far predictions of what remains have been off, and so how wide their limits are.
 
 Simulations stand beside predictions in the tables of ``config/``, of which the rule
-`calibrate_limits` makes ``config/limits.csv``. The package holds that file, too, beside this
-module. Limits cover 90 %. What the errors are proportional to is in `errors`.
+`calibrate_limits` makes the one beside this module; ``config/limits.csv`` is a link to it. Limits
+cover 90 %. What the errors are proportional to is in `errors`.
 """
 
 from __future__ import annotations
