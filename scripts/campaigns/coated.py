@@ -30,7 +30,7 @@ SHORTEST_SEEN = 4.0  # shortest wave that a map shows, in its own pixels
 
 
 COLUMNS = OF_TOPOGRAPHY | {
-    "stride": "the map has every so many-th point, and no waves shorter than four of its pixels",
+    "stride": "the map has every n-th point, and no waves shorter than four of its pixels",
     "solid": "as in the configuration of the campaign",
     "thickness": "of the layer or the skin",
     "poisson": "Poisson's ratio of the layer, or below the skin",
@@ -147,7 +147,7 @@ def make_material(entry, law):
 def scan(heights, setting):
     """Heights of the map that an instrument shows of a surface.
 
-    The map has every so many-th point, the `stride` of the set. Waves shorter than four of its
+    The map has every n-th point, the `stride` of the set. Waves shorter than four of its
     pixels are filtered out before, sharply.
     """
     points = len(heights) // setting["stride"]

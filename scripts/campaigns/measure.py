@@ -1,6 +1,6 @@
 """Measure one seed of a set of a campaign, and keep its rows.
 
-The module of a campaign beside this one tells in its docstring what its table holds. Its `COLUMNS`
+The module of a campaign beside this one describes its table in its docstring. Its `COLUMNS`
 have a text for every column, or a unit and a text. Its `measure` finds the rows of one realisation:
 it takes the setting of the set, the seed, and what all sets of the campaign share.
 """
@@ -19,10 +19,10 @@ MISSING = "none, or not known"
 
 
 def main(job):
-    measure(job, import_module(f"campaigns.{job.wildcards.campaign}"))
+    write_rows(job, import_module(f"campaigns.{job.wildcards.campaign}"))
 
 
-def measure(job, campaign):
+def write_rows(job, campaign):
     """Write the rows that the module of a campaign finds."""
     setting = job.params.setting
     seed = int(job.wildcards.seed)
@@ -40,13 +40,18 @@ def measure(job, campaign):
 
 
 def make_dataset(rows, of_set, campaign):
-    """Rows of a set as a dataset; what they do not tell of is empty, or NaN."""
+    """Rows of a set as a dataset.
+
+    Missing entries are empty, or NaN. What rows hold beyond the columns is left out.
+    """
     columns = campaign.COLUMNS
+    # What a row has takes the place of what its set says, such as one of several wave numbers.
     frame = pd.DataFrame([of_set | row for row in rows], columns=list(columns))
     texts = frame.select_dtypes(exclude="number").columns
     dataset = frame.fillna(dict.fromkeys(texts, "")).rename_axis("row").to_xarray()
+    # Unit, text, and what a missing entry means.
     described = {
-        name: (*(("1", text) if isinstance(text, str) else text), MISSING)
+        name: ("1", text, MISSING) if isinstance(text, str) else (*text, MISSING)
         for name, text in columns.items()
     }
     dataset.attrs["comment"] = cleandoc(campaign.__doc__)

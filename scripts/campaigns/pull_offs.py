@@ -9,7 +9,7 @@ import logging
 import numpy as np
 
 from campaigns.columns import find_side
-from campaigns.ranges import OF_REFINED, at_work, refine
+from campaigns.ranges import OF_REFINED, interpolate_at_work, refine
 from common.conventions import Q0
 from common.topographies import make_set
 from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
@@ -34,20 +34,20 @@ def measure(setting, seed, shared):
     heights = make_set(setting, seed)
     length = find_side(setting)
     states = find_trial_states(heights, length)
-    rough = judge_states(states, length / setting["points"])
+    rough = make_roughness(states, length / setting["points"])
     for law, fine, row in refine(heights, states, setting, shared):
         work = law.adhesion_length
-        path_share, pull_off = part(fine, length, law, shared)
+        path_share, pull_off = separate(fine, length, law, shared)
         yield {
             **row,
             "share": rough.share(work, law.range),
-            "distance": at_work(states, states.simulated_distance, work),
+            "distance": interpolate_at_work(states, states.simulated_distance, work),
             "path_share": path_share,
             "pull_off": pull_off,
         }
 
 
-def judge_states(states, pixel):
+def make_roughness(states, pixel):
     """`Roughness` of which a verdict tells by these states alone: no waves lack."""
     simulated = SimulatedHeights(
         whole=states,
@@ -60,7 +60,7 @@ def judge_states(states, pixel):
     )
 
 
-def part(heights, length, law, shared):
+def separate(heights, length, law, shared):
     """Share gained and largest tension where surfaces are pressed and part at given mean gaps."""
     try:
         found = follow_path(

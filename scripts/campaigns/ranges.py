@@ -54,7 +54,7 @@ def refine(heights, states, setting, shared):
         for finer in {refinement["finer"] for refinement in setting["refinements"]}
     }
     for work, is_between in choose_works(states, shared["shares"], shared["works"]):
-        own_range = at_work(states, states.simulated_range, work)
+        own_range = interpolate_at_work(states, states.simulated_range, work)
         for refinement in setting["refinements"]:
             law = LAWS[shared["law"]](work, refinement["ratio"] * own_range)
             row = {
@@ -69,7 +69,7 @@ def refine(heights, states, setting, shared):
             yield law, grids[refinement["finer"]], row
 
 
-def at_work(states, simulated, work):
+def interpolate_at_work(states, simulated, work):
     """What was simulated of states, at a work of adhesion between theirs."""
     log_lengths = np.log(states.simulated_length)
     return np.exp(np.interp(np.log(work), log_lengths, np.log(simulated)))

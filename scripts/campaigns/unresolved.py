@@ -12,7 +12,7 @@ from stickiness.remaining.height_simulation import find_trial_states
 
 COLUMNS = OF_TOPOGRAPHY | {
     "full_contact_energy": "elastic energy of full contact on the full grid",
-    "stride": "the thinned grid has every so many-th point along each side",
+    "stride": "the thinned grid has every n-th point along each side",
     "lacking": "energy of full contact that the thinned grid lacks, over that of the others",
     "range": "of the attraction",
     **describe_thresholds("full", "on the full grid"),

@@ -24,7 +24,7 @@ REMAINS = "share of the work of adhesion that remains: "
 SECONDS = "processor time: "
 MODELS = {
     "theory": "theory of the spectrum, for Gaussian heights",
-    "bound": "low bound by contact without adhesion",
+    "bound": "lower bound by contact without adhesion",
     "states": "states simulated with adhesion",
     "simulated": "full simulation, the deepest state of four starts",
 }

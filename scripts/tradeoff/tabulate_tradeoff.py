@@ -35,7 +35,7 @@ TRADEOFF_VARIABLES = {
 }
 COMMENT = """\
 Error and cost models, fitted by the target tradeoff; scripts/stickiness/accuracy/ says how they
-are read. To take a new measurement over, copy it here and set the presets that it gives."""
+are read. To adopt a new measurement, copy it here and set the presets that it gives."""
 
 
 def main(job):

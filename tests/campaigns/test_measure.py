@@ -39,7 +39,7 @@ def path(tmp_path):
         files.append(tmp_path / name / "seed3.nc")
         params = {"setting": {"role": "unseen", "number": number}, "shared": {"factor": 2}}
         wildcards = {"campaign": "lengths", "set": name, "seed": "3"}
-        measure.measure(make_job(files[-1], params, wildcards), lengths)
+        measure.write_rows(make_job(files[-1], params, wildcards), lengths)
     table = tmp_path / "lengths.csv"
     params = SimpleNamespace(target="lengths_measured")
     tabulate.main(SimpleNamespace(input=files, output=[table], params=params))

@@ -87,7 +87,7 @@ def test_pull_offs_of_states_are_what_a_verdict_says():
     setting = CAMPAIGNS["pull_offs"]["sets"]["gaussian_1"]
     states = find_trial_states(make_set(setting, known.seed.min()), setting["waves"] * 2 * np.pi)
     pixel = setting["waves"] * 2 * np.pi / setting["points"]
-    rough = pull_offs.judge_states(states, pixel)
+    rough = pull_offs.make_roughness(states, pixel)
     spread = find_spread("states", "ln_tension")
     shortening = find_spread("states", "shortening")
     calibrated = comparisons.of_pull_offs(known, shortening.value)

@@ -300,7 +300,7 @@ def test_the_contact_shown_is_that_of_the_states_that_decided(single):
     tape, gel, threshold = (state.area for state in contact.states)
     assert gel < threshold < tape
     assert contact.threshold_of == "soft tape"
-    assert contact.states[-1].title == "10 % remains"
+    assert contact.states[-1].title == "soft tape at its threshold"
 
 
 @pytest.mark.slow
@@ -321,7 +321,7 @@ def test_page_shows_the_contact_that_decided(single, folder):
     rough = check_material(STEEL | {"label": "rough", "surface": "plate"})
     materials = {"tape": TAPE, "film": film}
     page = write_page(single, folder / "shown", materials)
-    page.check("Where it touches", "decided on film is not shown", "by 32 points")
+    page.check("Where it touches", "The contact of film is not shown", "by 32 points")
     assert page.html.count('alt="Contact on the measured heights at zero load"') == 2
     assert len(page.html) < 1e6
     assert "Bokeh" not in page.html
@@ -382,7 +382,7 @@ def test_contact_is_orange_and_the_first_row_on_top():
         contact_figure.draw_state(panels["A"], contact, state)
         (image,) = panels["A"].images
         assert panels["A"].get_ylim() == (4.0, 0.0)
-        assert panels["A"].get_title() == "tape: 25 % in contact"
+        assert panels["A"].get_title() == "tape\nabout 25 % in contact"
         assert to_hex(panels["A"].get_facecolor()) == plotting.RED.lower()
     assert image.get_array().mask[0].all()
     np.testing.assert_allclose(image.get_array()[1:].compressed(), 1.0)  # um

@@ -305,7 +305,7 @@ class UnresolvedCampaign(Section):
     """What states on every second or fourth point tell of a surface."""
 
     ranges: Values = needed("ranges over h_rms")
-    strides: f.Several[Annotated[int, Field(ge=2)]] = needed("of which every so many-th point")
+    strides: f.Several[Annotated[int, Field(ge=2)]] = needed("of which every n-th point")
     sets: f.Names[TopographySet]
 
 
@@ -340,7 +340,7 @@ class CoatedSolid(Section):
 class CoatedSet(TopographySet):
     """Topographies whose map lacks the finest waves."""
 
-    stride: Annotated[int, Field(ge=2)] = needed("the map has every so many-th point")
+    stride: Annotated[int, Field(ge=2)] = needed("the map has every n-th point")
 
 
 class CoatedCampaign(Section):

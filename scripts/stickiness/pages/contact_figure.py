@@ -1,8 +1,7 @@
-"""Picture of the contact that decided: states at zero load, simulated on the measured heights."""
+"""Picture of contact: states of least energy at zero load, simulated on the measured heights."""
 
 from __future__ import annotations
 
-import textwrap
 from collections.abc import Mapping
 from typing import NamedTuple
 
@@ -20,7 +19,6 @@ from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.wording import LEAST_STRESS, MOST_STRESS
 
 MATERIALS = 3  # shown at most
-LONGEST_LINE = 45  # characters of a title
 MOST_SHOWN = 0.995  # quantile of the gaps up to which colours tell them apart
 
 
@@ -37,12 +35,12 @@ class State(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """States of contact on the map of a surface; without any if none are at hand."""
+    """States of contact on the map of a surface."""
 
     states: list[State]
     sides: tuple[float, float]  # of the map [m]
     threshold_of: str  # the material in the last state with the modulus of its threshold, if any
-    not_kept: list[str]  # materials whose verdict rests on states that are not at hand
+    not_kept: list[str]  # materials on whose solid the surface keeps no states
 
 
 class Simulated(NamedTuple):
@@ -68,10 +66,10 @@ def find_contact(
     surface = Surface(data)
     kept = surface.simulated
     if kept is not None and kept.whole.gap_bin is not None:
-        smooth = [name for name in names if pairs.half_space.sel(material=name)]
-        at_hand |= dict.fromkeys(smooth, Simulated(kept, surface.lacking))
+        on_half_space = [name for name in names if pairs.half_space.sel(material=name)]
+        at_hand |= dict.fromkeys(on_half_space, Simulated(kept, surface.lacking))
     shown = [name for name in names if name in at_hand][:MATERIALS]
-    missing = [name for name in names if name not in at_hand]
+    not_kept = [name for name in names if name not in at_hand]
 
     def find(name: str, title: str, factor: float = 1.0) -> State:
         return _find_state(at_hand[name], pairs.sel(material=name), title, factor)
@@ -79,15 +77,16 @@ def find_contact(
     labels = {name: pairs.material_label.sel(material=name).item() for name in names}
     states = [find(name, labels[name]) for name in shown]
     threshold_of = ""
-    for name in shown[:1]:
-        pair = pairs.sel(material=name)
-        threshold = read_limited(pair.modulus_threshold).value
+    if shown:
+        first_pair = pairs.sel(material=shown[0])
+        threshold = read_limited(first_pair.modulus_threshold).value
         if LEAST_STRESS < threshold < MOST_STRESS:
-            threshold_of = labels[name]
-            title = f"{percent(pairs.wanted_share)} remains"
-            states.append(find(name, title, threshold / float(pair.quoted_modulus)))
+            threshold_of = labels[shown[0]]
+            title = f"{threshold_of} at its threshold"
+            factor = threshold / float(first_pair.quoted_modulus)
+            states.append(find(shown[0], title, factor))
     first, second = data.standard_sides.isel(part=0).values * float(data.standard_length_unit)
-    return Contact(states, (first, second), threshold_of, [labels[name] for name in missing])
+    return Contact(states, (first, second), threshold_of, [labels[name] for name in not_kept])
 
 
 def _find_state(simulated: Simulated, pair: xr.Dataset, title: str, factor: float) -> State:
@@ -103,21 +102,20 @@ def _find_state(simulated: Simulated, pair: xr.Dataset, title: str, factor: floa
 
 
 def draw_state(ax: Axes, contact: Contact, state: State) -> None:
-    """Draw one of the states: contact in orange, the gap in shades of grey, alike in all."""
+    """Draw one of the states: contact in orange, the gap from light to dark, alike in all."""
     widest = max(float(np.quantile(each.gap, MOST_SHOWN)) for each in contact.states)
     per_gap, gap_unit = unit_for(widest, "m")
     per_side, unit = unit_for(max(contact.sides), "m")
     width, height = (per_side * side for side in contact.sides)
     ax.set_facecolor(RED)  # seen where there is no gap
     image = ax.imshow(
-        np.ma.masked_less_equal(state.gap.T * per_gap, 0),
+        np.ma.masked_less_equal(state.gap.T * per_gap, 0),  # x runs to the right
         cmap="bone_r",
         vmin=0,
         vmax=widest * per_gap,
         extent=(0, width, height, 0),  # the first row is on top
         interpolation="nearest",
     )
-    title = textwrap.fill(f"{state.title}: {percent(state.area)} in contact", LONGEST_LINE)
-    ax.set_title(title)
+    ax.set_title(f"{state.title}\nabout {percent(state.area)} in contact")
     ax.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
-    ax.figure.colorbar(image, ax=ax, label=f"gap [{gap_unit}]", shrink=0.8)
+    ax.figure.colorbar(image, ax=ax, label=f"gap [{gap_unit}]", fraction=0.046, pad=0.04)

@@ -99,7 +99,7 @@ class TrialStates:
         )
 
     def share(self, adhesion_length: NDArray, range: NDArray, law: str = EXPONENTIAL) -> NDArray:
-        """Share that remains in the deepest of the states, a low bound, ``(n,)``.
+        """Share that remains in the deepest of the states, a lower bound, ``(n,)``.
 
         Parameters
         ----------

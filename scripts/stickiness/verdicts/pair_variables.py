@@ -42,7 +42,7 @@ THRESHOLDS = {  #: unit, description, and why a value may be missing
 DECIDED_BY = (
     "theory for Gaussian heights",
     "theory for the spectrum and the skewness of the heights",
-    "simulated contact without adhesion, a low bound",
+    "simulated contact without adhesion, a lower bound",
     "simulated contact with adhesion",
 )
 BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, BY_BOUND, BY_SIMULATION = range(4)
