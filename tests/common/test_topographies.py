@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import fft, stats
 
-from common.topographies import FAMILIES, make_topography
+from common.topographies import FAMILIES, Cell, make_topography
 
 POINTS = 64
 WAVES = 2
@@ -57,6 +57,12 @@ def test_heights_lean_as_their_family_does(family):
         assert skewness > 0.2
     else:
         assert abs(skewness) < 0.35
+
+
+def test_cut_heights_end_at_half_an_rms_height():
+    cell = Cell(POINTS, WAVES, POINTS / SHORTEST, seed=5)
+    assert FAMILIES["tops_cut"](cell).max() == 0.5
+    assert FAMILIES["valleys_cut"](cell).min() == -0.5
 
 
 def test_ground_surfaces_are_steeper_across():

@@ -362,6 +362,8 @@ def test_pages_of_two_files_at_once_keep_apart(tmp_path):
     names = [claim_name(tmp_path, "wall", f"{folder}/wall.txt") for folder in "ab"]
     assert names == ["wall", "wall-2"]
     assert sorted(os.listdir(tmp_path)) == ["wall", "wall-2"]
+    (tmp_path / "other.html").write_text("mine", encoding="utf-8")
+    assert claim_name(tmp_path, "other", "c/other.txt") == "other-2"
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from criteria.map_criterion import MapSurfaces
 from criteria.self_affine_a_v import find_a_v
 from stickiness.criteria.a_v_theory import PARTED, THEORY_ERROR, edge_range, local_a_v
 from stickiness.criteria.formulas import pastewka_robbins_a_v
@@ -30,6 +31,15 @@ def test_a_v_of_several_surfaces_is_that_of_theory():
         least, most = np.sort([expected, other], axis=0)
         np.testing.assert_allclose(low[row], (1 - THEORY_ERROR) * least, rtol=0.01)
         np.testing.assert_allclose(high[row], (1 + THEORY_ERROR) * most, rtol=0.01)
+
+
+def test_the_map_asks_for_a_v_at_the_range_over_the_rms_height():
+    """The range is the unit of length, and the shortest wave is four ranges long."""
+    settings = {"hurst": 0.8, "shortest_over_range": 4.0}
+    surfaces = MapSurfaces(settings, LOAD)
+    found = surfaces.a_v(np.array([50.0]), np.array([1e-4]), "value")
+    expected, _, _ = find_a_v(0.8, LOAD, [1 / 50], np.pi / 2 / 1e-4)
+    assert found == pytest.approx(expected)
 
 
 def test_below_the_edge_range_a_v_is_constant():
