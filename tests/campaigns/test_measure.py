@@ -87,7 +87,7 @@ SMALL = {
     "pull_offs": ("gaussian_1", 2),
     "unresolved": ("gaussian_1", 2),
     "larger": ("gaussian_1", 1),
-    "coated": ("gaussian_1", 1),
+    "coated": ("plateau_honed_1", 1),
     "balls": ("gaussian_5", 3),
     "heights": ("H0.5_zeta8_2x2", 2),
     "remaining": ("H0.8_zeta4_coarse", 1),
