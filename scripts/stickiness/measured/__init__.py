@@ -1,7 +1,8 @@
 """Measured topographies, from the file to a spectrum with its errors.
 
 `read` gives the heights of a file, `from_array` cleans those of an array, `analyse` makes their
-spectrum and `draw` its moments with their errors. `periodise` makes heights that the solvers take.
+spectrum and `draw` its moments with their errors. `periodise` and `filter_waves` make heights that
+the solvers take.
 """
 
 from importlib import import_module
@@ -11,7 +12,7 @@ _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "from_array", "read"), "topography"),
     **dict.fromkeys(("TrustedWaves", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
     **dict.fromkeys(("Draws", "draw"), "stitching"),
-    "periodise": "periodic",
+    **dict.fromkeys(("filter_waves", "periodise"), "periodic"),
 }
 
 __all__ = [*_PLACES]  # noqa: PLE0604
