@@ -23,7 +23,7 @@ from helpers.windows import AS_ON_WINDOWS
 
 import stickiness
 from stickiness import datasets
-from stickiness.__main__ import claim_name, name_page
+from stickiness.command import claim_name, name_page
 from stickiness.formatting import relative_path
 from stickiness.spectrum import SelfAffine
 from stickiness.verdicts.verdict import StickinessVerdict

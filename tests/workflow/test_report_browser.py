@@ -7,7 +7,6 @@ page, measures the page in the browser and puts what it found at its end.
 import base64
 import json
 import re
-import shutil
 import struct
 import subprocess
 from functools import cache
@@ -15,11 +14,10 @@ from html import unescape
 from urllib.parse import unquote
 
 import pytest
+from helpers.browser import CHROMIUM
 
 from stickiness.pages import plotting
 
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-CHROMIUM = next(filter(None, map(shutil.which, NAMES)), None)
 pytestmark = [
     pytest.mark.workflow,
     pytest.mark.skipif(CHROMIUM is None, reason="no chromium on the path (apt install chromium)"),

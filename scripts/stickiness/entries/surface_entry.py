@@ -198,6 +198,9 @@ class MeasuredFile(Section):
         'grid step, e.g. "0.5 um", instead of length'
     )
     height_unit: f.Maybe[LengthUnit] = optional('unit of the heights, e.g. "nm"')
+    height_factor: Annotated[float, Field(gt=0)] = optional(
+        "what all heights are multiplied by, to correct them or to ask about higher ones", 1.0
+    )
     position_unit: f.Maybe[LengthUnit] = optional(
         'unit of positions on a line, or of the steps of a map, e.g. "um"'
     )

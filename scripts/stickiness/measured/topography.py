@@ -215,6 +215,7 @@ def read(
     length: Size = None,
     pixel_size: Size = None,
     height_unit: str | None = None,
+    height_factor: float = 1.0,
     position_unit: str | None = None,
     variable: str | None = None,
     channel: str | int | None = None,
@@ -240,6 +241,8 @@ def read(
         Grid step, instead of `length`.
     height_unit, position_unit : str, optional
         Unit of the heights, and of positions, if the file does not tell: "nm".
+    height_factor : float
+        What all heights are multiplied by.
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
     channel : str or int, optional
@@ -310,7 +313,7 @@ def read(
         spikes=spikes,
         scan=scan,
         source=raw.source,
-        scale=scale,
+        scale=height_factor * scale,
     )
     reading = tuple(Step("read", remark=remark) for remark in raw.remarks)
     is_whole = measurement.heights.shape == heights.shape

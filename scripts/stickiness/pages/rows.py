@@ -26,6 +26,8 @@ from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, 
 from stickiness.verdicts.limits import read_limited
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
+LEAST_ROOM = 0.3  #: decades of the bar of a threshold beside what it shows
+MOST_DECADES = 6  #: named on this bar
 LEAST_EFFECT = 0.05  # relative, of a layer's thickness on the energy of full contact
 SOURCES = ("spectrum", "map", "model")  #: of the error of a margin on a measured surface
 COLUMNS = (
@@ -78,6 +80,7 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
     row["text"] = {name: text for name, (text, _) in cells.items()}
     row["sort"] = {name: float(value) for name, (_, value) in cells.items()}
     row["sort"]["verdict"] = code
+    row["bar"] = place_threshold(pair)
     return row
 
 
@@ -108,6 +111,26 @@ def describe_cells(pair: xr.Dataset) -> dict[str, tuple[str, Any]]:
         "errors": (errors, np.hypot.reduce([pair[f"error_of_{name}"] for name in SOURCES])),
         "modulus": (wording.tell_modulus(pair), pair.quoted_modulus),
     }
+
+
+def place_threshold(pair: xr.Dataset) -> dict[str, Any]:
+    """Where limits of the threshold, the modulus and decades stand on a bar, in % of its length.
+
+    The bar is logarithmic. It begins and ends at decades, or where thresholds mean nothing.
+    """
+    modulus = float(pair.quoted_modulus)
+    _, *limits = np.clip(
+        read_limited(pair.modulus_threshold), wording.LEAST_STRESS, wording.MOST_STRESS
+    )
+    powers = np.log10([*limits, modulus])
+    start, end = np.floor(powers.min() - LEAST_ROOM), np.ceil(powers.max() + LEAST_ROOM)
+    low, high, own = 100 * (powers - start) / (end - start)
+    step = int(np.ceil((end - start) / MOST_DECADES))
+    decades = {
+        100 * (power - start) / (end - start): amount(10.0**power, "Pa", 1)
+        for power in np.arange(start, end + 1, step)
+    }
+    return {"low": low, "high": high, "own": own, "decades": decades}
 
 
 def show_probability(pair: xr.Dataset) -> str:

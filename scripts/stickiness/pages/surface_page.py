@@ -33,6 +33,7 @@ def write_surface_page(
     files: Mapping[str, str | Path],
     own: Sequence[str] | None = None,
     simulated: Mapping[str, contact_figure.Simulated] | None = None,
+    drawn: Mapping[str, list[dict[str, Any]]] | None = None,
 ) -> None:
     """Write the page of a surface.
 
@@ -52,6 +53,8 @@ def write_surface_page(
         Names of the materials that are shown, and the others in tables on request. By default all.
     simulated : mapping of str to contact_figure.Simulated, optional
         States simulated with layers, by the names of the materials; files do not keep them.
+    drawn : mapping, optional
+        What `draw_surface` returns for this surface, if it is drawn already.
     """
     pairs = verdicts.squeeze("surface")
     names = list(map(str, pairs.material.values))
@@ -65,13 +68,6 @@ def write_surface_page(
         for axis in axes.values()
         for part in surface_figures.split_curves(axis)
     ]
-    reading = []
-    if "heights_as_read" in surface and surface_figures.shows_change(surface):
-        ways = (surface_figures.draw_as_read, surface_figures.draw_as_used)
-        reading = [draw_panel(draw, surface) for draw in ways]
-    pictured = [surface[name] for name in ("heights", "profile") if name in surface][:1]
-    panels = [draw_panel(surface_figures.draw_heights, heights) for heights in pictured]
-    panels.append(draw_panel(surface_figures.draw_spectrum, surface))
     shown = pairs.sel(material=at_first)
     contact = contact_figure.find_contact(surface, shown, simulated)
     write_page(
@@ -83,8 +79,7 @@ def write_surface_page(
         sizes=describe_surface(surface),
         is_larger=plotting.is_larger(surface),
         covers=COVERS,
-        panels=panels,
-        reading=reading,
+        **(drawn or draw_surface(surface)),
         wanted=float(pairs.wanted_share),
         doubts=list_doubts(rows if not own else [row for row in rows if row["mine"]]),
         not_judged=surface.attrs.get("not_judged", ""),
@@ -99,6 +94,18 @@ def write_surface_page(
             for state in (contact.states if contact else ())
         ],
     )
+
+
+def draw_surface(surface: xr.Dataset) -> dict[str, list[dict[str, Any]]]:
+    """Pictures of the surface alone: heights and spectrum, and heights as they were read."""
+    pictured = [surface[name] for name in ("heights", "profile") if name in surface][:1]
+    panels = [draw_panel(surface_figures.draw_heights, heights) for heights in pictured]
+    panels.append(draw_panel(surface_figures.draw_spectrum, surface))
+    reading = []
+    if "heights_as_read" in surface and surface_figures.shows_change(surface):
+        ways = (surface_figures.draw_as_read, surface_figures.draw_as_used)
+        reading = [draw_panel(draw, surface) for draw in ways]
+    return {"panels": panels, "reading": reading}
 
 
 def describe_verdict(pair: xr.Dataset) -> dict[str, Any]:

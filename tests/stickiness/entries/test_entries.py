@@ -11,7 +11,7 @@ import pytest
 
 import stickiness
 from stickiness import Material, entries
-from stickiness.__main__ import TEXTS, read_options
+from stickiness.command import TEXTS, read_options
 from stickiness.entries.material import Materials
 from stickiness.solids import HALF_SPACE
 from stickiness.units import Quantity, write_quantities
