@@ -27,6 +27,7 @@ __all__ = [
     "parameters",
     "provenance",
     "read",
+    "read_groups",
     "whole_file",
     "write",
 ]
@@ -83,11 +84,17 @@ def flags(words: Iterable[str], first: int = 0) -> dict[str, Any]:
 
 
 def write(
-    dataset: xr.Dataset, path: str | Path, *, title: str, parameters: Mapping[str, Any]
+    dataset: xr.Dataset,
+    path: str | Path,
+    *,
+    title: str,
+    parameters: Mapping[str, Any],
+    groups: Mapping[str, xr.Dataset] | None = None,
 ) -> None:
     """Write a dataset with its parameters (as JSON) and provenance, whole or not at all.
 
     Every variable needs `long_name`, numbers need `units`, and `nan_means` if some are not finite.
+    Others of the same variables go into `groups` of the file.
     """
     path = Path(path)
     # Last parts of a path tell a result from others, wherever all of them are moved.
@@ -114,6 +121,8 @@ def write(
     with whole_file(path) as temporary:
         try:
             dataset.to_netcdf(temporary, engine="netcdf4")
+            for name, other in (groups or {}).items():
+                other.to_netcdf(temporary, engine="netcdf4", mode="a", group=name)
         except RuntimeError as error:  # what netCDF4 makes of a failing disk
             raise OSError(str(error)) from None
 
@@ -139,6 +148,15 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
     if missing:
         raise DatasetError(f"{path}: lacks the variable {missing[0]!r}; delete it and re-run")
     return dataset
+
+
+def read_groups(path: str | Path) -> dict[str, xr.Dataset]:
+    """Read the groups of a file into memory, by name; of a file that `read` can read."""
+    import netCDF4
+
+    with netCDF4.Dataset(path) as opened:
+        names = list(opened.groups)
+    return {name: xr.load_dataset(path, engine="netcdf4", group=name) for name in names}
 
 
 def parameters(dataset: xr.Dataset) -> dict[str, Any]:

@@ -222,9 +222,10 @@ class Analysis(Section):
     spikes: Literal["mask", "keep"] = optional(
         "mask (default) points far off their neighbours", "mask"
     )
-    scan: Literal["detect", "align", "keep"] = optional(
+    scan: Literal["detect", "mend", "align", "keep"] = optional(
         "rows at random heights, jumps, creep, drift, bow and scars of a scan; default detect: "
-        "mend what is found with certainty; align: set every row to the median 0, too",
+        "mend what is found, and ask where it decides and may belong to the surface; mend: do not "
+        "ask; align: set every row to the median 0, too",
         "detect",
     )
     detrend: Literal["detect", "mean", "plane", "quadratic"] = optional(

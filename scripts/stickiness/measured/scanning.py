@@ -15,9 +15,11 @@ separate parts of a row, as roughness is not, and must change from row to row as
   Those of a profile with Hurst exponent H along the lay have 2^(2H - 1) - 1, which is above -1/4
   for H > 0.3, and that of waves which the grid resolves is positive. The noise of single points is
   white, too, but differs between parts of a row.
-- A jump happens between two rows, an edge of the surface wanders or is blurred.
+- A jump happens between two rows, an edge of the surface wanders or is blurred. But an edge that is
+  parallel to the rows looks the same, and no data alone can tell: that is a question.
 - Creep relaxes from one side of the map. For drift and bow as for waves along the lay there is no
-  such sign: they are found if next to nothing else is left in the profile.
+  such sign: they are found if next to nothing else is left in the profile. A surface may have such
+  a form, too, which is a question again.
 
 Limits were chosen on 1918 maps without faults, of 160 x 160 points: 14 families, self-affine maps
 of H = 0.3 to 1 whose lay is up to 40 times as long as wide, along, across and oblique to the rows,
@@ -73,7 +75,7 @@ FAINTEST = 1 / 3  #: of its height that is left two points beyond the sharp end 
 LARGEST_EFFECT = 30.0  #: rms of what was removed over that of what is left; more is not judged
 MOST_NAMED = 4  #: rows in a remark
 
-Scan = Literal["detect", "align", "keep"]
+Scan = Literal["detect", "mend", "align", "keep"]
 
 
 @dataclass
@@ -82,12 +84,15 @@ class Mended:
 
     heights: NDArray  #: NaN in scars, else as given where nothing was found
     remarks: list[str] = field(default_factory=list)  #: what was found and done
+    questions: list[str] = field(default_factory=list)  #: whether it may belong to the surface
     doubts: list[str] = field(default_factory=list)  #: why no verdict should rest on the heights
 
-    def subtract(self, fault: NDArray, remark: str) -> None:
-        """Take a fault off the heights."""
+    def subtract(self, fault: NDArray, remark: str, question: str = "") -> None:
+        """Take a fault off the heights, or what may be one, with the question whether it is."""
         self.heights = self.heights - fault
         self.remarks.append(remark)
+        if question:
+            self.questions.append(question)
 
 
 def mend(heights: NDArray, scan: Scan = "detect", scale: float = 1.0) -> Mended:
@@ -97,9 +102,10 @@ def mend(heights: NDArray, scan: Scan = "detect", scale: float = 1.0) -> Mended:
     ----------
     heights : (nx, ny) array
         Heights as read, NaN where missing.
-    scan : {"detect", "align", "keep"}
-        "detect": mend faults that are found with certainty. "align": also set the median of every
-        row to zero, which takes the surface's own waves along the slow axis, too. "keep": nothing.
+    scan : {"detect", "mend", "align", "keep"}
+        "detect", "mend": mend what is found. What may also belong to the surface is a question to
+        the user, unless "mend" answers it. "align": also set the median of every row to zero, which
+        takes the surface's own waves along the slow axis, too. "keep": nothing.
     scale : float
         Metres per unit of `heights`, for remarks.
 
@@ -115,6 +121,8 @@ def mend(heights: NDArray, scan: Scan = "detect", scale: float = 1.0) -> Mended:
     >>> mended = mend(jumped, scale=1e-9)
     >>> print(mended.remarks[0])
     from row 40 along y on, heights were 3 nm off, as a probe jumps: they were moved back
+    >>> print(mended.questions[0])
+    did the probe jump by 3 nm at row 40 along y, or does the surface have a step there?
     >>> mend(smooth).heights is smooth
     True
     """
@@ -311,6 +319,8 @@ def _move_back_jumps(mended: Mended, axis: int, scale: float) -> None:
         np.expand_dims(np.cumsum(jumps), 1 - axis),
         f"from row {where} along {'xy'[axis]} on, heights were {heights} off, as a probe jumps: "
         "they were moved back",
+        f"did the probe jump by {heights} at row {where} along {'xy'[axis]}, or does the surface "
+        f"have {'a step' if len(places) == 1 else 'steps'} there?",
     )
 
 
@@ -352,6 +362,8 @@ def _subtract_smooth(mended: Mended, axis: int, scale: float) -> None:
         np.expand_dims(fault, 1 - axis),
         f"heights follow a smooth curve along {'xy'[axis]}, the same in all rows (range {height}), "
         f"as {what}: it was subtracted",
+        f"is the smooth curve of {height} along {'xy'[axis]}, the same in all rows, {what}, or has "
+        "the surface this form?",
     )
 
 

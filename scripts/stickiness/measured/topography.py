@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers, scanning
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
+from stickiness.measured.guess import Guess, guess_fault
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.readers.raw import Length, Raw, fold, metres, metres_per, sides
 from stickiness.measured.scanning import Scan
@@ -42,6 +43,7 @@ class Step:
     points: int = 0  #: how many it filled, or took out
     parameters: Mapping[str, Any] = field(default_factory=dict)  #: arguments that call for it
     remark: str = ""  #: what was found and done, if the caller did not ask for it
+    guess: Guess | None = None  #: on which it rests
 
     def __str__(self) -> str:
         chosen = ", ".join(f"{key}: {value}" for key, value in self.parameters.items())
@@ -74,6 +76,11 @@ class _Heights:
         """What was done to the heights that the caller did not ask for."""
         source = self.source  # type: ignore[attr-defined]  # comes after dy in Topography
         return tuple(f"{source}: {step.remark}" for step in self.processing if step.remark)
+
+    @property
+    def guesses(self) -> tuple[Guess, ...]:
+        """Questions that the data leave open, and that steps of `processing` answer by a guess."""
+        return tuple(step.guess for step in self.processing if step.guess is not None)
 
     def count(self, name: str) -> int:
         """Points that a step of `processing` filled or took out; 0 if it was not taken."""
@@ -262,7 +269,7 @@ def read(
         (`levelling.without_rims`).
     spikes : {"mask", "keep"}
         Take points far off all their neighbours (`levelling.find_spikes`) for missing, or not.
-    scan : {"detect", "align", "keep"}
+    scan : {"detect", "mend", "align", "keep"}
         What scanning leaves in a map (`scanning.mend`): "detect" mends what is found with
         certainty, "align" also sets the median of every row to zero.
 
@@ -381,6 +388,8 @@ def from_array(
     done.append(Step(DROP_RIMS, dropped, {"missing_rim": missing_rim}))
     mended = scanning.mend(as_measured, scan, scale)
     done += [Step("mend the scan", 0, {"scan": scan}, remark) for remark in mended.remarks]
+    if scan == "detect" and mended.questions:
+        done[-1] = replace(done[-1], guess=guess_fault(mended.questions))
     scarred = int(np.count_nonzero(np.isnan(mended.heights) & ~np.isnan(as_measured)))
     is_spike = np.zeros(heights.shape, dtype=bool)
     if spikes == "mask":

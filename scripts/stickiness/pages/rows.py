@@ -75,6 +75,13 @@ def describe_pair(pair: xr.Dataset) -> dict[str, Any]:
         "rates": wording.tell_rates(pair),
         "improbable": wording.tell_improbable(pair),
         "widest": wording.tell_widest(pair) if code == DEPENDS else "",
+        "questions": [
+            {
+                "question": asked["question"],
+                "answers": [wording.tell_answer(answer, pair) for answer in asked["answers"]],
+            }
+            for asked in wording.list_questions(pair)
+        ],
     }
     cells = describe_cells(pair)
     row["text"] = {name: text for name, (text, _) in cells.items()}

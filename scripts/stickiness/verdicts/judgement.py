@@ -54,6 +54,7 @@ from stickiness.verdicts.pair_variables import (
     PAIR_VARIABLES,
     PER_PAIR,
 )
+from stickiness.verdicts.questions import ask
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.surface_data import ENDS
 from stickiness.verdicts.thresholds import (
@@ -138,20 +139,29 @@ def judge(
     materials = _name("materials", materials, Material)
     surfaces = _name("surfaces", surfaces, Surface)
     axes = find_axes(materials.values(), np.atleast_1d(frequencies))
+
+    def judge_reading(material: Material, surface: Surface) -> dict[str, Any]:
+        """All of a pair, by one answer to what its measurement leaves open."""
+        meeting = meet(material, surface, wanted_share)
+        cell = judge_meeting(meeting)
+        if curves:
+            cell |= follow_remaining(meeting, axes)
+        if thresholds:
+            # Of two rough solids only the rms height of the pair is defined.
+            known = surface.rms_height if material.surface is None else None
+            for name, found in find_thresholds(meeting, cell, contact_area, known).items():
+                cell[name] = [found.low, found.value, found.high]
+        return cell | {"doubts": "\n".join(_list_doubts(material, surface, meeting, cell))}
+
     cells = []
     for material in materials.values():
         for surface in surfaces.values():
-            meeting = meet(material, surface, wanted_share)
-            cell = judge_meeting(meeting)
-            if curves:
-                cell |= follow_remaining(meeting, axes)
-            if thresholds:
-                # Of two rough solids only the rms height of the pair is defined.
-                known = surface.rms_height if material.surface is None else None
-                for name, found in find_thresholds(meeting, cell, contact_area, known).items():
-                    cell[name] = [found.low, found.value, found.high]
-            cell["doubts"] = "\n".join(_list_doubts(material, surface, meeting, cell))
-            cells.append(cell)
+            cell, *others = (
+                judge_reading(material, reading)
+                for reading in (surface, *(other.surface for other in surface.readings))
+            )
+            guesses = [other.guess for other in surface.readings]
+            cells.append(ask(cell, list(zip(guesses, others, strict=True)), wanted_share))
     dataset = _arrange(cells, materials, surfaces).assign(wanted_share=wanted_share)
     rate_moduli = [find_rate_moduli(each.plane_strain, axes) for each in materials.values()]
     dataset["modulus"] = ("material", "frequency"), rate_moduli

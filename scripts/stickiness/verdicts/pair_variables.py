@@ -115,6 +115,7 @@ PAIR_VARIABLES: dict[str, tuple[str, ...]] = {
     "disagrees": ("1", "1 where a criterion disagrees with what remains, at either end"),
     "not_judged": ("1", "why a pair is not judged, a line each; empty if it is"),
     "doubts": ("1", "why the answer is probably to another question, a line each"),
+    "questions": ("1", "questions that decide, with the verdict by each answer, as JSON"),
     "rms_height": (
         "m",
         "rms height: as levelled, of several scans by their spectrum, or of the rough end",

@@ -8,12 +8,13 @@ contain waves that the instrument does not resolve. Verdicts rest on the draws w
 
 from __future__ import annotations
 
+import json
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -23,6 +24,7 @@ from stickiness import datasets
 from stickiness.arguments import check_length, side, with_gaps
 from stickiness.criteria.a_v_theory import SurfaceAv, surface_a_v
 from stickiness.measured.doubts import doubt_pixels
+from stickiness.measured.guess import Guess
 from stickiness.measured.stitching import MOST_UNRESOLVED
 from stickiness.plausibility import PlausibilityWarning, find_doubts
 from stickiness.remaining.roughness import find_anisotropy_error_factor
@@ -49,6 +51,13 @@ NEEDED = (*MOMENTS, "elastic_energy", "q0", "q1", "psd")
 _SAME_SHAPE = 1e-6  # relative, within which both ends have spectra of one shape
 
 
+class Reading(NamedTuple):
+    """A surface as it is if a guess about its measurement is wrong."""
+
+    guess: Guess
+    surface: Surface
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """What is known of the roughness of a surface; lengths in m.
@@ -63,6 +72,8 @@ class Surface:
         what the workflow stores in ``real_surfaces/<surface>.nc``.
     shells : Spectrum, optional
         Spectrum of a periodic cell, whose waves are discrete and have no density to tabulate.
+    readings : tuple of Reading
+        The same surface by other answers to questions that its measurement leaves open.
 
     See Also
     --------
@@ -79,6 +90,7 @@ class Surface:
 
     data: xr.Dataset
     shells: Spectrum | None = None
+    readings: tuple[Reading, ...] = ()
 
     @classmethod
     def from_spectrum(cls, spectrum: Spectrum, rough: Spectrum | None = None) -> Surface:
@@ -184,8 +196,10 @@ class Surface:
         from stickiness.entries import check_heights
         from stickiness.measured.measurement import Measurement
 
-        options = check_heights(options)
-        surface = cls._analyse([Measurement.from_array(heights, steps, options)], options)
+        def measure(entry: Mapping[str, Any]) -> list[Measurement]:
+            return [Measurement.from_array(heights, steps, entry)]
+
+        surface = cls._analyse(measure, check_heights(options))
         doubts = list(doubts)
         for doubt in doubts:
             warnings.warn(doubt, PlausibilityWarning, stacklevel=3)
@@ -248,32 +262,59 @@ class Surface:
             return cls(surface_data.read_self_affine(entry))
         if entry["kind"] == "surface_texture":
             return cls(surface_data.read_drawing(entry))
-        return cls._analyse(read_measurements(entry), entry)
+        return cls._analyse(read_measurements, entry)
 
     @classmethod
-    def _analyse(cls, measurements: Sequence[Measurement], entry: Mapping[str, Any]) -> Surface:
-        """Make a surface of its measurements as a checked entry says."""
+    def _analyse(
+        cls,
+        measure: Callable[[Mapping[str, Any]], Sequence[Measurement]],
+        entry: Mapping[str, Any],
+    ) -> Surface:
+        """Make a surface of its measurements as a checked entry says, and by every other guess."""
         from stickiness.verdicts.analysis import analyse
 
-        data = analyse(
-            measurements,
-            extend_to=entry["extend_to"],
-            ignore_doubts=entry["plausibility"] == "ignore",
+        def analyse_as(measurements: Sequence[Measurement]) -> xr.Dataset:
+            data = analyse(
+                measurements,
+                extend_to=entry["extend_to"],
+                ignore_doubts=entry["plausibility"] == "ignore",
+            )
+            return data if entry["contact"] is None else lengthen(data, entry["contact"])
+
+        measurements = measure(entry)
+        # Several measurements may ask the same.
+        guesses: dict[str, Guess] = {}
+        for guess in (guess for each in measurements for guess in each.heights.guesses):
+            guesses.setdefault(repr(guess.options), guess)
+        return cls(
+            analyse_as(measurements),
+            readings=tuple(
+                Reading(guess, cls(analyse_as(measure(override(entry, guess.options[1])))))
+                for guess in guesses.values()
+            ),
         )
-        if entry["contact"] is not None:
-            data = lengthen(data, entry["contact"])
-        return cls(data)
 
     @classmethod
     def open(cls, path: str | Path) -> Surface:
         """Open a file that `write` has written."""
-        return cls(datasets.read(path, NEEDED))
+        groups = datasets.read_groups(path)
+        return cls(
+            datasets.read(path, NEEDED),
+            readings=tuple(
+                Reading(Guess(**json.loads(data.attrs["guess"])), cls(data))
+                for data in groups.values()
+            ),
+        )
 
     def write(self, path: str | Path, *, title: str, parameters: Mapping[str, Any]) -> None:
         """Write what is known of the surface to a NetCDF file."""
         if self.shells is not None:
             raise ValueError("the spectrum of a periodic cell has no density that can be written")
-        datasets.write(self.data, path, title=title, parameters=parameters)
+        groups = {
+            f"reading_{number}": other.data.assign_attrs(guess=json.dumps(guess._asdict()))
+            for number, (guess, other) in enumerate(self.readings, 1)
+        }
+        datasets.write(self.data, path, title=title, parameters=parameters, groups=groups)
 
     @property
     def contact(self) -> float:
@@ -469,6 +510,12 @@ def read_measurements(entry: Mapping[str, Any]) -> tuple[Measurement, ...]:
     from stickiness.measured.measurement import Measurement
 
     return tuple(map(Measurement.from_entry, list_measurements(entry)))
+
+
+def override(entry: Mapping[str, Any], options: Mapping[str, str]) -> dict[str, Any]:
+    """Return an entry of a measured surface with other options, also of each measurement."""
+    measurements = entry.get("measurements") or []
+    return {**entry, **options, "measurements": [{**each, **options} for each in measurements]}
 
 
 def _describe_shells(spectrum: Spectrum) -> xr.Dataset:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -170,6 +170,17 @@ class StickinessVerdict:
         """Why there is no answer; they are doubts, too."""
         return tuple(self.cell.not_judged.item().splitlines())
 
+    @property
+    def questions(self) -> list[dict[str, Any]]:
+        """Questions that the measurement leaves open and that decide, see `questions.ask`."""
+        return wording.list_questions(self.cell)
+
+    def _tell(self, asked: Mapping[str, Any]) -> Iterator[str]:
+        """A question and its answers, a line each."""
+        yield f"question: {asked['question']}"
+        for answer in asked["answers"]:
+            yield f"  {wording.tell_answer(answer, self.cell)}"
+
     def _value(self, name: str) -> float:
         return float(self.cell[name].sel(limit="value"))
 
@@ -204,8 +215,22 @@ class StickinessVerdict:
             "pull_off_stress": _quantity(pull_off, "Pa"),
             "contact": _quantity_of(cell.contact, "m"),
         }
+        contents["questions"] = [
+            asked | {"answers": list(map(self._describe_answer, asked["answers"]))}
+            for asked in self.questions
+        ] or None
         contents["warnings"] = list(self.doubts)
         return _leave_out_unknown(contents)
+
+    def _describe_answer(self, answer: Mapping[str, Any]) -> dict[str, Any]:
+        """One answer to a question, with quantities as of the verdict."""
+        units = {"remaining": ("remaining_share", "1"), "modulus_threshold": (None, "Pa")}
+        described = dict(answer)
+        for name, (told, unit) in units.items():
+            low, value, high = described.pop(name)
+            numbers = _drop_unbounded(Limited(value, low, high))
+            described[told or name] = _quantity(numbers, unit)
+        return _leave_out_unknown(described)
 
     def _describe_moduli(self) -> dict[str, Any]:
         """Moduli of the material; Young's only with Poisson's ratio."""
@@ -246,6 +271,7 @@ class StickinessVerdict:
             remaining = (wording.tell_remaining(cell), wording.tell_improbable(cell))
             lines = [
                 f"{self.word}: {'; '.join(filter(None, remaining))}",
+                *(line for asked in self.questions for line in self._tell(asked)),
                 height,
                 f"pull-off stress: {wording.tell_pull_off(cell)}",
                 wording.tell_change(cell),

@@ -5,7 +5,9 @@ A text is made here and nowhere else, so that one question has one answer wherev
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -125,6 +127,24 @@ def _tell_threshold(cell: xr.Dataset) -> tuple[str, str]:
     return f"{symbol} = {found}", f"below {symbol} = {found}"
 
 
+def list_questions(cell: xr.Dataset) -> list[dict[str, Any]]:
+    """Questions that decide, with their answers; see `questions.ask`."""
+    asked = cell.questions.item()
+    return json.loads(asked) if asked else []
+
+
+def tell_answer(answer: Mapping[str, Any], cell: xr.Dataset) -> str:
+    """What would be by one answer to a question: the option that gives it, verdict and numbers."""
+    low, value, high = answer["remaining"]
+    options = " and ".join(f"{key}: {text}" for key, text in answer["give"].items())
+    by_it = {name: ("limit", answer[name]) for name in ("remaining", "modulus_threshold")}
+    threshold = tell_threshold(cell.assign(by_it))
+    return (
+        f"{answer['answer']} (give {options}): {answer['verdict']}, "
+        f"{tell_share(value, low, high)} remains, threshold {threshold}"
+    )
+
+
 def tell_contact(cell: xr.Dataset) -> str:
     """Size of the contact, and how to ask for another; empty of a surface that is described."""
     if np.isnan(cell.contact):
@@ -193,6 +213,8 @@ def tell_improbable(cell: xr.Dataset) -> str:
 
 def tell_widest(cell: xr.Dataset) -> str:
     """What widens the limits of a pair most, and what would narrow them; empty if nothing can."""
+    if cell.questions.item():
+        return ""  # which they tell
     _, low, high = read_limited(cell.margin)
     if low == 0:
         return ""  # a layer strains beyond linear elasticity, which a doubt tells

@@ -262,7 +262,9 @@ def test_measurement_takes_the_key():
     assert not Measurement.from_array(
         faulty, 20e-9, check_heights({"scan": "keep"})
     ).heights.remarks
-    with pytest.raises(ValueError, match="scan must be 'detect', 'align' or 'keep', got 'flat'"):
+    with pytest.raises(
+        ValueError, match="scan must be 'detect', 'mend', 'align' or 'keep', got 'flat'"
+    ):
         topography.from_array(faulty, 20e-9, scan="flat")
 
 

@@ -1,0 +1,24 @@
+"""Questions about a measurement that its data leave open.
+
+Some of what was done to heights rests on a guess, such as that a step along the rows of a scan is a
+jump of the probe. Verdicts are found for both answers. Where these differ, the user is asked.
+"""
+
+from typing import Any, NamedTuple
+
+
+class Guess(NamedTuple):
+    """A question, and its answers; the first is the one that was taken."""
+
+    question: str
+    answers: Any  #: two of them, in words
+    options: Any  #: keys and values of a measured surface by which a user gives either
+
+
+def guess_fault(questions: list[str]) -> Guess:
+    """Guess that what may be a fault of the scan, by these questions, is one."""
+    return Guess(
+        question=" ".join(questions),
+        answers=("a fault of the scan", "the surface itself"),
+        options=({"scan": "mend"}, {"scan": "keep"}),
+    )

@@ -1,0 +1,93 @@
+"""Questions that a measurement leaves open, and on which a verdict may depend.
+
+A surface is also read by the other answer to each question. Where the threshold by one answer lies
+beyond the limits by the other, the question decides: limits contain both answers, so that the
+verdict holds whichever is right, and the user is asked. Otherwise it is harmless.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stickiness.criteria.pair import TOUCHES, WORDS, decide
+from stickiness.measured.guess import Guess
+from stickiness.verdicts.limits import HIGH, LOW, VALUE
+from stickiness.verdicts.pair_variables import DIMENSIONS
+
+_TOLD = ("remaining", "modulus_threshold")  #: of each answer
+
+
+def ask(
+    cell: Mapping[str, Any], others: Sequence[tuple[Guess, Mapping[str, Any]]], wanted_share: float
+) -> dict[str, Any]:
+    """Numbers and codes of a pair whatever the answers, and the questions that decide.
+
+    Parameters
+    ----------
+    cell : mapping
+        What `judgement.judge_meeting` says by the guesses.
+    others : sequence of (Guess, mapping)
+        The same by the other answer to each of them.
+    wanted_share : float
+        Share that must remain for the pair to stick.
+
+    Returns
+    -------
+    dict
+        The cell with limits that contain all answers. `questions` has, as JSON, each question that
+        decides with its answers: what they are in words, the options that give them, and the
+        verdict, the share and the threshold by each.
+    """
+    united = dict(cell)
+    asked = []
+    for guess, other in others:
+        if cell["not_judged"] or other["not_judged"] or _agree(cell, other):
+            continue
+        told = zip(guess.answers, guess.options, (cell, other), strict=True)
+        asked.append(
+            {
+                "question": guess.question,
+                "answers": [_describe(words, options, by_it) for words, options, by_it in told],
+            }
+        )
+        for name, dimensions in DIMENSIONS.items():
+            if "limit" in dimensions and name in united:
+                united[name] = _unite(np.asarray(united[name]), np.asarray(other[name]))
+    if asked:
+        low, _, high = united["remaining"]
+        grows = any(each["verdict"] == TOUCHES for each in (cell, *(other for _, other in others)))
+        united["verdict"] = decide(low, high, grows, wanted_share)
+    united["questions"] = json.dumps(asked) if asked else ""
+    return united
+
+
+def _agree(cell: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
+    """Whether the threshold of each lies within the limits of the other."""
+    mine, theirs = (each["plane_strain_modulus_threshold"] for each in (cell, other))
+    return bool(
+        theirs[LOW] <= mine[VALUE] <= theirs[HIGH] and mine[LOW] <= theirs[VALUE] <= mine[HIGH]
+    )
+
+
+def _unite(mine: NDArray, theirs: NDArray) -> NDArray:
+    """Limits that contain both, ``(..., limit)``, about the value of the first."""
+    united = mine.copy()
+    united[..., LOW] = np.fmin(mine[..., LOW], theirs[..., LOW])
+    united[..., HIGH] = np.fmax(mine[..., HIGH], theirs[..., HIGH])
+    return united
+
+
+def _describe(words: str, options: Mapping[str, str], cell: Mapping[str, Any]) -> dict[str, Any]:
+    """One answer, as JSON can hold it: numbers are low limit, value and high limit."""
+    numbers = {name: [float(number) for number in cell[name]] for name in _TOLD}
+    return {
+        "answer": words,
+        "give": dict(options),
+        "verdict": WORDS[int(cell["verdict"])],
+        **numbers,
+    }
