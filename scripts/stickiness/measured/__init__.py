@@ -1,8 +1,8 @@
 """Measured topographies, from the file to a spectrum with its errors.
 
 `read` gives the heights of a file, `from_array` cleans those of an array, `analyse` makes their
-spectrum and `draw` its moments with their errors. `periodise` and `filter_waves` make heights that
-the solvers take.
+spectrum and `draw` its moments with their errors. `find_feature` tells whether one feature decides
+the energy of a map. `periodise` and `filter_waves` make heights that the solvers take.
 """
 
 from importlib import import_module
@@ -12,6 +12,7 @@ _PLACES = {
     **dict.fromkeys(("Profile", "Topography", "from_array", "read"), "topography"),
     **dict.fromkeys(("TrustedWaves", "MeasuredSpectrum", "analyse"), "instrument_spectrum"),
     **dict.fromkeys(("Draws", "draw"), "stitching"),
+    **dict.fromkeys(("Feature", "find_feature"), "features"),
     **dict.fromkeys(("filter_waves", "periodise"), "periodic"),
 }
 
