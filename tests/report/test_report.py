@@ -155,7 +155,7 @@ def verdicts():
             "error_of_map": (dims[:2], 0 * ones[0]),
             "error_of_model": (dims[:2], 0.4 * ones[0]),
             "scan": (dims[1], [np.nan, 1e-3]),
-            "not_judged": (dims[:2], np.full((2, 2), "", "O")),
+            **{name: (dims[:2], np.full((2, 2), "", "O")) for name in ("not_judged", "questions")},
             "disagrees": ((*dims[:2], "criterion"), [[[0] * 3] * 2, [[0, 1, 0], [0, 0, 1]]]),
             "decided_by": (dims[:2], [[0, 0], [0, 0]]),
         },

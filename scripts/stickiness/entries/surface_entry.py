@@ -228,6 +228,11 @@ class Analysis(Section):
         "ask; align: set every row to the median 0, too",
         "detect",
     )
+    features: Literal["detect", "keep", "beside"] = optional(
+        "a step, scratch or particle that holds most of the energy; default detect: ask where it "
+        "decides; keep: judge contacts with it; beside: judge the largest part beside it",
+        "detect",
+    )
     detrend: Literal["detect", "mean", "plane", "quadratic"] = optional(
         "what to subtract from the heights; default detect: a plane, or the form of a lens where "
         "that is nearly all of the heights, or the mean of heights that a file calls periodic",

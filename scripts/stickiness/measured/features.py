@@ -33,9 +33,9 @@ CELLS = 32  #: along a side, of which places consist; also the fewest points
 MOST_POINTS = 256  #: along a side; larger maps are thinned
 DIRECTIONS = 24  #: of bands
 TAIL = 0.01  #: share of the points of a place below its low level, and above its high one
-LEAST_STEP = (
-    0.15  #: height of half a band over its surroundings, over that from its low to high level
-)
+LEAST_MORE = 0.05  #: excess of a band over that of a square; in a corner both are as good
+#: Height of half a band over its surroundings, over that from its low to its high level
+LEAST_STEP = 0.15
 
 
 @dataclass(frozen=True)
@@ -109,7 +109,9 @@ def find_feature(
         return None
     energy = of_cells / of_cells.sum()
 
-    place = max(*_squares(energy), *_bands(energy), key=lambda place: place.excess)
+    square = max(_squares(energy), key=lambda place: place.excess)
+    band = max(_bands(energy), key=lambda place: place.excess)
+    place = band if band.excess > square.excess + LEAST_MORE else square
     if place.excess <= LEAST_EXCESS:
         return None
 

@@ -22,3 +22,12 @@ def guess_fault(questions: list[str]) -> Guess:
         answers=("a fault of the scan", "the surface itself"),
         options=({"scan": "mend"}, {"scan": "keep"}),
     )
+
+
+def guess_place(feature: str) -> Guess:
+    """Guess that contacts with a feature of the map are meant."""
+    return Guess(
+        question=f"{feature}. Does the contact hold it, or is the surface elsewhere meant?",
+        answers=("a contact with it", "the surface elsewhere"),
+        options=({"features": "keep"}, {"features": "beside"}),
+    )

@@ -10,6 +10,8 @@ from typing import Any
 from numpy.typing import NDArray
 
 from stickiness.measured import instrument_spectrum, topography
+from stickiness.measured.features import find_feature
+from stickiness.measured.guess import guess_place
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, TrustedWaves
 from stickiness.measured.psd import Taper
 from stickiness.measured.topography import Profile, Step, Topography
@@ -54,6 +56,8 @@ class Measurement:
         """Level heights, and say which of their waves are trusted."""
         lengths = {key: float(entry[key]) for key in _INSTRUMENT_KEYS if entry.get(key) is not None}
         levelled = heights.detrended(entry["detrend"])
+        if isinstance(levelled, Topography):
+            levelled = _look_for_feature(levelled, entry)
         window = entry["window"]
         if window == "detect":
             window = "none" if levelled.periodic else "hann"
@@ -117,6 +121,44 @@ def find_spectra(measurements: Sequence[Measurement]) -> list[tuple[MeasuredSpec
         (spectrum, doubt) if spectrum.trusted else measurement.find_spectrum(alone=False)
         for measurement, (spectrum, doubt) in zip(measurements, analysed, strict=True)
     ]
+
+
+def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topography:
+    """Name a feature that decides the energy of a map, or take the part of the map beside it."""
+    choice = entry["features"]
+    feature = None if choice == "keep" else find_feature(levelled.heights, levelled.size)
+    if feature is None:
+        return levelled
+    rows = [
+        slice(*(round(end / step) for end in ends))
+        for ends, step in zip(feature.beside, levelled.steps, strict=True)
+    ]
+    beside = levelled.heights[tuple(rows)]
+    is_enough = min(beside.shape) >= FEWEST_POINTS[2]
+    if choice == "beside" and is_enough:
+        done = Step("take the part beside a feature", beside.size, {"features": choice})
+        part = replace(
+            levelled,
+            heights=beside,
+            processing=(*levelled.processing, done),
+            as_read=None,
+            unused=None,
+            periodic=False,
+        )
+        return part.detrended(entry["detrend"])
+    remark = str(feature)
+    if not is_enough:
+        remark += ". The verdict is for contacts with it: the map beside it is too small to judge"
+    guess = guess_place(str(feature)) if is_enough and choice == "detect" else None
+    step = Step("keep a feature", parameters={"features": choice}, remark=remark, guess=guess)
+    doubts = levelled.doubts
+    if (entry.get("contact") or 0.0) > max(levelled.size):
+        doubts += (
+            f"{levelled.source}: {feature}. A contact larger than the map may hold more of these, "
+            "or none: give features: beside for the surface elsewhere, or leave contact out",
+        )
+    processing = (*levelled.processing, step)
+    return replace(levelled, processing=processing, feature=feature, doubts=doubts)
 
 
 def _doubt_missing(heights: Topography | Profile, most: float) -> Topography | Profile:

@@ -18,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers, scanning
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
+from stickiness.measured.features import Feature
 from stickiness.measured.guess import Guess, guess_fault
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.readers.raw import Length, Raw, fold, metres, metres_per, sides
@@ -65,6 +66,7 @@ class _Heights:
     others: tuple[str, ...] = ()  #: channels or variables to choose from, if none was named
     contradictions: tuple[str, ...] = ()  #: what the caller said otherwise than the file
     periodic: bool = False  #: whether the heights go on periodically, as the file says
+    feature: Feature | None = None  #: that decides the energy
 
     @property
     def h_rms(self) -> float:

@@ -11,6 +11,7 @@ import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
+from matplotlib.patches import Polygon
 
 from stickiness.formatting import unit_for
 from stickiness.measured.levelling import detrend
@@ -75,10 +76,11 @@ def draw_as_used(ax: Axes, surface: xr.Dataset) -> None:
     ax.set_title("as used")
 
 
-def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
+def draw_heights(ax: Axes, heights: xr.DataArray, outline: xr.DataArray | None = None) -> None:
     """Levelled heights, as colours or as a profile, in units that suit them.
 
-    The first row of a map is on top, as programs of instruments show it.
+    The first row of a map is on top, as programs of instruments show it. A feature of the map has
+    an `outline`, ``(corner, 2)``, in m.
     """
     per_x, unit_x = unit_for(max(float(heights[axis][-1]) for axis in heights.dims), "m")
     low, high = np.percentile(heights, [0.2, 99.8])  # a few outliers must not take all the colours
@@ -96,6 +98,9 @@ def draw_heights(ax: Axes, heights: xr.DataArray) -> None:
         extent=(0, float(heights.x[-1]) * per_x, float(heights.y[-1]) * per_x, 0),
         interpolation="nearest",
     )
+    if outline is not None:
+        corners = outline.values * per_x
+        ax.add_patch(Polygon(corners, fill=False, color=COLOURS[1], linewidth=2))
     ax.figure.colorbar(image, ax=ax, label=f"height [{unit_h}]", shrink=0.8)
     ax.set_ylabel(f"y [{unit_x}]")
 

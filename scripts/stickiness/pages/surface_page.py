@@ -99,7 +99,8 @@ def write_surface_page(
 def draw_surface(surface: xr.Dataset) -> dict[str, list[dict[str, Any]]]:
     """Pictures of the surface alone: heights and spectrum, and heights as they were read."""
     pictured = [surface[name] for name in ("heights", "profile") if name in surface][:1]
-    panels = [draw_panel(surface_figures.draw_heights, heights) for heights in pictured]
+    outline = surface.get("feature_outline")
+    panels = [draw_panel(surface_figures.draw_heights, heights, outline) for heights in pictured]
     panels.append(draw_panel(surface_figures.draw_spectrum, surface))
     reading = []
     if "heights_as_read" in surface and surface_figures.shows_change(surface):

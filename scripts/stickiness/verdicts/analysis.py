@@ -139,6 +139,7 @@ def _tabulate(
             _describe_heights(heights, spectrum),
             _tabulate_draws(draws, spectrum.cutoff.q if q_extended is None else q_extended),
             _compare_measurements(spectrum),
+            _outline_feature(heights[0]),
         ]
     )
 
@@ -231,6 +232,13 @@ def _thin_reading(heights: Topography | Profile) -> xr.Dataset:
     unused = unused.coarsen(x_read=thin, y_read=thin, boundary="pad").max()
     picture = heights.as_read[::thin, ::thin].astype("f4")
     return xr.Dataset({"heights_as_read": (unused.dims, picture), "unused": unused.astype("i1")})
+
+
+def _outline_feature(heights: Topography | Profile) -> xr.Dataset:
+    """Corners of the feature that decides the energy of a map; nothing of others."""
+    if heights.feature is None:
+        return xr.Dataset()
+    return xr.Dataset({"feature_outline": (("corner", "axis"), list(heights.feature.outline))})
 
 
 def _describe_fit(spectrum: MeasuredSpectrum, q_extended: float | None) -> xr.Dataset:

@@ -98,6 +98,7 @@ SURFACE_VARIABLES = {
     "cropped_fraction": ("1", "share of points cut off to leave no missing ones"),
     "heights": ("m", "levelled heights of the first measurement, thinned"),
     "heights_as_read": ("m", "heights of the first measurement as read, thinned", "missing"),
+    "feature_outline": ("m", "corners, x and y, of a feature that decides the energy"),
     "unused": ("1", "1 if a point that was read is masked, dropped or cut off, thinned"),
     "profile": ("m", "levelled heights of the first measurement"),
     "x": ("m", "position along x"),

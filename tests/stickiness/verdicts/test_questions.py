@@ -19,7 +19,8 @@ TAPE = Material(youngs_modulus=150e6, work_of_adhesion=0.05, range=0.3e-9)
 
 def read(heights, **options):
     """The surface of heights whose shortest waves are told."""
-    return Surface.from_heights(heights, SIDE, extend_to="6 um", **options)
+    options = {"features": "keep", "extend_to": "6 um"} | options
+    return Surface.from_heights(heights, SIDE, **options)
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +46,7 @@ def test_a_step_along_the_rows_is_a_question(film):
         assert mended.word == "sticks"
         assert kept.word in ("does not stick", "adheres locally, does not hold")
         (question,) = asked.questions
-        assert "0.5 µm" in question["question"]
+        assert "500 nm" in question["question"]
         assert [answer["give"] for answer in question["answers"]] == [
             {"scan": "mend"},
             {"scan": "keep"},
@@ -130,3 +131,35 @@ def test_sure_mends_ask_nothing(film):
     rows = read(heights + offsets)
     assert rows.readings == ()
     assert "random heights" in rows.data.attrs["remarks"]
+
+
+def test_a_feature_is_a_question(film):
+    """A particle decides; the part beside it tells of the surface elsewhere."""
+    heights, _ = film
+    x = np.arange(128)[:, None]
+    particle = heights + 2e-6 * np.exp(-((x - 110) ** 2 + (x.T - 20) ** 2) / 60)
+    asked = verdict(read(particle, features="detect"), TAPE)
+    assert asked.word == "depends"
+    (question,) = asked.questions
+    assert question["question"].startswith("a raised patch around x = 180 µm, y = ")
+    answers = {answer["give"]["features"]: answer for answer in question["answers"]}
+    assert answers["beside"]["verdict"] == verdict(read(heights), TAPE).word == "sticks"
+    beside = read(particle, features="beside")
+    assert beside.readings == ()
+    assert beside.scan < SIDE
+    alone = verdict(beside, TAPE)
+    assert alone.remaining == answers["beside"]["remaining"][1]
+    low, high = alone.modulus_threshold_limits
+    assert low < verdict(read(heights), TAPE).modulus_threshold < high
+
+
+def test_a_feature_forbids_a_larger_contact(film):
+    heights, step = film
+    larger = {"contact": "2 mm"}
+    answer = verdict(
+        read(heights + step[:, None] * 2, features="detect", scan="keep", **larger), TAPE
+    )
+    assert answer.word == "not judged"
+    assert "give features: beside" in answer.not_judged[0]
+    even = verdict(read(heights, features="detect", **larger), TAPE)
+    assert even.word != "not judged"
