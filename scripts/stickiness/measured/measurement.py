@@ -148,7 +148,7 @@ def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topogra
         return part.detrended(entry["detrend"])
     remark = str(feature)
     if not is_enough:
-        remark += ". The verdict is for contacts with it: the map beside it is too small to judge"
+        remark += ". The map beside it is too small to judge the surface elsewhere"
     guess = guess_place(str(feature)) if is_enough and choice == "detect" else None
     step = Step("keep a feature", parameters={"features": choice}, remark=remark, guess=guess)
     doubts = levelled.doubts

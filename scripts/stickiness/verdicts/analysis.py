@@ -82,7 +82,7 @@ def analyse(
     doubts = [doubt for each in heights for doubt in each.doubts]
     about_fit = list(doubt_fit(fit, is_end_told)) if is_fitted else unfitted
     if about_fit:
-        doubts += _find_patterns(heights) or about_fit
+        doubts += _find_features(heights) or _find_patterns(heights) or about_fit
     not_judged = [] if ignore_doubts else doubts
 
     # Without a fit there is no law that goes on.
@@ -164,6 +164,20 @@ def _remark_on_exponent(fit: SelfAffineFit) -> list[str]:
     return [
         f"the fitted H = {fit.hurst:.2f} is outside {low:g} to {high:g}: waves that are not "
         "resolved continue the last octave with an exponent within these bounds"
+    ]
+
+
+def _find_features(heights: Sequence[Topography | Profile]) -> list[str]:
+    """Doubts about features that decide the spectrum of a map, so that it has no such fit."""
+    return [
+        f"{each.source}: {each.feature}, and no spectrum of random roughness fits; "
+        + (
+            "give features: beside for the surface elsewhere"
+            if each.guesses
+            else "map a larger part"
+        )
+        for each in heights
+        if each.feature is not None
     ]
 
 

@@ -58,6 +58,8 @@ def ask(
         for name, dimensions in DIMENSIONS.items():
             if "limit" in dimensions and name in united:
                 united[name] = _unite(np.asarray(united[name]), np.asarray(other[name]))
+        united["probability"] = np.fmax(united["probability"], other["probability"])
+        united["probability_low"] = np.fmin(united["probability_low"], other["probability_low"])
     if asked:
         low, _, high = united["remaining"]
         grows = any(each["verdict"] == TOUCHES for each in (cell, *(other for _, other in others)))
