@@ -131,8 +131,8 @@ def test_height_factor_is_that_of_higher_heights(heights, monkeypatch, capsys):
 
 @pytest.mark.parametrize("kind", ["self_affine", "surface_texture", "example"])
 def test_every_kind_is_answered_as_it_stands(kind):
-    _, fields = form.make_form()["surfaces"][kind]
-    at_first = {field.key: field.text for field in fields}
+    _, fields, more = form.make_form()["surfaces"][kind]
+    at_first = {field.key: field.text for field in (*fields, *more)}
     answer = post("answer", make_question(kind, **at_first))
     assert re.search(r"material (sticks|does not|adheres|it depends)", show(answer["page"]))
     assert answer["command"].startswith("python -m stickiness example_wall.txt") == (
@@ -180,7 +180,7 @@ def test_errors_are_those_of_the_command(heights, values, title, option, monkeyp
 def test_files_stay_in_folders_of_their_own(folder):
     outside = folder.parent / "outside.txt"
     outside.write_text("1 2", encoding="utf-8")
-    sent = [post(f"file?name={name}", b"1 2")["file"] for name in ("..", ".", "%2F", "", "a%00b")]
+    sent = [post(f"file?name={name}", b"1 2")["file"] for name in ("..", ".", "%2F", "", "a%00b", 300 * "n")]
     sent.append(post("file?name=..%2F..%5Cevil%2Fpicture.txt", b"\x89PNG no heights")["file"])
     for file in sent:
         path = (folder / file).resolve()
@@ -210,6 +210,10 @@ def test_files_to_keep(heights, folder):
     assert "acrylic pressure-sensitive adhesive" in page.lower()
     left = {path.name for path in folder.iterdir()} - {"kept"}
     assert left == {file.partition("/")[0]}  # nothing else stays
+    wrong = question | {"material": question["material"] | {"youngs_modulus": "abc"}}
+    for what in ("page", "configuration"):
+        ((code, told),) = ask((what, {"method": "POST", "body": json.dumps(wrong)}))
+        assert (code, "Young's modulus 'abc'" in json.loads(told)["error"]) == (200, True)
 
 
 @pytest.mark.parametrize(
@@ -263,7 +267,12 @@ def test_command_takes_nothing_beside_the_app(monkeypatch):
 def test_fields_are_those_of_the_schema():
     texts = entries.describe_keys("material")
     units = {"youngs_modulus": "Pa", "work_of_adhesion": "J/m^2", "range": "m", "thickness": "m"}
-    for field in form.make_form()["material"]:
+    described = form.make_form()
+    keys = {field.key for field in (*described["material"], *described["more_fields"])}
+    assert keys == {"label", *command.TEXTS["material"]} - {"common"}
+    _, fields, more = described["surfaces"]["measured"]
+    assert {field.key for field in (*fields, *more)} == {*command.TEXTS["surface"]} - {"label"}
+    for field in described["material"]:
         assert field.description == texts[field.key]
         assert field.unit == units.get(field.key, field.unit)
         assert field.ends is None or field.ends[0] < field.ends[1]

@@ -130,10 +130,8 @@ async def use(folder):
             shares = set()
             await type_texts(tab, {"youngs_modulus": "40 kPa", "thickness": "", "pressed": ""})
             for name, options in formats.items():
+                # What was told of another file is asked anew.
                 await drop(tab, folder / name)
-                await type_texts(
-                    tab, dict.fromkeys(("length", "height_unit", "position_unit"), ""), "measured"
-                )
                 await type_texts(tab, options, "measured")
                 answer, _ = await tab.wait_for(
                     f"(({ANSWER}) || '').includes({json.dumps(name)}) && {ANSWER}"

@@ -12,13 +12,15 @@ from stickiness.plausibility import PLAUSIBLE
 
 EXAMPLE = "example"
 EXAMPLE_FILE = command.TEXTS["example"]["surface"][0]
-#: Kinds of surfaces: what they are called, their models, and their keys with values at first.
+#: What files may leave open: asked anew of every file.
+OF_FILE = ("length", "height_unit", "position_unit", "channel", "variable", "format", "pixel_size")
+#: Kinds of surfaces: what they are called, their models, and their first keys with values.
 SURFACES: dict[str, tuple[str, type[Section], dict[str, str]]] = {
-    EXAMPLE: ("the example, a painted wall", MeasuredEntry, {"contact": ""}),
+    EXAMPLE: ("the example, a painted wall", MeasuredEntry, {"height_factor": "1", "contact": ""}),
     "measured": (
         "a file of heights",
         MeasuredEntry,
-        dict.fromkeys(("length", "height_unit", "position_unit", "channel", "contact"), ""),
+        {"length": "", "height_unit": "", "height_factor": "1", "contact": ""},
     ),
     "self_affine": (
         "a spectrum",
@@ -30,9 +32,9 @@ SURFACES: dict[str, tuple[str, type[Section], dict[str, str]]] = {
             "shortest_wavelength": "1 nm",
         },
     ),
-    "surface_texture": ("a drawing", SurfaceTextureEntry, {"Ra": "0.8 um", "RSm": ""}),
+    "surface_texture": ("a drawing", SurfaceTextureEntry, {"Ra": "0.8 um", "RSm": "0.1 mm"}),
 }
-#: Keys of the material. A common material fills in the first four.
+#: First keys of the material. A common material fills in some of them.
 ELASTIC = ("youngs_modulus", "work_of_adhesion", "range", "poisson_ratio")
 MATERIAL = (*ELASTIC, "thickness", "pressed")
 #: Ends of the sliders in SI units. A text may go beyond.
@@ -46,40 +48,41 @@ SLIDERS = {
 }
 #: What readers call keys whose own words they do not know.
 TITLES = {
+    "label": "name",
     "youngs_modulus": "Young's modulus",
     "poisson_ratio": "Poisson's ratio",
+    "range": "range of the attraction",
     "pressed": "preload",
+    "contact": "side of the contact",
     "h_rms": "rms height",
     "hurst": "Hurst exponent",
 }
 
 
 class Field(NamedTuple):
-    """A key of the schema as a text of the form, with a slider over decades if it has ends."""
+    """A key of the schema as a text or a choice, with a slider over decades if it has ends."""
 
     key: str
     title: str
     description: str
     unit: str
     text: str  #: at first
-    hint: str  #: the plausible range
+    choices: list[str]
     ends: tuple[float, float] | None  #: of the slider
 
 
-def make_field(section: type[Section], key: str, text: str) -> Field:
+def make_field(section: type[Section], key: str, text: str = "") -> Field:
     """Describe a key of a model by its schema."""
     schema = section.model_json_schema()["properties"][key]
     # One value or two may stand for a range: its unit is that of one.
     units = [each["unit"] for each in (schema, *schema.get("oneOf", ())) if "unit" in each]
-    unit = units[0] if units else ""
-    limits = PLAUSIBLE.get(key)
     return Field(
         key=key,
         title=title(key),
         description=schema["description"],
-        unit=unit,
+        unit=units[0] if units else "",
         text=text,
-        hint=f"{limits.least:g} to {limits.most:g} {unit}" if limits else "",
+        choices=schema.get("enum", []),
         ends=SLIDERS.get(key),
     )
 
@@ -93,26 +96,39 @@ def title(key: str) -> str:
 def list_titles() -> dict[str, str]:
     """Titles of all fields, by key."""
     of_surfaces = [key for _, _, keys in SURFACES.values() for key in keys]
-    return {key: title(key) for key in (*MATERIAL, *of_surfaces, "height_factor")}
+    return {key: title(key) for key in (*command.OPTIONS, *of_surfaces)}
 
 
 def make_form() -> dict[str, Any]:
-    """Return what the template of the form shows: fields of the surfaces and of the material."""
-    factor = {"height_factor": "1"}
-    at_first = command.TEXTS["defaults"] | dict(read_example("material"))
+    """Return what the template of the form shows.
+
+    The first fields of every kind of surface and of the material, and those behind "More": the
+    other options of the command.
+    """
+    at_first = command.TEXTS["defaults"] | read_example("material")
+    surfaces = {
+        kind: (
+            name,
+            [make_field(section, key, text) for key, text in keys.items()],
+            [
+                make_field(section, key)
+                for key in command.TEXTS["surface"]
+                if section is MeasuredEntry and key not in ("label", *keys)
+                if kind != EXAMPLE or key not in OF_FILE
+            ],
+        )
+        for kind, (name, section, keys) in SURFACES.items()
+    }
     return {
-        "surfaces": {
-            kind: (
-                name,
-                [
-                    make_field(section, key, text)
-                    for key, text in (keys | (factor if section is MeasuredEntry else {})).items()
-                ],
-            )
-            for kind, (name, section, keys) in SURFACES.items()
-        },
+        "surfaces": surfaces,
         "material": [make_field(Material, key, at_first.get(key, "")) for key in MATERIAL],
+        "more_fields": [
+            make_field(Material, key)
+            for key in ("label", *command.TEXTS["material"])
+            if key not in ("common", *MATERIAL)
+        ],
         "elastic": ELASTIC,
+        "of_file": OF_FILE,
     }
 
 

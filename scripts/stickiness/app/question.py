@@ -18,6 +18,9 @@ from stickiness.pages.surface_page import draw_surface
 
 SENT = "file-*/*"  #: where files of heights that were sent are kept
 SOURCE = "typed into the app"  #: of values
+HOW_TO_RUN = (
+    "# In this folder: snakemake -s PROJECT/Snakefile -j2 surfaces --configfile config.yaml"
+)
 OWN = "own values"  #: in the list of common materials
 MOST_KEPT = 4  #: surfaces, so that a return to one of them is not analysed again
 
@@ -39,10 +42,11 @@ class Question(NamedTuple):
         """
         kind = form["kind"]
         given = read_values(form["surface"])
-        labels = ["this material", *(f"kept material {n}" for n in range(len(form["kept"]), 0, -1))]
+        kept = [each for each in form["kept"] if each != form["material"]]
+        labels = ["this material", *(f"kept material {n}" for n in range(len(kept), 0, -1))]
         materials = [
             read_material(each, label)
-            for each, label in zip((form["material"], *form["kept"]), labels, strict=True)
+            for each, label in zip((form["material"], *kept), labels, strict=True)
         ]
         if kind not in (EXAMPLE, "measured"):
             texts = {"label": "the surface", "source": SOURCE}
@@ -55,7 +59,7 @@ class Question(NamedTuple):
             given = read_example("surface") | given
         else:
             # Only what was sent is known: no path leads to another file.
-            file = Path(form["file"])
+            file = Path(form.get("file", ""))
             if file not in Path().glob(SENT):
                 raise ValueError("choose a file of heights")
         texts = {"label": command.name_page(file), "source": file.name}
@@ -80,7 +84,8 @@ class Question(NamedTuple):
         """Return the line that asks the command the same; empty of a surface that is described."""
         if self.surface["kind"] != "measured":
             return ""
-        words = ["python", "-m", "stickiness", Path(self.surface["file"]).name]
+        name = Path(self.surface["file"]).name
+        words = ["python", "-m", "stickiness", f"./{name}" if name.startswith("-") else name]
         given = {**self.surface, **self.materials[0]}
         for key in [key for key in given if key in command.OPTIONS and key != "label"]:
             sides = given[key] if isinstance(given[key], list) else [given[key]]
@@ -91,6 +96,9 @@ class Question(NamedTuple):
         """Write a configuration of the workflow into a folder, with the file of heights."""
         import yaml
 
+        for entry in self.materials:
+            check_material(entry)
+        check_surface(self.surface)
         surface = dict(self.surface)
         if "file" in surface:
             surface["file"] = Path(shutil.copy(surface["file"], folder)).name
@@ -105,6 +113,8 @@ class Question(NamedTuple):
         }
         for name, content in contents.items():
             text = yaml.safe_dump(content, allow_unicode=True, sort_keys=False)
+            if name == "config.yaml":
+                text = f"{HOW_TO_RUN}\n{text}"
             (folder / name).write_text(text, encoding="utf-8")
 
 

@@ -35,6 +35,7 @@ from stickiness.pages import rendering
 
 HOST = "127.0.0.1"
 MOST_BYTES = 50_000_000  #: of a file
+LONGEST_NAME = 100  #: characters, of which the last are kept
 #: Answers all questions of all tabs, one after the other: figures are drawn by one thread alone.
 WORKER = ThreadPoolExecutor(1)
 #: No other page may load or send anything; the answer is a part of the page.
@@ -86,7 +87,8 @@ class Handler(RequestHandler):
     def keep_file(self) -> dict[str, str]:
         """Keep a file that was sent, in a folder of its own; return its name there."""
         # Nothing that a system takes for more than a name.
-        name = re.sub(r"[^\w.+() -]", "_", self.get_query_argument("name")).lstrip(".") or "heights"
+        given = re.split(r"[/\\]", self.get_query_argument("name"))[-1]
+        name = re.sub(r"[^\w.+() -]", "_", given).lstrip(".")[-LONGEST_NAME:] or "heights"
         file = Path(f"file-{secrets.token_hex(8)}", name)
         file.parent.mkdir()
         file.write_bytes(self.request.body)
@@ -158,4 +160,7 @@ async def _serve() -> None:
     command.say(f"The app is at {address} (Ctrl-C ends it)")
     sys.stdout.flush()  # also where it goes to a file
     webbrowser.open(address)
-    await asyncio.Event().wait()
+    try:
+        await asyncio.Event().wait()
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # one Ctrl-C is enough

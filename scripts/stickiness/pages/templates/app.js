@@ -36,16 +36,26 @@ function question() {
   return JSON.stringify({ kind, file, surface: textsOf(kind), material: material(), kept });
 }
 async function post(what, body) {
+  let answer;
   try {
-    return await fetch(what, { method: "POST", body });
+    answer = await fetch(what, { method: "POST", body });
   } catch {
     throw new Error("The app has ended. Start it again, and open the address that it prints.");
   }
+  if (!answer.ok) throw new Error(`The app could not do this (${answer.status}).`);
+  return answer;
 }
+// What is wrong, in place of an answer, and the fields that it names.
 function fail(text) {
-  word.textContent = "";
+  word.textContent = text;
+  line.textContent = "";
   shown.innerHTML = '<ul class="answers doubts" role="alert"><li></li></ul>';
   shown.querySelector("li").textContent = text;
+  mark(text);
+}
+function mark(text) {
+  for (const field of form.querySelectorAll("[data-group]"))
+    field.setAttribute("aria-invalid", text.includes(field.parentNode.firstChild.textContent));
 }
 
 // While a question is answered, only the last of those that follow waits.
@@ -55,7 +65,7 @@ async function ask() {
   isAsking = true;
   const start = Date.now();
   const clock = setInterval(() => {
-    word.textContent = `Working … ${Math.round((Date.now() - start) / 1000)} s (heights take 3 to 10 s once)`;
+    word.textContent = `Working … ${Math.round((Date.now() - start) / 1000)} s`;
   }, 1000);
   shown.setAttribute("aria-busy", "true");
   try {
@@ -68,11 +78,13 @@ async function ask() {
     fail(error.message);
   }
   clearInterval(clock);
+  word.classList.remove("stale");
   shown.removeAttribute("aria-busy");
   isAsking = false;
 }
 function show(answer) {
   if (answer.error) return fail(answer.error);
+  mark("");
   const main = new DOMParser().parseFromString(answer.page, "text/html").querySelector("main");
   // Files of data are those of "Save page".
   for (const link of main.querySelectorAll("a.data")) link.replaceWith(...link.childNodes);
@@ -82,13 +94,17 @@ function show(answer) {
   shown.replaceChildren(main);
   const sentence = main.querySelector(".answers:not(.doubts) li")?.firstChild.textContent;
   word.textContent = sentence ? sentence.split(". ")[0] : "Not judged";
-  line.textContent = answer.command || "The command takes measured heights. Save the configuration.";
+  line.textContent = answer.command;
 }
 
 async function send(chosen) {
-  const most = Number(form.querySelector("[type=file]").dataset.most);
+  const chooser = form.querySelector("[type=file]");
+  const { most, keys } = chooser.dataset;
+  chooser.value = "";
+  document.getElementById("name").textContent = chosen.name;
   form.kind.value = "measured";
   showKind();
+  for (const key of keys.split(" ")) form.querySelector(`[data-group=measured][name=${key}]`).value = "";
   if (chosen.size > most)
     return fail(`${chosen.name}: larger than ${most / 1e6} MB; take a part of the heights`);
   try {
@@ -108,11 +124,20 @@ async function save(what) {
   link.click();
 }
 const actions = {
-  keep: () => { kept.unshift(material()); ask(); },
+  keep: () => {
+    const isNew = !kept.some((each) => JSON.stringify(each) === JSON.stringify(material()));
+    if (isNew) kept.unshift(material());
+    ask();
+  },
   forget: () => { kept.length = 0; ask(); },
   page: () => save("page").catch((error) => fail(error.message)),
   configuration: () => save("configuration").catch((error) => fail(error.message)),
-  copy: () => navigator.clipboard.writeText(line.textContent),
+  copy: (button) => {
+    const label = button.textContent;
+    const done = line.textContent ? "Copied" : "The command takes measured heights only";
+    navigator.clipboard.writeText(line.textContent).then(() => { button.textContent = done; });
+    setTimeout(() => { button.textContent = label; }, 2000);
+  },
 };
 
 function showKind() {
@@ -131,6 +156,7 @@ for (const slider of form.querySelectorAll(".slider")) {
     const isNone = "none" in slider.dataset && slider.value === slider.min;
     input.value = isNone ? "" : tellPower(Number(slider.value), input.dataset.unit);
     slider.setAttribute("aria-valuetext", input.value || "not given");
+    word.classList.add("stale"); // until it is let go
   });
   input.follow();
 }
@@ -147,7 +173,7 @@ form.addEventListener("change", (event) => {
   ask();
 });
 form.addEventListener("submit", (event) => event.preventDefault());
-form.addEventListener("click", (event) => actions[event.target.dataset.do]?.());
+form.addEventListener("click", (event) => actions[event.target.dataset.do]?.(event.target));
 for (const kind of ["dragover", "dragleave", "drop"])
   document.addEventListener(kind, (event) => {
     event.preventDefault();
