@@ -180,7 +180,10 @@ def test_errors_are_those_of_the_command(heights, values, title, option, monkeyp
 def test_files_stay_in_folders_of_their_own(folder):
     outside = folder.parent / "outside.txt"
     outside.write_text("1 2", encoding="utf-8")
-    sent = [post(f"file?name={name}", b"1 2")["file"] for name in ("..", ".", "%2F", "", "a%00b", 300 * "n")]
+    sent = [
+        post(f"file?name={name}", b"1 2")["file"]
+        for name in ("..", ".", "%2F", "", "a%00b", 300 * "n")
+    ]
     sent.append(post("file?name=..%2F..%5Cevil%2Fpicture.txt", b"\x89PNG no heights")["file"])
     for file in sent:
         path = (folder / file).resolve()

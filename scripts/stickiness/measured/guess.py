@@ -31,3 +31,15 @@ def guess_place(feature: str) -> Guess:
         answers=("a contact with it", "the surface elsewhere"),
         options=({"features": "keep"}, {"features": "beside"}),
     )
+
+
+def guess_end(shortest: str) -> Guess:
+    """Guess that waves may go on below the shortest that was resolved."""
+    return Guess(
+        question=f"Do waves go on below {shortest}, the shortest that the measurement resolves?",
+        answers=(
+            "they may go on, which a finer map of a smaller part would tell",
+            "they end there",
+        ),
+        options=({}, {"extend_to": shortest}),
+    )

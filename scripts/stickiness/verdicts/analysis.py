@@ -42,6 +42,8 @@ SEED = 1  #: of the draws
 PICTURE_POINTS = 400  #: along a side of the picture of the heights that is kept
 READING_POINTS = 100  #: along a side of the picture of the heights as read
 FEWEST_STEPS = 2  #: of the grid, over which a slope is taken: half of the shortest wave fitted
+ROUNDED = 0.01  #: relative, by which the end of waves may miss the cutoff that it was read from
+LEAST_BEYOND = 1e-6  #: relative, beyond the cutoff, at which waves end that are told to end there
 LEFT_OUT = "left out of the spectrum"
 
 
@@ -87,6 +89,8 @@ def analyse(
 
     # Without a fit there is no law that goes on.
     q_extended = 2 * np.pi / extend_to if is_end_told and is_fitted else None
+    if q_extended is not None and q_extended > (1 - ROUNDED) * spectrum.cutoff.q:
+        q_extended = max(q_extended, (1 + LEAST_BEYOND) * spectrum.cutoff.q)
     end_of_grid = np.pi / max(heights[0].steps)
     if q_extended is not None and q_extended <= end_of_grid * (1 + 1e-9):
         # Whoever tells that the waves end within the grid says that the heights hold all of them.

@@ -30,7 +30,8 @@ from stickiness.criteria.pair import (
 )
 from stickiness.criteria.registry import CRITERIA, EDGES, REMAINING
 from stickiness.entries.material import Material
-from stickiness.formatting import percent
+from stickiness.formatting import amount, percent
+from stickiness.measured.guess import guess_end
 from stickiness.remaining.roughness import LEAST_LENGTH
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.solids import HALF_SPACE, Skin
@@ -54,7 +55,7 @@ from stickiness.verdicts.pair_variables import (
     PAIR_VARIABLES,
     PER_PAIR,
 )
-from stickiness.verdicts.questions import ask
+from stickiness.verdicts.questions import ask, ask_about_end
 from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.surface_data import ENDS
 from stickiness.verdicts.thresholds import (
@@ -161,7 +162,12 @@ def judge(
                 for reading in (surface, *(other.surface for other in surface.readings))
             )
             guesses = [other.guess for other in surface.readings]
-            cells.append(ask(cell, list(zip(guesses, others, strict=True)), wanted_share))
+            cell = ask(cell, list(zip(guesses, others, strict=True)), wanted_share)
+            if cell["verdict"] == DEPENDS and surface.as_measured is not None:
+                as_measured = judge_meeting(meet(material, surface.as_measured, wanted_share))
+                shortest = amount(surface.shortest_resolved, "m")
+                cell = ask_about_end(cell, as_measured, guess_end(shortest))
+            cells.append(cell)
     dataset = _arrange(cells, materials, surfaces).assign(wanted_share=wanted_share)
     rate_moduli = [find_rate_moduli(each.plane_strain, axes) for each in materials.values()]
     dataset["modulus"] = ("material", "frequency"), rate_moduli

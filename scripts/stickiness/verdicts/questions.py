@@ -68,6 +68,19 @@ def ask(
     return united
 
 
+def ask_about_end(
+    cell: Mapping[str, Any], as_measured: Mapping[str, Any], guess: Guess
+) -> dict[str, Any]:
+    """Ask where the waves end if that decides: limits of the cell contain both answers already."""
+    if as_measured["verdict"] == cell["verdict"] or cell["not_judged"]:
+        return dict(cell)
+    told = zip(guess.answers, guess.options, (cell, as_measured), strict=True)
+    answers = [_describe(words, options, by_it) for words, options, by_it in told]
+    asked = json.loads(cell["questions"] or "[]")
+    asked.append({"question": guess.question, "answers": answers})
+    return {**cell, "questions": json.dumps(asked)}
+
+
 def _agree(cell: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
     """Whether the threshold of each lies within the limits of the other."""
     mine, theirs = (each["plane_strain_modulus_threshold"] for each in (cell, other))

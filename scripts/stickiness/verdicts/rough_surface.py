@@ -382,6 +382,21 @@ class Surface:
         return read_family(self.data) if self.draw_count else SpectrumFamily.of(*self.spectra)
 
     @property
+    def shortest_resolved(self) -> float:
+        """Shortest wave that the instrument resolves [m]; NaN of a surface not measured."""
+        return 2 * np.pi / float(self.data.get("q_cutoff", np.nan))
+
+    @cached_property
+    def as_measured(self) -> Surface | None:
+        """The same without waves that were not resolved; None if their end is known."""
+        if not self.draw_count or self.data.q1 > self.data.q_cutoff * (1 + 1e-9):
+            return None
+        is_resolved = self.data.ring <= self.data.q_cutoff * (1 + 1e-9)
+        measured = self.data.assign(drawn_psd=self.data.drawn_psd.where(is_resolved, 0.0))
+        # The heights hold all of these waves.
+        return Surface(measured.assign(held_energy=("draw", read_family(measured).energy())))
+
+    @property
     def _told(self) -> SpectrumFamily:
         """The waves that were measured or told; what draws have beyond is unknown."""
         return self.family.up_to(float(self.data.q1)) if self.draw_count else self.family

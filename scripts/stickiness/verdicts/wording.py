@@ -137,10 +137,11 @@ def tell_answer(answer: Mapping[str, Any], cell: xr.Dataset) -> str:
     """What would be by one answer to a question: the option that gives it, verdict and numbers."""
     low, value, high = answer["remaining"]
     options = " and ".join(f"{key}: {text}" for key, text in answer["give"].items())
+    told = f"{answer['answer']} (give {options})" if options else answer["answer"]
     by_it = {name: ("limit", answer[name]) for name in ("remaining", "modulus_threshold")}
     threshold = tell_threshold(cell.assign(by_it))
     return (
-        f"{answer['answer']} (give {options}): {answer['verdict']}, "
+        f"{told}: {answer['verdict']}, "
         f"{tell_share(value, low, high)} remains, threshold {threshold}"
     )
 

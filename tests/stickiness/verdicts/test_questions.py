@@ -163,3 +163,35 @@ def test_a_feature_forbids_a_larger_contact(film):
     assert "give features: beside" in answer.not_judged[0]
     even = verdict(read(heights, features="detect", **larger), TAPE)
     assert even.word != "not judged"
+
+
+def test_where_waves_end_is_asked_where_that_decides():
+    """An answer as measured is that of a surface whose waves are told to end there."""
+    waves = SelfAffine(hurst=0.8, q0=8 * np.pi / SIDE, q1=128 * np.pi / SIDE, h_rms=15e-8)
+    heights = surface.synthesise(waves, 128, SIDE, seed=3)
+    rough = Surface.from_heights(heights, SIDE)
+    told = Surface.from_heights(heights, SIDE, extend_to=1.005 * rough.shortest_resolved)
+    assert told.as_measured is None
+    asked = []
+    for modulus in np.geomspace(8e6, 8e7, 40):
+        tape = Material(youngs_modulus=modulus, work_of_adhesion=0.05, range=0.3e-9)
+        open_ended, ended = (
+            StickinessVerdict(judge([tape], [each], curves=False).isel(material=0, surface=0))
+            for each in (rough, told)
+        )
+        if not open_ended.questions:
+            assert open_ended.word != "depends" or ended.word == "depends"
+            continue
+        asked.append(modulus)
+        assert open_ended.word == "depends" != ended.word
+        (question,) = open_ended.questions
+        go_on, end = question["answers"]
+        assert go_on["verdict"] == "depends"
+        assert go_on["give"] == {}
+        assert end["verdict"] == ended.word
+        assert end["remaining"][1] == pytest.approx(ended.remaining, rel=1e-4)
+        limits = ended.modulus_threshold_limits
+        assert (end["modulus_threshold"][0], end["modulus_threshold"][2]) == pytest.approx(
+            limits, rel=1e-4
+        )
+    assert len(asked) >= 2
