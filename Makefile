@@ -11,7 +11,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --no-com
 COMPILE := $(BIN)/python -m compileall -qq -j$(CORES) -x '/tests?/' $(VENV)/lib || true
 SNAKEMAKE := $(BIN)/snakemake -j$(CORES)
 
-.PHONY: install reproduce draft test test-quick test-processors test-wheel coverage lint format dag benchmark docs pictures
+.PHONY: install reproduce draft test test-quick test-processors test-wheel coverage lint format dag benchmark benchmark-run docs pictures
 
 install: $(VENV)/.run  ## the environment alone
 
@@ -75,6 +75,9 @@ pictures: $(VENV)/.run  ## pictures and examples of README.md and docs, from res
 
 benchmark: $(VENV)/.dev $(VENV)/.aspher  ## the contact solver beside its peers
 	PYTHONPATH=scripts $(BIN)/python benchmarks/repulsive_vs_peers.py
+
+benchmark-run: $(VENV)/.run  ## two commits of this project in turn: make benchmark-run BASE=<commit>
+	$(BIN)/python benchmarks/two_commits.py $(BASE)
 
 $(VENV)/bin/python:
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=…" if sys.version_info < (3, 11) else 0)'
