@@ -22,10 +22,9 @@ from stickiness.formatting import printable, relative_path
 
 SURFACE = "surface"  #: name of the one that is judged, in files
 TEXTS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-#: Options by the keys of the configuration, for which they stand.
-SIDES = ("length", "pixel_size")  #: keys of one value or two
 #: Names that Windows keeps for devices.
 DEVICES = re.compile(r"con|prn|aux|nul|(com|lpt)[0-9¹²³]", re.IGNORECASE)
+#: Options by the keys of the configuration, for which they stand.
 OPTIONS = {key: option for group in ("material", "surface") for key, option in TEXTS[group].items()}
 
 
@@ -168,7 +167,7 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
         group = parser.add_argument_group(title)
         texts = describe_keys(title)
         for key, option in TEXTS[title].items():
-            kind = str if key == "label" else read_sides if key in SIDES else read_value
+            kind = str if key == "label" else read_value
             text = texts[key].replace("%", "%%")
             if key in TEXTS["defaults"]:
                 text = f"{text} (default: {TEXTS['defaults'][key]})"
@@ -226,17 +225,6 @@ def read_value(text: str) -> Any:
         if re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", text, re.IGNORECASE):
             return float(text)  # .5, which is no JSON
         return text
-
-
-def read_sides(text: str) -> Any:
-    """Return a value, or a list of two around an x that is not before 10^5.
-
-    A unit behind the second alone is that of both.
-    """
-    if both := re.fullmatch(r"([\d.]+)\s*[x×]\s*([\d.]+)\s*([A-Za-zµμÅ].*)", text):
-        return [f"{side} {both[3]}" for side in both.group(1, 2)]
-    sides = re.split(r"\s*[x×]\s*(?=\d)(?!10\s*(?:\^|\*\*|[⁻⁰¹²³⁴-⁹]))", text)
-    return sides if len(sides) == 2 else read_value(text)
 
 
 def choose_given(options: argparse.Namespace, group: str) -> dict[str, Any]:

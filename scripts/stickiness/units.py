@@ -6,27 +6,36 @@ numbers, drops the comma of "2,5 nm", and divides by the 25 of "N/25mm".
 
 from __future__ import annotations
 
-import difflib
 import math
 import os
 import re
+import unicodedata
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # else where it is used: most jobs read no units, and importing takes 0.3 s
     import pint
 
-# Quantities that messages name: SI unit, words, example, and units that a misspelt one may mean.
+# Quantities that messages name: SI unit, words, example, and units whose case may be mistaken. Of
+# wave numbers none: a line pair per mm is 2 pi per mm.
 _QUANTITIES = (
     ("m", "a length", "10 um", "km m cm mm um nm pm"),
     ("Pa", "a pressure", "2 MPa", "Pa kPa MPa GPa"),
     ("J/m^2", "an energy per area", "50 mJ/m^2", "J/m^2 mJ/m^2 N/m mN/m uJ/m^2 erg/cm^2"),
-    ("1/m", "a wave number", "1e3 1/m", "1/m 1/mm 1/um 1/nm"),
+    ("1/m", "a wave number", "1e3 1/m", ""),
     ("s", "a time", "1 ms", "s ms us"),
     ("Hz", "a frequency", "1 Hz", "Hz kHz MHz"),
     ("N", "a force", "5 mN", ""),
     ("J", "an energy", "1 uJ", ""),
+    ("Pa*s", "a viscosity, which is no modulus", "1 Pa*s", ""),
+    (
+        "kg/m^2",
+        "a mass per area (divided by the density a thickness: 1 g/m^2 of 1 g/cm^3 is 1 um)",
+        "20 g/m^2",
+        "",
+    ),
 )
 # Units that exist and are nearly always typing errors: what they are, and what is meant.
 _ASKED_BACK = {
@@ -50,21 +59,28 @@ _NUMBER = re.compile(
         (?: [ ]?[x*·⋅][ ]?10(?:\^|\*\*)\(?(?P<power>[-+]?[0-9]+)\)? )?""",
     re.IGNORECASE | re.VERBOSE,
 )
-_TYPED = str.maketrans("−×’\t\u00a0\u2009\u202f", "-*'    ")
+_TYPED = str.maketrans("−×’\t", "-*' ")
 _RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺"
 _LOWERED = str.maketrans(_RAISED, "0123456789-+")
 # Names that pint should know as well, and spellings that it takes for something else.
 _ALIASES = {
     "psi": "PSI = Psi",
     "angstrom": "Angstrom = Ang",
-    "micron": "mu",
+    "micron": "mu = mkm = мкм",  # noqa: RUF001
     "force_kilogram": "kp",
 }
 _SPELLINGS = (
     (r"\bmils?\b", "thou"),  # of an inch; an angle in pint
     (r"(?<=[^\W\d_])([-+]?[0-9])(?!\w)", r"^\1"),  # N/mm2, J m-2
     (r"(?<=[^\W\d_])\.(?=[^\W\d_])", "*"),  # N.m
+    (r"(?<![^\W\d_])([A-Za-zµμ]?(?:Pa|N|J))s\b", r"\1*s"),  # a plural in pint
+    (r"\bgsm\b", "g/m^2"),
 )
+# Decimals that end in zero may be thousands of a country that writes them with points.
+_THOUSANDS = re.compile(r"([-+]?[1-9][0-9]{0,2}\.[0-9]{2}0)(?![0-9.eE]| ?[x*·⋅])")
+# Sums, products, ranges and errors.
+_NO_SINGLE = re.compile(r"[±~\[\]]|\+/-|[0-9] ?[-–+] ?[0-9]")
+_NO_UNIT = re.compile(r"[.'_]| ?[0-9](?! ?/)| ?[x*·⋅/] ?[0-9]")
 # What may be measured in place of what is wanted: the force of peeling a strip, and hardness.
 _PEELING = re.compile(
     r"(?<![a-z])(?:[mck]?n|newtons?|k?gf?|kp|lbs?f?|ozf?) ?/ ?(?:[0-9]|(?:in|inch|[cm]m)(?![\w^]))"
@@ -96,6 +112,8 @@ def _parse_unit(text: str) -> pint.Unit:
     """Return a unit, of which pint takes no numbers but powers and a 1 above the stroke."""
     if re.search(r"(?:\^|\*\*)[^*/ ]*(?:\^|\*\*)", text):  # 9**9**9 would not end
         raise ValueError("power of a power")
+    if re.search(r"[^\w\s^*/().%°·⋅+-]", text):  # pint drops such signs: of "?m" the first is lost
+        raise ValueError("sign that no unit has")
     return _registry().parse_units(f"1{text}" if text.startswith("/") else text)
 
 
@@ -123,8 +141,16 @@ class Quantity(float):
 
     @classmethod
     def read(cls, text: str, unit: str) -> Quantity:
-        """Read a text such as "10 um" in the SI unit `unit`; see `si` for what is raised."""
-        return cls(si(text, unit), text)
+        """Read a text such as "10 um" in the SI unit `unit`; see `si` for what is raised.
+
+        A person may also mean thousands by "200.000 Pa", of which it asks.
+        """
+        quantity = cls(si(text, unit), text)
+        if match := _THOUSANDS.match(_write_plainly(text)):
+            number, rest = match[1], _write_plainly(text)[match.end() :]
+            readings = f"'{float(number):g}{rest}' or '{number.replace('.', '')}{rest}'"
+            raise ValueError(f"{text!r} may have decimals or thousands; did you mean {readings}?")
+        return quantity
 
     def __repr__(self) -> str:
         """Show the text in quotes, as in the configuration."""
@@ -153,8 +179,8 @@ def write_quantities(entry: Any) -> Any:
 def si(value: str, unit: str) -> float:
     """Magnitude of a string such as "0.1 um" in the SI unit `unit`, which fixes its dimension.
 
-    A ValueError says which kind of quantity the value is and which is wanted. It suggests a unit
-    for one that does not exist, and asks back for what can mean two things or is nearly always a
+    A ValueError says which kind of quantity the value is and which is wanted. It suggests the unit
+    that differs by its case alone, and asks back for what can mean two things or is nearly always a
     typing error. Angular frequencies become frequencies: 1 rad/s is 0.159 Hz, 60 rpm are 1 Hz.
     """
     import pint
@@ -172,10 +198,9 @@ def si(value: str, unit: str) -> float:
         raise ValueError(f"{value!r} does not begin with a number: {wanted}")
     number = match[0].strip()
     written = text[match.end() :]
-    if re.search(r"[±~\[\]]|\+/-|[0-9] ?[-–] ?[0-9]", text) or re.match(
-        r"[.'_]| ?[0-9](?! ?/)", written
-    ):
-        raise ValueError(f"{value!r} is no single number with a unit: {wanted}")
+    not_single = f"{value!r} is no single number with a unit: {wanted}"
+    if _NO_SINGLE.search(text) or _NO_UNIT.match(written):
+        raise ValueError(not_single)
     try:
         quantity = _find_number(match) * _parse_unit(written.strip())
     except Exception:  # pint raises tokenizer, attribute and type errors alike on malformed text
@@ -184,6 +209,9 @@ def si(value: str, unit: str) -> float:
         raise ValueError(f"{value!r} cannot be read: {what}") from None
     if _registry().get_group("Printer").members & dict(quantity.unit_items()).keys():
         raise ValueError(f"{value!r} is in points of a screen or of print: {wanted}")
+    roots = [_registry().get_root_units(name)[1] for name, _ in quantity.unit_items()]
+    if not quantity.dimensionless and _registry().Unit("") in roots:  # percent, parts per million
+        raise ValueError(not_single)
     if unit == "Hz" and "radian" in dict(quantity.to_root_units().unit_items()):
         unit = "turn/s"
     try:
@@ -206,10 +234,23 @@ def si_of_unit(text: str, unit: str) -> float:
     return si(text if re.match(r"\s*[-+.0-9]", text) else f"1 {text}", unit)
 
 
+def is_unit(text: str) -> bool:
+    """Whether a text can be read as a unit of any kind, with a factor or without."""
+    plain = _write_plainly(text)
+    with suppress(Exception):  # pint raises errors of many kinds
+        match = _NUMBER.match(plain)
+        return bool(plain) and bool(_parse_unit(plain[match.end() if match else 0 :].strip()))
+    return False
+
+
 def _write_plainly(value: str) -> str:
-    """Write signs, blanks and raised digits as a keyboard has them."""
+    """Write signs, blanks, raised digits and joined letters as a keyboard has them."""
+    with suppress(UnicodeError):  # "Âµm": UTF-8 that was read as Latin-1
+        value = value.encode("latin-1").decode("utf-8")
     raised = re.sub(f"[{_RAISED}]+", lambda match: "^" + match[0].translate(_LOWERED), value)
-    return " ".join(raised.translate(_TYPED).split())
+    plain = unicodedata.normalize("NFKC", raised).translate(_TYPED)
+    # A power of ten alone is one times it.
+    return re.sub(r"^([-+]?)10(?=\^|\*\*)", r"\g<1>1*10", " ".join(plain.split()))
 
 
 def _find_number(match: re.Match) -> float:
@@ -263,7 +304,7 @@ def _ask_for_comma(text: str) -> str:
     number, rest = (written[0], text[written.end() :]) if written else ("", text)
     readings = []
     if re.fullmatch(r"[-+]?[0-9]+,[0-9]+", number):
-        readings.append(number.replace(",", "."))
+        readings.append(number.replace(",", ".").rstrip("0").rstrip("."))
     if re.fullmatch(r"[-+]?[1-9][0-9]{0,2}(,[0-9]{3})+(\.[0-9]*)?", number):
         readings.append(number.replace(",", ""))
     if re.fullmatch(r"[-+]?[1-9][0-9]{0,2}(\.[0-9]{3})+,[0-9]+", number):
@@ -274,12 +315,7 @@ def _ask_for_comma(text: str) -> str:
 
 
 def _find_unit(written: str, units: str) -> str | None:
-    """Return the unit of the wanted kind that is close to what is written, if one is."""
+    """Return the unit of the wanted kind that differs from what is written by its case alone."""
     # A power that is written is meant: N/m2 is no N/m.
-    spellings = {
-        known.lower().replace("^", ""): known
-        for known in units.split()
-        if ("2" in known) == ("2" in written)
-    }
-    close = difflib.get_close_matches(written.lower().replace("^", ""), spellings, n=1, cutoff=0.6)
-    return spellings[close[0]] if close else None
+    spellings = {known.lower().replace("^", ""): known for known in units.split()}
+    return spellings.get(written.lower().replace("^", ""))

@@ -278,6 +278,7 @@ PLACES = {
     "control characters": ("w\x1b[31m\u202e{1}.txt", [], {}, "w[31m{1}"),
     "number as ending": ("scan.001", ["--missing-value", "-3.4e38"], {}, "scan.001"),
     "one unit of two sides": ("w.x", ["--length", "2x2 mm"], {}, "w"),
+    "sides in words": ("w.x", ["--length", "2 mm by 2*10^-3 m"], {}, "w"),
     "thousands": ("w.x", ["--length", "2 000 um x 2×10⁻³ m"], {}, "w"),
 }
 

@@ -7,6 +7,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import (
     AfterValidator,
+    BeforeValidator,
     Field,
     PlainValidator,
     ValidationInfo,
@@ -180,6 +181,20 @@ def _check_length_unit(unit: str) -> str:
 LengthUnit = Annotated[str, AfterValidator(_check_length_unit)]
 
 
+def _split_sides(value: Any) -> Any:
+    """Return two sides in one text as a list; a unit behind the second alone is that of both."""
+    if not isinstance(value, str):
+        return value
+    if both := re.fullmatch(r"([\d.]+)\s*(?:[x×*]|by)\s*([\d.]+)\s*([^\W\d_].*)", value):
+        return [f"{side} {both[3]}" for side in both.group(1, 2)]
+    # An x before 10^5 is that of a number.
+    sides = re.split(r"\s*(?:[x×*]|by)\s*(?=\d)(?!10\s*(?:\^|\*\*|[⁻⁰¹²³⁴-⁹]))", value)
+    return sides if len(sides) == 2 else value
+
+
+Sides = Annotated[f.OneOrTwo[f.Length], BeforeValidator(_split_sides)]
+
+
 class MeasuredFile(Section):
     """A measured file, and what it does not tell itself."""
 
@@ -191,12 +206,10 @@ class MeasuredFile(Section):
         "channel of an instrument's file, by name or counted from 0"
     )
     variable: f.Maybe[str] = optional("NetCDF variable or npz key")
-    length: f.Maybe[f.OneOrTwo[f.Length]] = optional(
-        'side, e.g. "2 mm", or sides along x and y, of what was measured'
+    length: f.Maybe[Sides] = optional(
+        'side, e.g. "2 mm", or sides along x and y, e.g. "2 mm x 1 mm", of what was measured'
     )
-    pixel_size: f.Maybe[f.OneOrTwo[f.Length]] = optional(
-        'grid step, e.g. "0.5 um", instead of length'
-    )
+    pixel_size: f.Maybe[Sides] = optional('grid step, e.g. "0.5 um", instead of length')
     height_unit: f.Maybe[LengthUnit] = optional('unit of the heights, e.g. "nm"')
     height_factor: Annotated[float, Field(gt=0)] = optional(
         "what all heights are multiplied by, to correct them or to ask about higher ones", 1.0

@@ -23,6 +23,7 @@ from stickiness.measured.guess import Guess, guess_fault
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.readers.raw import Length, Raw, fold, metres, metres_per, sides
 from stickiness.measured.scanning import Scan
+from stickiness.units import is_unit
 
 Size = Length | Sequence[Length] | None
 _CHOICES = {"missing": Missing, "spikes": Spikes, "scan": Scan}
@@ -611,7 +612,7 @@ def _find_scale(raw: Raw, height_unit: str | None, is_native: bool) -> tuple[flo
 def _contradict_size(raw: Raw, places: NDArray, position_unit: str | None) -> list[str]:
     """Say if the size given is not that in the file; without a unit, not that in any unit."""
     told = None if raw.places is None else _steps(raw.places, raw)
-    unit = raw.place_unit or position_unit
+    unit = raw.place_unit if is_unit(raw.place_unit or "") else position_unit
     notices = []
     if told is not None and np.all(told > 0) and (unit or np.any(told != 1)):  # 1: of pixels
         units = [unit] if unit else _UNITS_OF_LENGTH
@@ -635,7 +636,9 @@ def _contradict_size(raw: Raw, places: NDArray, position_unit: str | None) -> li
 
 
 def _convert(source: str, key: str, from_caller: str | None, in_file: str | None) -> float:
-    """Metres per unit, from the caller or the file, which must agree."""
+    """Metres per unit, from the caller or the file, which must agree where the file is legible."""
+    if from_caller is not None and in_file is not None and not is_unit(in_file):
+        in_file = None
     units = [unit for unit in (from_caller, in_file) if unit is not None]
     scales = [metres_per(unit, f"{source}: {key}") for unit in units]
     if not np.isclose(scales[0], scales[-1], rtol=1e-12, atol=0):

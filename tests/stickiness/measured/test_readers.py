@@ -20,7 +20,7 @@ pytestmark = pytest.mark.processors
 FILES = Path(__file__).parents[2] / "data/instruments"
 ROWS = yaml.safe_load((FILES / "files.yaml").read_text())
 EXPECTATIONS = (
-    *("missing", "tolerance", "remark", "source", "others"),
+    *("missing", "offset", "tolerance", "remark", "source", "others"),
     *("contradiction", "side", "refused"),
 )
 MAP = np.load(FILES / "map.npy")  # um, rows along y
@@ -60,7 +60,8 @@ def test_a_file_is_read_as_the_map_or_refused(row):
     assert found.count(topography.FILL) == missing
     # A step of phase in a file of Zygo's is 10 pm.
     heights = found.heights.T.ravel()[missing:]
-    np.testing.assert_allclose(heights, 1e-6 * MAP.ravel()[missing:], atol=2e-11)
+    expected = MAP + row.get("offset", 0.0)
+    np.testing.assert_allclose(heights, 1e-6 * expected.ravel()[missing:], atol=2e-11)
 
 
 @pytest.mark.parametrize(

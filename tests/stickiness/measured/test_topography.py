@@ -104,6 +104,22 @@ def test_uncommented_header_lines_and_missing_marks(tmp_path):
         assert t.count(topography.FILL) == 1
 
 
+@pytest.mark.parametrize(
+    ("content", "shape", "missing"),
+    [
+        ("1;2;3\n4;5;\n7;8;9\n", (3, 3), 1),  # the last of a row
+        ("1,2,\n4,,6\n7,8,9\n", (3, 3), 2),  # of the first
+        ("1\t2\t3\t\n4\t5\t6\t\n", (3, 2), 0),  # a separator behind every row
+        ("1;2;;\n4;5;6;\n7;8;9;\n", (3, 3), 1),  # the same, and the last of a row
+    ],
+)
+def test_empty_cells_are_missing_points(tmp_path, content, shape, missing):
+    (tmp_path / "a.csv").write_text(content)
+    t = topography.read(tmp_path / "a.csv", pixel_size="1 um", height_unit="um", max_missing=0.5)
+    assert t.heights.shape == shape
+    assert t.count(topography.FILL) == missing
+
+
 @pytest.mark.parametrize(("step", "form"), [(1 / 3, "{:.2f}"), (0.0195, "{:.3f}")])
 def test_positions_of_few_digits_are_on_their_grid(tmp_path, step, form):
     heights = np.random.default_rng(0).random((20, 30))

@@ -29,6 +29,7 @@ from stickiness.measured.readers.raw import (
     is_length,
     metres_per,
     read_head,
+    split_unit,
 )
 
 _POSITION = re.compile(r"(?:^|.*[/_])([xy])[-_]?([xy]|s|v|i|grid|mesh|data|pos\w*|coord\w*|axis)?$")
@@ -130,7 +131,7 @@ def _choose(
         raise ValueError(f"no map or profile, but {contents or 'nothing'}; save one map")
     usable = [name for name in usable if may_name_heights(name)] or usable
     eligible = [name for name in usable if arrays[name].ndim == 2] or usable
-    named = [name for name in eligible if HEIGHTS.search(name) or name.lower() in ("z", "zz")]
+    named = [name for name in eligible if HEIGHTS.search(name)]
     if len(named) == 1:
         eligible = named
     if len(eligible) != 1:
@@ -198,7 +199,8 @@ def _read_arrays(
     `wanted` is the name of their array or its number among the maps, `what` what the format calls
     its arrays, and `units` has units by name.
     """
-    units = units or {}
+    in_names = {name: unit for name in arrays if (unit := split_unit(name)[1])}
+    units = in_names | dict(units or {})
     arrays = {name: _squeeze(np.asarray(array)) for name, array in arrays.items()}
     if isinstance(wanted, int):
         maps = [name for name, array in arrays.items() if array.ndim == 2]
@@ -277,11 +279,14 @@ def _find_steps(
     arrays: Mapping[str, NDArray], units: Mapping[str, str]
 ) -> tuple[NDArray | None, str | None]:
     """Steps along x and y that numbers beside a matrix tell, and their unit."""
-    step_by_axis = {
-        match[1]: (float(array.flat[0]), units.get(name))
-        for name, array in arrays.items()
-        if array.size == 1 and array.dtype.kind in "iuf" and (match := _STEP.match(name.lower()))
-    }
+    step_by_axis: dict[str, tuple[float, str | None]] = {}
+    for name, array in arrays.items():
+        match = _STEP.match(split_unit(name.lower())[0])
+        if match is None or array.size != 1 or array.dtype.kind not in "iuf":
+            continue
+        step = float(array.flat[0]), units.get(name)
+        if step_by_axis.setdefault(match[1], step) != step:
+            return None, None  # those of several maps
     along_x = step_by_axis.get("x", step_by_axis.get(""))
     along_y = step_by_axis.get("y", along_x)
     if along_x is None or along_y is None:
@@ -296,7 +301,7 @@ def _find_positions(arrays: Mapping[str, NDArray]) -> dict[str, str]:
     """Arrays of positions along x and y, by their names; maps only if they are none of heights."""
     name_by_axis: dict[str, str] = {}
     for name, array in arrays.items():
-        match = _POSITION.match(name.lower())
+        match = _POSITION.match(split_unit(name.lower())[0])
         is_line = array.ndim == 1 and array.size > 1
         if match and array.dtype.kind in _NUMBERS and (is_line or _is_mesh(array)):
             name_by_axis.setdefault(match[1], name)
@@ -349,6 +354,9 @@ def _load_hdf5(path: Path) -> tuple[dict[str, NDArray], dict[str, str]]:
     units: dict[str, str] = {}
 
     def take(name: str, node) -> None:
+        for key, value in node.attrs.items():
+            if _STEP.match(split_unit(key.lower())[0]) and np.size(value) == 1:
+                arrays[f"{name}/{key}"] = np.asarray(value)
         is_text = node.attrs.get("MATLAB_class") == b"char"
         if not isinstance(node, h5py.Dataset) or is_text or name.startswith("#"):
             return
@@ -358,5 +366,6 @@ def _load_hdf5(path: Path) -> tuple[dict[str, NDArray], dict[str, str]]:
                 units[name] = unit
 
     with h5py.File(path, "r") as file:
+        take("", file)
         file.visititems(take)
     return arrays, units

@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 
 from stickiness.measured.readers.instruments import (
     EXPORT,
-    HEIGHTS,
-    may_name_heights,
+    find_heights,
     open_reader,
     read_channel,
 )
@@ -75,15 +74,13 @@ def read_gwyddion(path: Path, channel: str | int | None = None) -> Raw:
     of_length = [title for title, unit in units.items() if unit and is_length(unit)]
     usable = of_length or [title for title, unit in units.items() if not unit]
     if channel is None:
-        chosen = [title for title in usable if may_name_heights(title)] or usable
-        if not of_length:
-            chosen = [title for title in usable if HEIGHTS.search(title)] or chosen
+        chosen = find_heights(usable)
     else:
         chosen = [title for number, title in enumerate(usable) if channel in (number, title)]
     if not chosen or (len(chosen) > 1 and not of_length):
         told = ", ".join(f"{title!r} ({unit})" for title, unit in units.items()) or "none"
         asked = "" if channel is None else f" {channel!r}"
-        raise ValueError(f"no channel{asked} of heights: it has {told}; {EXPORT}")
+        raise ValueError(f"no channel{asked} of heights: it has {told}; give channel, or {EXPORT}")
 
     title = chosen[0]
     field = fields[title]

@@ -9,27 +9,46 @@ import io
 import re
 import warnings
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stickiness.measured.readers.raw import Raw, check_count, metres_per, read_head
+from stickiness.measured.readers.raw import Raw, check_count, read_head
 
 EXPORT = "export the heights as text (a matrix or x y z), .npy, .nc, .gsf or X3P"
 #: First bytes of surface data files, before the standard and of ISO 25178-71: else the same.
 SDF = (b"aBCR-1.0", b"bBCR-1.0", b"aISO-1.0", b"bISO-1.0")
-HEIGHTS = re.compile(r"(?i)height|topo")  #: in names of channels and arrays
+#: In names of channels and arrays; of a path, in the last of them.
+HEIGHTS = re.compile(r"(?i)height|höhe|topo|z[ _-]?sensor|(?:^|[/_ ])zz?(?![a-z])")
 _NO_HEIGHTS = re.compile(  # what channels hold else, some of it in metres
     r"(?i)phase|error|deflection|amplitude|current|potential|friction|intensity|quality|confidence"
-    r"|adhesion|dissipation|stiffness|modulus|deformation|thumbnail"
+    r"|adhesion|dissipation|stiffness|modulus|deformation|thumbnail|indentation|separation|slope"
 )
 
 
 def may_name_heights(name: str) -> bool:
     """Whether a name of a channel or an array is not that of something else than heights."""
-    return not _NO_HEIGHTS.search(name) or bool(HEIGHTS.search(name))
+    return not _NO_HEIGHTS.search(name) or bool(re.search("(?i)height|topo", name))
+
+
+def find_heights(names: Sequence[str]) -> list[str]:
+    """Names of heights, the likeliest first.
+
+    What is called so wins over names that do not tell.
+
+    Raises
+    ------
+    ValueError
+        If several names may be meant, and none of them tells.
+    """
+    named = [name for name in names if HEIGHTS.search(name) and not _NO_HEIGHTS.search(name)]
+    likely = named or [name for name in names if may_name_heights(name)]
+    if len(likely) > 1 and not named:
+        listed = ", ".join(map(repr, likely))
+        raise ValueError(f"which of its channels holds the heights: {listed}? give channel")
+    return likely
 
 
 def holds_heights(channel) -> bool:
@@ -62,9 +81,6 @@ def read_channel(path: Path, reader, channel: str | int | None = None) -> Raw:
         places = np.asarray(measured.positions(), dtype=float)
     elif has_size:
         places = np.array(measured.physical_sizes, dtype=float)
-        if measured.unit:
-            places = places * metres_per(measured.unit, f"{info.name}: unit of length in the file")
-            place_unit = "m"
         places = places / heights.shape
 
     other_heights = (c for c in channels if holds_heights(c) and c.index != info.index)
@@ -80,11 +96,13 @@ def read_channel(path: Path, reader, channel: str | int | None = None) -> Raw:
 
 
 def _choose_channel(channels: list, default, wanted: str | int | None):
-    """Channel that is wanted by name or number, or else the default one or the first of heights."""
-    usable = [each for each in channels if holds_heights(each)]
-    names = ", ".join(repr(each.channel_id) for each in usable)
-    chosen = usable[0] if usable and not holds_heights(default) else default
-    if wanted is not None:
+    """Channel that is wanted by name or number; else the default one or another of heights."""
+    usable = {str(each.channel_id): each for each in channels if holds_heights(each)}
+    names = ", ".join(map(repr, usable))
+    if wanted is None:
+        likely = [usable[name] for name in find_heights(list(usable))]
+        chosen = default if default in likely or not likely else likely[0]
+    else:
         named = [c for i, c in enumerate(channels) if wanted in (i, c.channel_id, c.name)]
         if not named:
             has = names or "no channel of heights"

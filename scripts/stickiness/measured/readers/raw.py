@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,6 +16,7 @@ from stickiness.units import si, si_of_unit
 Length = str | float  # "10 um", or metres
 INCOMPLETE = "the file is incomplete, its end is missing: copy it again"
 MOST_POINTS = 2**27  #: of a map, 11585 x 11585; they take 1 GB, and their analysis ten times that
+_NAME_AND_UNIT = re.compile(r"(.*?)(?:[\s_]*[\[(]\s*([^\])]+?)\s*[\])]|_([cmnpuµμ]?m))?")
 
 
 @dataclass(frozen=True)
@@ -86,6 +88,13 @@ def is_length(unit: str) -> bool:
         return si_of_unit(unit, "m") > 0
     except ValueError:
         return False
+
+
+def split_unit(name: str) -> tuple[str, str | None]:
+    """Name and unit of a column or an array that is called "z [um]", "z (um)" or "z_um"."""
+    match = _NAME_AND_UNIT.fullmatch(name)
+    assert match is not None  # of any text
+    return match[1], match[2] or match[3]
 
 
 def check_count(shape: Sequence[int]) -> None:

@@ -21,6 +21,7 @@ _SMALLER = re.compile(r"[-+]?\d{1,3}|[^\d]*")
 _GROUPED = re.compile(
     r"(?<![\d.,])[1-9]\d{0,2}([.,])(?:\d{3}\1)*\d{3}(?:(?!\1)[.,]\d|\1\d{3}(?![\d.,]))"
 )
+_DECIMAL = re.compile(r"[-+]?\d+,\d+")
 # A line that may be one number, with groups of digits or a decimal comma.
 _ONE_NUMBER = re.compile(r"[-+]?(?:[1-9]\d{0,2}(?:[.,]\d{3})+|\d+)[.,]\d+")
 _MISSING = {"", "na", "n/a", "bad", "null", "none", "-nan", "-", "--", "---", "*", "***"}
@@ -31,7 +32,8 @@ def read_rows(rows: Rows, has_decimal_commas: bool) -> NDArray:
     first = next(iter(rows.values()))
     separator = next((mark for mark in "\t;" if mark in first), None)  # None: any run of blanks
     # "1,5 2,5" has decimal commas, "1.5, 2.5" and "1,2,3" separating ones.
-    if separator is None and not has_decimal_commas and re.search(r",\s|^[^ ]*,[^ ]*$", first):
+    may_separate = not has_decimal_commas and not _is_column_of_decimals(rows)
+    if separator is None and may_separate and re.search(r",\s|^[^ ]*,[^ ]*$", first):
         separator = ","
 
     # Marks of thousands go; those that may be decimal ones are refused.
@@ -53,10 +55,12 @@ def read_rows(rows: Rows, has_decimal_commas: bool) -> NDArray:
 def _split_rows(rows: Rows, separator: str | None) -> list[list[float]]:
     """Numbers of every row, as many in each."""
     table: list[list[float]] = []
+    # A separator behind the last number of every row is none; of some rows it is a missing point.
+    has_ends = bool(separator) and all(row.endswith(str(separator)) for row in rows.values())
     for number, row in rows.items():
         words = row.split(separator)
-        if separator and len(words) > 1 and not words[-1].strip():
-            words.pop()  # a separator after the last number
+        if has_ends:
+            words.pop()
         try:
             table.append([np.nan if w.strip().lower() in _MISSING else float(w) for w in words])
         except ValueError as error:
@@ -70,6 +74,20 @@ def _split_rows(rows: Rows, separator: str | None) -> list[list[float]]:
                 "every row needs as many"
             )
     return table
+
+
+def _is_column_of_decimals(rows: Rows) -> bool:
+    """Whether every line is a number with a decimal comma.
+
+    As two whole numbers, positions would repeat and heights begin with a zero; as one, commas for
+    thousands would have three digits behind them.
+    """
+    lines = list(rows.values())
+    if not all(map(_DECIMAL.fullmatch, lines)) or all(map(_GROUPS[","].fullmatch, lines)):
+        return False
+    whole, decimals = zip(*(line.split(",") for line in lines), strict=True)
+    begins_with_zero = any(re.match("0[0-9]", digits) for digits in decimals)
+    return begins_with_zero and len(set(whole)) < len(whole) / 2
 
 
 def _refuse_split_decimals(table: NDArray, rows: Rows) -> None:

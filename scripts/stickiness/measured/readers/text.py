@@ -24,7 +24,7 @@ from stickiness.measured.readers.dialects import (
 )
 from stickiness.measured.readers.instruments import EXPORT
 from stickiness.measured.readers.points import RESAMPLE, Gridded, map_points, read_columns
-from stickiness.measured.readers.raw import Raw, fold, is_length, metres, sides
+from stickiness.measured.readers.raw import Raw, fold, is_length, metres, sides, split_unit
 from stickiness.measured.readers.tables import Rows, read_rows
 
 UTF16 = (b"\xff\xfe", b"\xfe\xff")  # first bytes
@@ -53,7 +53,6 @@ _OF_NO_HEIGHTS = re.compile(
 _RESOLUTION = re.compile(
     r"(?i)(?:^|[\s,;:=])(\d+)\s*[x×]\s*(\d+)\s*(?:pixels?|points?|px|pts)?\W*$"
 )
-_NAME_AND_UNIT = re.compile(r"^(.*?)(?:[\s_]*[\[(]\s*([^\])]+?)\s*[\])])?$")
 _NAMED_UNIT = re.compile(
     r"(?i)^\W*(?:heights?|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$"
 )
@@ -200,10 +199,10 @@ def _read_names(lines: list[str], columns: int) -> tuple[tuple[str, ...], Units]
         if all(map(is_length, bare)) and not below:
             below = bare
             continue
-        names, units = zip(*(_NAME_AND_UNIT.findall(word)[0] for word in words), strict=True)
+        names, units = zip(*map(split_unit, words), strict=True)
         if columns == 1 and not _HEIGHT_NAME.match(names[0]):
             continue
-        units = below or tuple(unit or None for unit in units)
+        units = below or units
         return names, units if any(units) else of_heights
     return (), below or of_heights
 
