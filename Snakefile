@@ -55,7 +55,8 @@ include: "rules/stability.smk"
 
 TARGETS = {
     **{figure: f"{RESULTS}/figures/{figure}.png" for figure in FIGURES},
-    "verdicts": [rules.judge.output[kind] for kind in ("page", "table", "csv", "workbook")],
+    "verdicts": [rules.judge.output[kind] for kind in ("page", "table", "csv", "workbook")]
+    + list(rules.check_surfaces.output),
     "experiments": [rules.predict_experiments.output[kind] for kind in ("table", "png")],
     "claims": rules.check_claims.output.table,
     "report": rules.write_report.output,

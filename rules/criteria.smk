@@ -109,3 +109,22 @@ rule judge:
         "Collect the verdicts on all pairs"
     script:
         "../scripts/criteria/judge.py"
+
+
+rule check_surfaces:
+    input:
+        f"{RESULTS}/criteria/verdicts.nc",
+    output:
+        f"{RESULTS}/criteria/all_read",
+    log:
+        f"{RESULTS}/logs/check_surfaces/criteria/all_read.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/check_surfaces/criteria/all_read.tsv"
+    conda:
+        "../envs/environment.yaml"
+    params:
+        code=source_hash("criteria/check_surfaces.py"),
+    message:
+        "Check that every surface could be read"
+    script:
+        "../scripts/criteria/check_surfaces.py"

@@ -109,8 +109,9 @@ def real_surfaces(asphalt, map, measured_surfaces, verdicts):
     )
     upper_line = C0_LINES[0]
     # Only measured spectra can test the line, not parameters that somebody assumed.
-    heights = [float(data.C0_reference_upper.max()) / upper_line for data in measured_surfaces]
-    names = [datasets.parameters(data)["surface"] for data in measured_surfaces]
+    read = [data for data in measured_surfaces if "unread" not in data.attrs]
+    heights = [float(data.C0_reference_upper.max()) / upper_line for data in read]
+    names = [datasets.parameters(data)["surface"] for data in read]
     labels = [datasets.parameters(verdicts)["labels"][name] for name in names]
     close = abs(printed / PRINTED_MODULUS - 1) < 0.1
     return Finding(

@@ -1,6 +1,7 @@
 """All pairs side by side: the verdicts on every surface as one dataset, and the pages of it."""
 
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -16,6 +17,7 @@ from stickiness.formatting import percent
 from stickiness.pages.rendering import write_page
 from stickiness.remaining.roughness import PULL_OFF_UNKNOWN
 from stickiness.remaining.trial_states import DEFAULT_SHARE
+from stickiness.verdicts.judgement import withhold
 from stickiness.verdicts.limits import read_limited
 
 KPA = 1e3  # [Pa]
@@ -27,13 +29,15 @@ TABULATED = {
     "modulus_threshold": ("threshold of E", "MPa", MPA),
     "plane_strain_modulus_threshold": ("threshold of E*", "MPa", MPA),
 }
+LENGTHS = ("rms_height", "scan", "contact")  # of a surface
 COLUMN_WIDTH = 26  # in characters
 
 
 def main(job):
     labels = job.params.labels
     output = job.output
-    verdicts = [datasets.read(path) for path in job.input.verdicts]
+    paths = {Path(path).stem: path for path in job.input.verdicts}
+    verdicts = join_unread({name: datasets.read(path) for name, path in paths.items()})
     dataset = join_surfaces(verdicts)
     datasets.write(
         dataset,
@@ -52,6 +56,28 @@ def main(job):
             writer, sheet_name="pairs", index=False, freeze_panes=(1, 2), autofilter=True
         )
         writer.sheets["pairs"].sheet_format.defaultColWidth = COLUMN_WIDTH
+
+
+def join_unread(verdicts):
+    """Verdicts on every surface; those of a surface that could not be read are withheld."""
+    unread = {
+        name: each.attrs["unread"] for name, each in verdicts.items() if "unread" in each.attrs
+    }
+    joined = [each for name, each in verdicts.items() if name not in unread]
+    if not joined:
+        raise ValueError("; ".join(unread.values()))
+    for name, reason in unread.items():
+        # Of another surface's row only what is given of materials stays.
+        row = joined[0].assign_coords(surface=[name])
+        for text in ("not_judged", "doubts"):
+            row[text] = row[text].copy(data=np.full(row[text].shape, reason, dtype=object))
+        for length in LENGTHS:
+            row[length] = row[length].copy(data=[np.nan])
+            row[length].attrs.setdefault("nan_means", "the surface could not be read")
+        joined.append(withhold(row))
+    if unread:
+        joined[0] = joined[0].assign_attrs(unread=", ".join(unread))
+    return joined
 
 
 def join_surfaces(verdicts):

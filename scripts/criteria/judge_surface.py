@@ -2,6 +2,8 @@
 
 import json
 
+import xarray as xr
+
 from common.job import start
 from stickiness import __version__, datasets
 from stickiness.entries.material import Material
@@ -13,6 +15,15 @@ from stickiness.verdicts.verdict import StickinessVerdict
 def main(job):
     name = job.wildcards.real_surface
     params = job.params
+    written = {
+        "title": f"verdicts of the stickiness criteria: {params.label}",
+        "parameters": {"materials": params.materials},
+    }
+    if reason := datasets.read(job.input.surface).attrs.get("unread"):
+        record = xr.Dataset(attrs={"unread": reason})
+        datasets.write(record, job.output.verdicts, **written)
+        write_contact_laws({"not_judged": [reason]}, params.label, job.output.contact_laws)
+        return
 
     # The surface, and those of materials that are rough themselves: maybe the same.
     paths = dict(zip(params.material_surfaces, job.input.material_surfaces, strict=True))
@@ -25,22 +36,23 @@ def main(job):
     }
 
     verdicts = judge(materials, {name: surface})
-    datasets.write(
-        verdicts,
-        job.output.verdicts,
-        title=f"verdicts of the stickiness criteria: {params.label}",
-        parameters={"materials": params.materials},
-    )
-    write_contact_laws(verdicts.sel(surface=name), params.label, job.output.contact_laws)
+    datasets.write(verdicts, job.output.verdicts, **written)
+    pairs = {"pairs": list_contact_laws(verdicts.sel(surface=name))}
+    write_contact_laws(pairs, params.label, job.output.contact_laws)
 
 
-def write_contact_laws(verdicts, label, output):
-    """Write the verdict and the effective attraction of every material, for DEM and FE models."""
+def list_contact_laws(verdicts):
+    """Verdict and effective attraction of every material, for DEM and FE models."""
     laws = []
     for key in verdicts.material.values:
         cell = verdicts.sel(material=key)
         laws.append({"material": cell.material_label.item()} | StickinessVerdict(cell).to_dict())
-    contents = {"version": __version__, "surface": label, "pairs": laws}
+    return laws
+
+
+def write_contact_laws(contents, label, output):
+    """Write what models need, or why there is nothing."""
+    contents = {"version": __version__, "surface": label} | contents
     with datasets.whole_file(output) as path:
         text = json.dumps(contents, indent=1, ensure_ascii=False, allow_nan=False)
         path.write_text(text, encoding="utf-8")

@@ -50,6 +50,7 @@ def main(job):
         {name: datasets.read(path) for name, path in files[kind].items()}
         for kind in ("surfaces", "ensembles", "comparisons", "answers")
     )
+    surfaces = {name: data for name, data in surfaces.items() if "unread" not in data.attrs}
     materials = params.materials
     labels = {name: entry["label"] for name, entry in params.surfaces.items()}
     pairs = arrange_pairs(verdicts, labels)
@@ -80,7 +81,7 @@ def main(job):
         experiments=experiments.describe(tested),
         experiments_figure=embed(inputs.experiments_figure, inputs.experiments_caption),
         surfaces=surfaces,
-        described=params.surfaces,
+        described={name: params.surfaces[name] for name in surfaces},
         sizes={name: describe_surface(surface) for name, surface in surfaces.items()},
         answers={name: at_load(answer) for name, answer in answers.items()},
         comparisons={name: compare_theory(data) for name, data in comparisons.items()},

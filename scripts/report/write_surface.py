@@ -8,6 +8,8 @@ from stickiness.pages.surface_page import write_surface_page
 
 def main(job):
     inputs = job.input
+    if reason := datasets.read(inputs.surface).attrs.get("unread"):
+        raise ValueError(reason)
     verdicts = datasets.read(inputs.verdicts, ["verdict", "remaining"])
     names = map(str, verdicts.material.values)
     write_surface_page(

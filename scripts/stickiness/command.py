@@ -114,7 +114,7 @@ def spell_out_example(arguments: list[str]) -> list[str]:
     others = [word for word in arguments if word != "--example"]
     names = {word.partition("=")[0] for word in others}
     example = TEXTS["example"]
-    is_given = names & {"--material", "--tape", "--modulus"}
+    is_given = names & {"--material", "--tape", "--modulus", "--shear-modulus"}
     return [*example["surface"], *([] if is_given else example["material"]), *others]
 
 
@@ -176,7 +176,8 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
     used = [OPTIONS[key] for key in choose_given(options, "material")]
     if options.tape and used:
         fail(f"--tape describes the material: leave out {', '.join(used)}")
-    if not (options.tape or options.common) and not {"--modulus", "--work"} <= {*used}:
+    has_modulus = not {"--modulus", "--shear-modulus"}.isdisjoint(used)
+    if not (options.tape or options.common) and not (has_modulus and "--work" in used):
         fail('give --modulus "0.2 MPa" and --work "60 mJ/m^2", --material or --tape; see --help')
     return options
 

@@ -4,6 +4,9 @@ import re
 
 import pytest
 
+from stickiness import datasets
+from stickiness.criteria.pair import NOT_JUDGED
+
 pytestmark = pytest.mark.workflow
 
 
@@ -30,12 +33,28 @@ def test_a_bad_file_holds_up_what_needs_it_and_nothing_else(copy_of_finished):
     assert (pages / "mine.html").exists()
     assert not (pages / "torn.html").exists()
     assert re.search(r"^  pages +results/tiny/report/surfaces/mine.html$", done.stdout, re.M)
-    log = "results/tiny/logs/analyse_surface/real_surfaces/torn.log"
+    log = "results/tiny/logs/write_surface/report/surfaces/torn.log"
     *_, lines = done.stdout.partition("  failed    Fix what follows")
     why = r"ValueError: config/torn\.txt: no line of numbers found; .*"
     assert re.search(rf"^  failed    {why} \(log: {log}\)$", lines, re.M)
-    assert lines.count("  failed    ") == 1
-    assert not re.search(r"^  (pairs|claims) ", done.stdout, re.M), "a count of an earlier run"
+    why = r"ValueError: surfaces that are not judged, since they could not be read: torn"
+    assert re.search(rf"^  failed    {why} \(log: .*check_surfaces.*\)$", lines, re.M)
+    assert lines.count("  failed    ") == 2
+    assert not re.search(r"^  claims ", done.stdout, re.M), "a count of an earlier run"
+    # The tables have all surfaces.
+    verdicts = datasets.read(copy_of_finished / "results/tiny/criteria/verdicts.nc")
+    torn = verdicts.sel(surface="torn")
+    assert (torn.verdict == NOT_JUDGED).all()
+    assert torn.remaining.isnull().all()
+    assert torn.rms_height.isnull()
+    assert all("no line of numbers" in reason for reason in torn.not_judged.values)
+    assert (verdicts.sel(surface="mine").verdict != NOT_JUDGED).all()
+    table = (copy_of_finished / "results/tiny/criteria/verdicts.md").read_text(encoding="utf-8")
+    assert re.search(r"\| torn \|.*not judged", table)
+    # A second run fails as well, and makes no table again.
+    again = copy_of_finished.snakemake("verdicts")
+    assert again.returncode != 0
+    assert not re.search(r"^rule judge:", again.stdout, re.M)
 
 
 def test_a_failed_job_says_why_in_a_line_and_its_log_has_the_trace(copy_of_finished):

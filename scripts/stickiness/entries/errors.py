@@ -65,6 +65,8 @@ def first_error(error: pydantic.ValidationError, content: Mapping[str, Any]) -> 
         message = f"must be one of {problem['ctx']['expected_tags']}"
     if problem["type"] == "float_type" and isinstance(value, str):
         message += _ask_for_number(value)
+    if problem["type"] == "string_type" and not isinstance(value, str | list | Mapping):
+        message = "must be a text: YAML reads a number, a date or a truth value; put it in quotes"
     if problem["type"] == "string_too_short":
         message = "must not be empty"
     if problem["type"] == "missing":

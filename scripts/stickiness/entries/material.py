@@ -29,6 +29,7 @@ from stickiness.entries.elasticity import ElasticPair, SeriesEntry, TableEntry
 from stickiness.entries.errors import EntryError, argument_error, first_error, suggest
 from stickiness.entries.fields import Section, needed, optional
 from stickiness.entries.old_names import OLD_NAMES, take_old_names, warn_of_old_name
+from stickiness.formatting import amount
 from stickiness.plausibility import find_doubts
 from stickiness.solids import HALF_SPACE, Film, HalfSpace, Layer, Skin, Solid
 from stickiness.solids.moduli import (
@@ -42,6 +43,7 @@ from stickiness.solids.moduli import (
     relaxation_frequency,
 )
 from stickiness.traction_laws import EXPONENTIAL
+from stickiness.units import Quantity
 
 
 class FilmEntry(Section):
@@ -125,6 +127,8 @@ class Material(ElasticPair, f.Labelled):
             "youngs_modulus",
             "youngs_modulus_table",
             "youngs_modulus_prony",
+            "shear_modulus",
+            "shear_modulus_table",
         ),
     )
     only_in_python = ("solid",)
@@ -136,9 +140,18 @@ class Material(ElasticPair, f.Labelled):
         description="name of a common material, see `python -m stickiness --materials`",
     )
     youngs_modulus_table: f.Maybe[TableEntry] = optional(
-        'pairs of ascending frequency and storage modulus: [["1 Hz", "50 kPa"], ...]'
+        'pairs of ascending frequency and storage modulus E\': [["1 Hz", "50 kPa"], ...], or the '
+        "file of a rheometer"
     )
     youngs_modulus_prony: f.Maybe[SeriesEntry] = optional("Prony series of Young's modulus")
+    shear_modulus: f.Maybe[f.Modulus] = Field(
+        None,
+        exclude=True,  # a checked entry has Young's
+        description='shear modulus, e.g. "60 kPa": E = 2 (1 + nu) G',
+    )
+    shear_modulus_table: f.Maybe[TableEntry] = Field(
+        None, exclude=True, description="the same of the storage modulus G'"
+    )
     dwell: f.Maybe[f.Time] = optional('time for which contact is made, e.g. "60 s"')
     thickness: f.Maybe[f.Thickness] = optional("thickness of a layer; without it infinitely deep")
     backing: f.Maybe[Backing] = optional(
@@ -191,6 +204,21 @@ class Material(ElasticPair, f.Labelled):
             if not (has_modulus and key == "youngs_modulus")
         }
         return taken | {key: value for key, value in entry.items() if key != "common"}
+
+    @model_validator(mode="after")
+    def take_shear_modulus(self) -> Self:
+        """Fill in Young's modulus, E = 2 (1 + nu) G of an isotropic solid."""
+        if self.shear_modulus is None and self.shear_modulus_table is None:
+            return self
+        assert self.poisson_ratio is not None
+        ratio = 2 * (1 + self.poisson_ratio)
+        if self.shear_modulus is not None:
+            self.fill_in("youngs_modulus", _stretch(self.shear_modulus, ratio))
+        else:
+            pairs = self.shear_modulus_table or []
+            table = [(frequency, _stretch(modulus, ratio)) for frequency, modulus in pairs]
+            self.fill_in("youngs_modulus_table", table)
+        return self
 
     @model_validator(mode="after")
     def check_rates(self) -> Self:
@@ -458,6 +486,12 @@ class Material(ElasticPair, f.Labelled):
         """Old name of Poisson's ratio."""
         warn_of_old_name("poisson", OLD_NAMES["poisson"])
         return self.poisson_ratio
+
+
+def _stretch(modulus: float, ratio: float) -> Quantity:
+    """Modulus times a ratio."""
+    stretched = modulus * ratio
+    return Quantity(stretched, amount(stretched, "Pa", 6))
 
 
 def _name_frequency(frequency: float) -> str:

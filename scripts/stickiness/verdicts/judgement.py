@@ -172,7 +172,7 @@ def judge(
     rate_moduli = [find_rate_moduli(each.plane_strain, axes) for each in materials.values()]
     dataset["modulus"] = ("material", "frequency"), rate_moduli
     along = {name: points for name, points in axes.items() if name in dataset.dims}
-    return _withhold(_describe(dataset.assign_coords(along)))
+    return withhold(_describe(dataset.assign_coords(along)))
 
 
 def _check_shares(wanted_share: float, contact_area: float) -> None:
@@ -412,7 +412,7 @@ def _describe(dataset: xr.Dataset) -> xr.Dataset:
     return dataset
 
 
-def _withhold(dataset: xr.Dataset) -> xr.Dataset:
+def withhold(dataset: xr.Dataset) -> xr.Dataset:
     """The dataset without numbers of pairs that are not judged, and with that as their verdict."""
     judged = dataset.not_judged == ""
     if judged.all():

@@ -296,13 +296,14 @@ class Surface:
 
     @classmethod
     def open(cls, path: str | Path) -> Surface:
-        """Open a file that `write` has written."""
-        groups = datasets.read_groups(path)
+        """Open a file that `write` has written; raise ValueError with the reason if it has none."""
+        if reason := datasets.read(path).attrs.get("unread"):
+            raise ValueError(reason)
         return cls(
             datasets.read(path, NEEDED),
             readings=tuple(
                 Reading(Guess(**json.loads(data.attrs["guess"])), cls(data))
-                for data in groups.values()
+                for data in datasets.read_groups(path).values()
             ),
         )
 

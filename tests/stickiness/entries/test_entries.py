@@ -104,6 +104,17 @@ def test_a_storage_modulus_that_falls_is_refused_by_file_and_row(tmp_path):
     assert str(caught.value.value) == "47 kPa"
 
 
+@pytest.mark.parametrize("name", ["2024_01", "no", "1.10", "2024-01-05"])
+def test_a_name_that_yaml_takes_for_a_number_is_wanted_in_quotes(tmp_path, name):
+    path = tmp_path / "tape.yaml"
+    text = "{NAME: {label: a, source: b, common: psa}}"
+    path.write_text(f"materials: {text.replace('NAME', name)}", encoding="utf-8")
+    with pytest.raises(entries.EntryError, match="put it in quotes"):
+        entries.read_materials(path)
+    path.write_text(f"materials: {text.replace('NAME', repr(name))}", encoding="utf-8")
+    assert list(entries.read_materials(path)) == [name]
+
+
 def test_quantities_are_pickled_and_written():
     length = Quantity.read("10 um", "m")
     copy = pickle.loads(pickle.dumps(length))

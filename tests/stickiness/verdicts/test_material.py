@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stickiness import Material, Surface, thresholds, verdict
-from stickiness.entries import check_material
+from stickiness.entries import EntryError, check_material
 from stickiness.solids import HALF_SPACE, Film, Layer, Skin
 from stickiness.solids.moduli import Prony, Table
 from stickiness.spectrum import SelfAffine
@@ -18,6 +18,7 @@ ADHESION = {"work_of_adhesion": 0.06, "range": 3e-10}
 TEXTS = {"label": "tape", "work_of_adhesion": "70 mJ/m^2", "range": "0.3 nm"}
 SERIES_TEXTS = {"equilibrium": "10 kPa", "terms": [["30 kPa", "1 s"], ["0.2 MPa", "1 ms"]]}
 TABLE_TEXTS = [["10 mHz", "50 kPa"], ["0.1 kHz", "0.5 MPa"]]
+SHEAR_TEXTS = [["10 mHz", "16666.6666666666 Pa"], ["0.1 kHz", "0.166666666666666 MPa"]]
 FILM_TEXTS = {"youngs_modulus": "3 GPa", "poisson_ratio": 0.4, "thickness": "25 um"}
 
 
@@ -46,6 +47,8 @@ def read(**texts):
             TAPE.replace(youngs_modulus_prony=SERIES, dwell=10.0),
         ),
         ({"youngs_modulus_table": TABLE_TEXTS}, TAPE.replace(youngs_modulus_table=TABLE)),
+        ({"shear_modulus": "100 kPa"}, TAPE.replace(youngs_modulus=0.3e6)),
+        ({"shear_modulus_table": SHEAR_TEXTS}, TAPE.replace(youngs_modulus_table=TABLE)),
     ],
 )
 def test_entries_are_the_same_materials_as_properties(texts, expected):
@@ -59,6 +62,70 @@ def test_entries_are_the_same_materials_as_properties(texts, expected):
     waves = np.geomspace(1e3, 1e8, 7)
     np.testing.assert_allclose(material.solid.factor(waves), expected.solid.factor(waves))
     assert (material.solid == HALF_SPACE) == (expected.solid == HALF_SPACE)
+
+
+def test_a_shear_modulus_is_taken_with_poissons_ratio():
+    ours = Material(shear_modulus=60e3, poisson_ratio=0.3, work_of_adhesion=0.05, range=3e-10)
+    assert ours.quoted_modulus == pytest.approx(156e3, rel=1e-12)
+    assert ours.replace(poisson_ratio=0.5).quoted_modulus == pytest.approx(180e3, rel=1e-12)
+    assert ours.replace(youngs_modulus=1e5).quoted_modulus == 1e5
+    entry = check_material(TEXTS | {"shear_modulus": "60 kPa"})
+    assert str(entry["youngs_modulus"]) == "180 kPa"
+    assert check_material(entry) == entry
+    assert check_material({"common": "psa", "shear_modulus": "60 kPa"})["youngs_modulus"] == 180e3
+
+
+RHEOMETERS = {
+    "one line, angular": (
+        "shear_modulus_table",
+        "Angular Frequency [rad/s],G' [kPa],G'' [kPa]\n62.83185307,20,3\n0.06283185307,10,2\n",
+    ),
+    "units below": (
+        "shear_modulus_table",
+        "Sweep 1\nPoint\tFrequency\tStorage Modulus\tLoss Modulus\n\t[Hz]\t[Pa]\t[Pa]\n"
+        "1\t0,01\t10000\t3000\n2\t10\t20000,0\t\n",
+    ),
+    "tension": ("youngs_modulus_table", "f (Hz);E′ (MPa)\n0,01;0,03\n10;0,06\n"),  # noqa: RUF001
+}
+
+
+@pytest.mark.parametrize("name", RHEOMETERS)
+def test_a_table_is_read_from_a_file_of_a_rheometer(tmp_path, name):
+    key, content = RHEOMETERS[name]
+    path = tmp_path / "sweep.csv"
+    path.write_text(content, encoding="utf-8")
+    pairs = read(**{key: str(path)}).youngs_modulus_table
+    np.testing.assert_allclose(pairs, [(0.01, 3e4), (10.0, 6e4)], rtol=1e-9)
+    assert Material(**ADHESION, **{key: path}).youngs_modulus_table == pairs
+
+
+@pytest.mark.parametrize(
+    ("key", "content", "message"),
+    [
+        ("youngs_modulus_table", "Frequency [Hz],G' [kPa]\n1,20\n2,30\n", "G' with shear_modulus_"),
+        ("shear_modulus_table", "Frequency [Hz],E' [kPa]\n1,20\n2,30\n", "E' goes with youngs_mod"),
+        ("shear_modulus_table", "Frequency,G'\n1,20\n2,30\n", "named with their units"),
+        ("shear_modulus_table", "Frequency [Hz],G'' [kPa]\n1,20\n2,30\n", "of a storage modulus"),
+        ("shear_modulus_table", "Frequency [Hz],G' [mm]\n1,20\n2,30\n", "is a length; a pressure"),
+        (
+            "shear_modulus_table",
+            "omega [1/s],G' [Pa]\n1,20\n2,30\n",
+            "omega is in 1/s: write rad/s",
+        ),
+        (
+            "shear_modulus_table",
+            "Frequency [Hz];G' [Pa];G' [Pa]\n1;20;2\n2;30;3\n",
+            "may both be the modulus: leave one",
+        ),
+        ("shear_modulus_table", "G' [Pa]\n", "no line of numbers found"),
+    ],
+)
+def test_a_file_that_does_not_tell_which_modulus_is_refused(tmp_path, key, content, message):
+    path = tmp_path / "sweep.csv"
+    path.write_text(content)
+    with pytest.raises(EntryError, match=message) as caught:
+        read(**{key: str(path)})
+    assert caught.value.key.startswith(key)
 
 
 def test_the_surface_of_a_rough_material_is_found_by_name():

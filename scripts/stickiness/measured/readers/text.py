@@ -63,19 +63,19 @@ _HEIGHT_NAME = re.compile(r"(?i)^(?:z|heights?|topo\w*|h)\b")
 
 def is_of_instrument(head: bytes) -> bool:
     """Whether SurfaceTopography reads the header of a text, and this module does not."""
-    header, _ = _split_lines(_decode(head[: len(head) // 2 * 2]).splitlines())
+    header, _ = split_lines(decode(head[: len(head) // 2 * 2]).splitlines())
     return INSTRUMENTS.find(header) is not None
 
 
 def read_text(path: Path) -> Raw:
     """Read a matrix, one or two columns of a profile, or a list of points x y z."""
-    lines = _decode(path.read_bytes()).splitlines()
+    lines = decode(path.read_bytes()).splitlines()
     for dialect in DIALECTS:
         if dialect.heights is not None and dialect.find(lines[:1]) is not None:
             return dialect.heights(path, lines)
 
     # The table of numbers, and what the lines before it tell.
-    header, rows = _split_lines(lines)
+    header, rows = split_lines(lines)
     if not rows:
         raise ValueError(
             "no line of numbers found; expected a matrix of heights, a profile or points x y z in "
@@ -117,14 +117,15 @@ def read_text(path: Path) -> Raw:
 # Lines.
 
 
-def _decode(content: bytes) -> str:
+def decode(content: bytes) -> str:
+    """Text of a file, in the encoding that its bytes show."""
     try:
         return content.decode("utf-16" if content.startswith(UTF16) else "utf-8-sig")
     except UnicodeDecodeError:
         return content.decode("latin-1")  # older instruments write µ as one byte
 
 
-def _split_lines(lines: list[str]) -> tuple[list[str], Rows]:
+def split_lines(lines: list[str]) -> tuple[list[str], Rows]:
     """Comments and lines before the first row, and the rows."""
     header_lines: list[str] = []
     rows: Rows = {}
@@ -192,7 +193,7 @@ def _read_names(lines: list[str], columns: int) -> tuple[tuple[str, ...], Units]
         return (), of_heights
     below: tuple[str, ...] = ()  # units in a line of their own
     for line in reversed(lines[-3:]):
-        words = _split_names(line.strip("#%/ \t"), columns)
+        words = split_names(line.strip("#%/ \t"), columns)
         if words is None:
             continue
         bare = tuple(word.strip("[]() ") for word in words)
@@ -207,7 +208,7 @@ def _read_names(lines: list[str], columns: int) -> tuple[tuple[str, ...], Units]
     return (), below or of_heights
 
 
-def _split_names(line: str, columns: int) -> list[str] | None:
+def split_names(line: str, columns: int) -> list[str] | None:
     """Words of a line that names so many columns; None of another line."""
     for separator in (r"\s*[\t;,]\s*", r"\s{2,}", r"(?<![\[(])\s+(?![\[(\])])"):
         words = [word for word in re.split(separator, line) if word]
