@@ -171,7 +171,10 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
             text = texts[key].replace("%", "%%")
             if key in TEXTS["defaults"]:
                 text = f"{text} (default: {TEXTS['defaults'][key]})"
-            group.add_argument(option, dest=key, type=kind, metavar="VALUE", help=text)
+            value: dict[str, Any] = {"type": kind, "metavar": "VALUE"}
+            if key in TEXTS["flags"][title]:
+                value = {"action": "store_const", "const": True}
+            group.add_argument(option, dest=key, help=text, **value)
     options = parser.parse_args(join_negative(arguments))
     used = [OPTIONS[key] for key in choose_given(options, "material")]
     if options.tape and used:

@@ -246,6 +246,10 @@ class Analysis(Section):
         "decides; keep: judge contacts with it; beside: judge the largest part beside it",
         "detect",
     )
+    invert: f.Maybe[bool] = optional(
+        "true: turn the heights upside down, where a replica was measured in place of the surface; "
+        "false: do not ask, where a name says replica"
+    )
     detrend: Literal["detect", "mean", "plane", "quadratic"] = optional(
         "what to subtract from the heights; default detect: a plane, or the form of a lens where "
         "that is nearly all of the heights, or the mean of heights that a file calls periodic",

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from inspect import signature
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.measured import instrument_spectrum, topography
@@ -20,8 +23,15 @@ FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side 
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
 _INSTRUMENT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  # lengths of `TrustedWaves`
 # Keys of heights in files and arrays.
-_CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan"}
+_CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan", "invert"}
 _READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
+# Texts about a measurement that say that a replica was measured; metals and films are cast, too.
+_REPLICA = re.compile(
+    r"(?i)replica|imprint|abdruck"
+    r"|(?<![a-z])(?:cast(?![ _-]?(?:iron|steel|al|film))|mou?ld)(?:ing)?(?![a-z])"
+)
+_ABOUT = ("label", "source", "note")  # keys with such texts
+LEAST_SKEWNESS = 0.5  #: above which heights upside down have another verdict; 0.3 by chance
 
 
 @dataclass(frozen=True)
@@ -48,7 +58,7 @@ class Measurement:
         cls, heights: NDArray, steps: float | tuple[float, ...], options: Mapping[str, Any]
     ) -> Measurement:
         """Take heights on a grid of these steps [m], with checked `options` of an entry."""
-        reading = {key: options[key] for key in _CLEANING}
+        reading = {key: options[key] for key in _CLEANING if options[key] is not None}
         return cls._level(topography.from_array(heights, steps, **reading), options)
 
     @classmethod
@@ -58,6 +68,9 @@ class Measurement:
         levelled = heights.detrended(entry["detrend"])
         if isinstance(levelled, Topography):
             levelled = _look_for_feature(levelled, entry)
+        if remark := _ask_for_replica(levelled, entry):
+            step = Step("take for the surface itself", remark=remark)
+            levelled = replace(levelled, processing=(*levelled.processing, step))
         window = entry["window"]
         if window == "detect":
             window = "none" if levelled.periodic else "hann"
@@ -159,6 +172,21 @@ def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topogra
         )
     processing = (*levelled.processing, step)
     return replace(levelled, processing=processing, feature=feature, doubts=doubts)
+
+
+def _ask_for_replica(heights: Topography | Profile, entry: Mapping[str, Any]) -> str:
+    """Ask whether skewed heights of a replica are to be turned upside down; empty of others."""
+    texts = [Path(entry.get("file") or "").name, *(entry.get(key) or "" for key in _ABOUT)]
+    if entry["invert"] is not None or not (named := _REPLICA.search(" | ".join(texts))):
+        return ""
+    level = heights.heights - heights.heights.mean()
+    skewness = float(np.mean(level**3) / np.mean(level**2) ** 1.5)
+    if abs(skewness) < LEAST_SKEWNESS:
+        return ""
+    return (
+        f"{named[0]!r} may mean a replica, which is upside down, and with a skewness of "
+        f"{skewness:.2g} that matters: to judge the surface that was replicated, give invert"
+    )
 
 
 def _doubt_missing(heights: Topography | Profile, most: float) -> Topography | Profile:

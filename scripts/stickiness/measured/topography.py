@@ -236,6 +236,7 @@ def read(
     missing_rim: Rim = "detect",
     spikes: Spikes = "mask",
     scan: Scan = "detect",
+    invert: bool = False,
 ) -> Topography | Profile:
     """Read a topography or a line profile.
 
@@ -275,6 +276,8 @@ def read(
     scan : {"detect", "mend", "align", "keep"}
         What scanning leaves in a map (`scanning.mend`): "detect" mends what is found with
         certainty, "align" also sets the median of every row to zero.
+    invert : bool
+        Turn the heights upside down, as of a replica in place of the surface.
 
     Returns
     -------
@@ -322,6 +325,7 @@ def read(
         missing_rim=missing_rim,
         spikes=spikes,
         scan=scan,
+        invert=invert,
         source=raw.source,
         scale=height_factor * scale,
     )
@@ -345,6 +349,7 @@ def from_array(
     missing_rim: Rim = "detect",
     spikes: Spikes = "mask",
     scan: Scan = "detect",
+    invert: bool = False,
     source: str = "heights",
     scale: float = 1.0,
 ) -> Topography | Profile:
@@ -357,7 +362,7 @@ def from_array(
     steps : float, pair of float or (n,) array
         Grid step [m] along both axes, or along each. Of a profile its step, or the positions of
         its points [m], in any order: uneven ones are interpolated linearly to as many even ones.
-    missing, max_missing, missing_rim, spikes, scan
+    missing, max_missing, missing_rim, spikes, scan, invert
         As of `read`.
     source : str
         Name of the heights in messages.
@@ -426,6 +431,9 @@ def from_array(
         filled, spacing, largest_gap = _resample(filled, places, source)
         if largest_gap > (1 + _EVEN) * spacing[0]:
             done.append(Step("interpolate at even positions", filled.size))
+    if invert:
+        scale = -scale
+        done.append(Step("turn upside down", heights.size, {"invert": True}))
     filled = filled * scale
     if np.ptp(filled) == 0:
         raise ValueError(f"{source}: all heights are {filled.flat[0]:g} m; nothing to analyse")

@@ -181,7 +181,8 @@ def test_options_of_the_command_have_the_texts_of_their_keys(kind, capsys):
         read_options(["--help"])
     shown = " ".join(capsys.readouterr().out.split())
     for key, option in TEXTS[kind].items():
-        assert f"{option} VALUE {texts[key]}" in shown
+        value = "" if key in TEXTS["flags"][kind] else " VALUE"
+        assert f"{option}{value} {texts[key]}" in shown
 
 
 def test_a_wheel_has_all_files_that_are_no_code():

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from stickiness import Surface, surface
 from stickiness.measured import levelling, readers, topography
+from stickiness.spectrum import SelfAffine
 
 pytestmark = pytest.mark.processors
 
@@ -223,6 +225,33 @@ def test_format_follows_from_name_and_content(tmp_path, name, content, kind):
 def test_channels_of_heights(name, unit, is_height, holds):
     channel = SimpleNamespace(name=name, unit=unit, is_height_channel=is_height)
     assert readers.holds_heights(channel) == holds
+
+
+@pytest.mark.parametrize(
+    ("name", "skewed", "options", "asks"),
+    [
+        ("wall_replica.txt", True, {}, True),
+        ("mold 2.txt", True, {}, True),
+        ("wall_replica.txt", True, {"invert": True}, False),
+        ("wall_replica.txt", True, {"invert": False}, False),
+        ("wall_replica.txt", False, {}, False),
+        ("cast_iron.txt", True, {}, False),
+        ("broadcast.txt", True, {}, False),
+    ],
+)
+def test_heights_of_a_replica_are_turned_or_asked_about(tmp_path, name, skewed, options, asks):
+    rough = SelfAffine(hurst=0.8, q0=6.3e4, q1=1.5e6, h_rms=1.0)
+    heights = surface.synthesise(rough, 64, 1e-4, seed=2)
+    heights = np.exp(0.6 * heights) if skewed else heights
+    np.savetxt(tmp_path / name, heights.T)
+    sides = {"length": "100 um", "height_unit": "um"}
+    found = Surface.read(tmp_path / name, **sides, **options)
+    assert ("give invert" in found.data.attrs["remarks"]) == asks
+    sign = -1 if options.get("invert") else 1
+    as_array = Surface.from_heights(sign * 1e-6 * heights, 1e-4)
+    assert float(found.data.skewness) == pytest.approx(float(as_array.data.skewness), rel=1e-6)
+    turned = Surface.from_heights(1e-6 * heights, 1e-4, **options)
+    assert float(turned.data.skewness) == pytest.approx(float(as_array.data.skewness), rel=1e-6)
 
 
 # Errors name file, value and remedy in one line
