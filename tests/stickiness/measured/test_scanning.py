@@ -75,6 +75,12 @@ def scars(heights, strength, rng):
     return heights
 
 
+def hum(heights, strength, rng):
+    """Pickup sample after sample, with a fly-back as long as the row."""
+    samples = ROW[:, None] + 2.03 * N * ROW
+    return heights + strength * np.sin(2 * np.pi * samples / 7.3 + rng.uniform(0, 6))
+
+
 FAULTS = {
     rows: (0.3, 1.0),
     tilts: (0.5, 1.0),
@@ -84,6 +90,7 @@ FAULTS = {
     drift: (30.0, 60.0),
     bow: (30.0, 60.0),
     scars: (8.0, 15.0),
+    hum: (0.3, 1.0),
 }
 CASES = [(fault, strength) for fault, strengths in FAULTS.items() for strength in strengths]
 
@@ -154,7 +161,7 @@ def test_limits_of_maps_hold_what_mending_leaves():
     assert added < 0.1
 
 
-@pytest.mark.parametrize("fault", [rows, jump, creep, scars])
+@pytest.mark.parametrize("fault", [rows, jump, creep, scars, hum])
 def test_fast_axis_may_be_either(fault):
     strength = FAULTS[fault][1]
     faulty = fault(rough(), strength, np.random.default_rng(0))
@@ -208,6 +215,22 @@ def test_noise_of_points_and_gratings_are_no_offsets_of_rows():
     for period in (3, 4, 6, 64):
         grating = (period // 2 <= ROW % period) + 0.05 * rough()
         assert scanning.mend(grating).heights is grating
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_an_oblique_wave_that_is_resolved_is_asked_about(sign):
+    heights = rough() + 4.0 * np.sin(2 * np.pi * (ROW[:, None] / 12.6 + sign * ROW / 7.45))
+    mended = scanning.mend(heights)
+    assert mended.heights is heights
+    (remark,) = mended.remarks
+    assert "of 12.6 points along x and 7.45 points along y" in remark
+    assert "filter it out if it is hum" in remark
+
+
+def test_the_period_and_the_amplitude_of_hum_are_told():
+    along = ROW[:, None] / 11.37 + ROW / 2.06
+    _, (remark,) = used(rough() + 2.0 * np.sin(2 * np.pi * along))
+    assert "amplitude 2 nm, of 11.4 points along x and 2.06 points along y" in remark
 
 
 def test_keep_and_align():
