@@ -54,11 +54,11 @@ _RESOLUTION = re.compile(
     r"(?i)(?:^|[\s,;:=])(\d+)\s*[x×]\s*(\d+)\s*(?:pixels?|points?|px|pts)?\W*$"
 )
 _NAMED_UNIT = re.compile(
-    r"(?i)^\W*(?:heights?|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$"
+    r"(?i)^\W*(?:heights?|höhe|topography|z)(?:[\s,;:=\t]+(?:in\b)?\s*|\s*[\[(]\s*)([a-zµμÅ]+)\W*$"
 )
 # Columns of positions: those of a matrix follow each other along x.
 _AXES = {"x": "x", "y": "y", "column": "x", "col": "x", "row": "y"}
-_HEIGHT_NAME = re.compile(r"(?i)^(?:z|heights?|topo\w*|h)\b")
+_HEIGHT_NAME = re.compile(r"(?i)^(?:z|heights?|höhe|topo\w*|h)\b")
 
 
 def is_of_instrument(head: bytes) -> bool:
