@@ -2,10 +2,11 @@
 
 
 def topographies(wildcards):
-    """Files of a real surface's measurements."""
-    if wildcards.real_surface not in MEASURED_SURFACES:
+    """Files of a real surface's measurements, or of its spectrum."""
+    entry = REAL_SURFACES[wildcards.real_surface]
+    if entry["kind"] not in ("measured", "spectrum"):
         return []
-    measurements = list_measurements(REAL_SURFACES[wildcards.real_surface])
+    measurements = list_measurements(entry) if entry["kind"] == "measured" else [entry]
     return [local(file) for file in dict.fromkeys(each["file"] for each in measurements)]
 
 

@@ -19,7 +19,7 @@ from stickiness import plausibility
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError
 from stickiness.entries.fields import Section, needed, optional
-from stickiness.measured import readers, texture
+from stickiness.measured import readers, spectrum_table, texture
 from stickiness.measured.levelling import MAX_MISSING
 from stickiness.spectrum import kinds
 from stickiness.units import Quantity, si_of_unit
@@ -67,8 +67,12 @@ class SelfAffineEntry(SurfaceEntry, f.Direction):
     shortest_wavelength: f.Maybe[f.Length] = optional(
         'shortest wavelength, e.g. "1 um"; or give q1'
     )
-    q0: f.Maybe[f.WaveNumber] = optional('lowest wave number, e.g. "1e3 1/m"')
-    q1: f.Maybe[f.WaveNumber] = optional('highest wave number, e.g. "1e9 1/m"')
+    q0: f.Maybe[f.WaveNumber] = optional(
+        'lowest wave number, 2 pi over the longest wavelength, e.g. "1e3 1/m"'
+    )
+    q1: f.Maybe[f.WaveNumber] = optional(
+        'highest wave number, 2 pi over the shortest wavelength, e.g. "1e9 1/m"'
+    )
     rolloff_wavelength: f.Maybe[f.Length] = optional("wavelength above which the spectrum is flat")
     h_rms: f.Maybe[f.OneOrTwo[f.Length]] = optional(
         'rms height or its range, e.g. ["0.5 um", "2 um"]'
@@ -115,6 +119,31 @@ class SelfAffineEntry(SurfaceEntry, f.Direction):
                 "the wavelengths"
             )
             raise EntryError(key, roughest, text)
+        return self
+
+
+class SpectrumEntry(SurfaceEntry):
+    """A surface of `kind: spectrum`, by a table of its isotropic spectrum C(q)."""
+
+    kind: Literal["spectrum"] = needed("a table of a spectrum")
+    file: f.Text = needed(
+        "text or CSV with columns named with units: wave number (2 pi/wavelength), spatial "
+        "frequency (1/wavelength) or wavelength, and PSD"
+    )
+    convention: Literal["variance", "fourier", "radial"] = needed(
+        "what the table holds, by h_rms^2. variance: 2 pi int q C dq; fourier: int q C dq/(2 pi), "
+        "as of contact.engineering; radial: int C dq, as of Gwyddion"
+    )
+
+    @model_validator(mode="after")
+    def check_file(self, info: ValidationInfo) -> Self:
+        """Check that the file holds a spectrum, unless another workflow makes it."""
+        if (info.context or {}).get("made") and not Path(self.file).is_file():
+            return self
+        try:
+            spectrum_table.read_spectrum(self.file, self.convention)
+        except ValueError as error:
+            raise EntryError("file", self.file, str(error)) from None
         return self
 
 
@@ -391,7 +420,8 @@ class MeasuredEntry(Use, Reading, SurfaceEntry):
 
 
 AnySurface = Annotated[
-    MeasuredEntry | SurfaceTextureEntry | SelfAffineEntry, Field(discriminator="kind")
+    MeasuredEntry | SurfaceTextureEntry | SelfAffineEntry | SpectrumEntry,
+    Field(discriminator="kind"),
 ]
 
 

@@ -215,7 +215,7 @@ def describe_surface(surface: xr.Dataset) -> dict[str, str]:
     if "C0_reference" in surface:
         line = with_error(surface.C0_reference, surface.C0_reference_total_error)
     else:  # the highest line with H = 0.8 that the spectrum touches
-        bound = "" if np.isclose(float(surface.hurst), 0.8) else "≤ "
+        bound = "" if np.isclose(float(surface.get("hurst", np.nan)), 0.8) else "≤ "
         line = bound + _tell_ends(surface.C0_reference_upper)
     return {"height": height_text, "slope": slope_text, "line": line}
 

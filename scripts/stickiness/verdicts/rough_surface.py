@@ -260,6 +260,10 @@ class Surface:
         """Make a surface of a checked entry of the configuration, with values in SI units."""
         if entry["kind"] == "self_affine":
             return cls(surface_data.read_self_affine(entry))
+        if entry["kind"] == "spectrum":
+            from stickiness.measured.spectrum_table import read_spectrum
+
+            return cls.from_spectrum(read_spectrum(entry["file"], entry["convention"]))
         if entry["kind"] == "surface_texture":
             return cls(surface_data.read_drawing(entry))
         return cls._analyse(read_measurements, entry)
