@@ -223,26 +223,30 @@ class Material(ElasticPair, f.Labelled):
     @model_validator(mode="after")
     def check_rates(self) -> Self:
         """Check that the modulus is known at the rates at which verdicts are made."""
+        key = "youngs_modulus_table"
         table = self.youngs_modulus_table or []
+        if self.shear_modulus_table is not None:  # which rises and falls alike
+            key = "shear_modulus_table"
+            table = self.shear_modulus_table
         frequencies = [frequency for frequency, _ in table]
         moduli = [modulus for _, modulus in table]
         if frequencies != sorted(set(frequencies)):
             listed = ", ".join(map(_name_frequency, frequencies))
-            raise EntryError("youngs_modulus_table", listed, "frequencies must ascend")
+            raise EntryError(key, listed, "frequencies must ascend")
         rise = find_rise(frequencies, moduli) if moduli else None
         if rise is not None:
             text = (
                 f"at {_name_frequency(frequencies[rise])} is too high: a storage modulus rises "
                 "with the square of the frequency at most; correct this row or the one before"
             )
-            raise EntryError(f"youngs_modulus_table[{rise}]", moduli[rise], text)
+            raise EntryError(f"{key}[{rise}]", moduli[rise], text)
         fall = find_fall(moduli)
         if fall is not None:
             text = (
                 f"at {_name_frequency(frequencies[fall])} is below the modulus at lower "
                 "frequencies: a storage modulus does not fall with frequency; correct this row"
             )
-            raise EntryError(f"youngs_modulus_table[{fall}]", moduli[fall], text)
+            raise EntryError(f"{key}[{fall}]", moduli[fall], text)
         if self.dwell is None:
             needed_frequency = REFERENCE_FREQUENCY
             role = "at which the verdict is quoted"
@@ -257,7 +261,7 @@ class Material(ElasticPair, f.Labelled):
                 _name_frequency, (frequencies[0], frequencies[-1], needed_frequency)
             )
             text = f"runs from {first} to {last} and must cover {wanted}, {role}"
-            raise EntryError("youngs_modulus_table", None, text)
+            raise EntryError(key, None, text)
         return self
 
     @model_validator(mode="after")

@@ -118,6 +118,7 @@ def test_a_table_is_read_from_a_file_of_a_rheometer(tmp_path, name):
             "may both be the modulus: leave one",
         ),
         ("shear_modulus_table", "G' [Pa]\n", "no line of numbers found"),
+        ("shear_modulus_table", "f [Hz],G' [kPa]\n1,20\n2,10\n", "'10 kPa': at 2 Hz is below"),
     ],
 )
 def test_a_file_that_does_not_tell_which_modulus_is_refused(tmp_path, key, content, message):
