@@ -127,11 +127,7 @@ def analyse(entry: str) -> tuple[Surface, dict[str, Any]]:
 
 def read_values(texts: Mapping[str, str]) -> dict[str, Any]:
     """Values that are given, by key, as the command reads them."""
-    return {
-        key: command.read_value(text.strip())
-        for key, text in texts.items()
-        if text.strip()
-    }
+    return {key: command.read_value(text.strip()) for key, text in texts.items() if text.strip()}
 
 
 def read_material(form: Mapping[str, str], label: str) -> dict[str, Any]:

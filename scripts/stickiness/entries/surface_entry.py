@@ -265,9 +265,9 @@ class Analysis(Section):
         "mask (default) points far off their neighbours", "mask"
     )
     scan: Literal["detect", "mend", "align", "keep"] = optional(
-        "rows at random heights, jumps, creep, drift, bow, scars and hum of a scan; default detect: "
-        "mend what is found, and ask where it decides and may belong to the surface; mend: do not "
-        "ask; align: set every row to the median 0, too",
+        "rows at random heights, jumps, creep, drift, bow, scars and hum of a scan; default "
+        "detect: mend what is found, and ask where it decides and may belong to the surface; mend: "
+        "do not ask; align: set every row to the median 0, too",
         "detect",
     )
     features: Literal["detect", "keep", "beside"] = optional(

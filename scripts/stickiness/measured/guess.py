@@ -33,6 +33,25 @@ def guess_place(feature: str) -> Guess:
     )
 
 
+def guess_pattern(question: str) -> Guess:
+    """Guess that what may be hum, by this question, is a pattern of the surface."""
+    return Guess(
+        question=question,
+        answers=("a pattern of the surface", "hum"),
+        options=({"scan": "keep"}, {"scan": "mend"}),
+    )
+
+
+def guess_side(named: str, skewness: float) -> Guess:
+    """Guess that heights are those of the surface, though they are named like a replica."""
+    return Guess(
+        question=f"Are these heights ({named!r}, skewness {skewness:.2g}) those of the surface, or "
+        "of a replica, which is upside down?",
+        answers=("the surface itself", "a replica"),
+        options=({"invert": False}, {"invert": True}),
+    )
+
+
 def guess_end(shortest: str) -> Guess:
     """Guess that waves may go on below the shortest that was resolved."""
     return Guess(

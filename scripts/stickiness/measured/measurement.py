@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from stickiness.measured import instrument_spectrum, topography
 from stickiness.measured.features import find_feature
-from stickiness.measured.guess import guess_place
+from stickiness.measured.guess import Guess, guess_place, guess_side
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, TrustedWaves
 from stickiness.measured.psd import Taper
 from stickiness.measured.topography import Profile, Step, Topography
@@ -23,7 +23,7 @@ FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side 
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
 _INSTRUMENT_KEYS = {"fit_from", "fit_to", "resolution", "tip_radius"}  # lengths of `TrustedWaves`
 # Keys of heights in files and arrays.
-_CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan", "invert"}
+_CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan"}
 _READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
 # Texts about a measurement that say that a replica was measured; metals and films are cast, too.
 _REPLICA = re.compile(
@@ -50,6 +50,7 @@ class Measurement:
         verdict, so that its page can show what is wrong.
         """
         reading = {key: entry[key] for key in _READING if entry.get(key) is not None}
+        reading["height_factor"] = _find_sign(entry) * entry["height_factor"]
         heights = topography.read(entry["file"], max_missing=_ALL_MISSING, **reading)
         return cls._level(_doubt_missing(heights, most=entry["max_missing"]), entry)
 
@@ -59,7 +60,8 @@ class Measurement:
     ) -> Measurement:
         """Take heights on a grid of these steps [m], with checked `options` of an entry."""
         reading = {key: options[key] for key in _CLEANING if options[key] is not None}
-        return cls._level(topography.from_array(heights, steps, **reading), options)
+        measured = topography.from_array(heights, steps, scale=_find_sign(options), **reading)
+        return cls._level(measured, options)
 
     @classmethod
     def _level(cls, heights: Topography | Profile, entry: Mapping[str, Any]) -> Measurement:
@@ -68,8 +70,8 @@ class Measurement:
         levelled = heights.detrended(entry["detrend"])
         if isinstance(levelled, Topography):
             levelled = _look_for_feature(levelled, entry)
-        if remark := _ask_for_replica(levelled, entry):
-            step = Step("take for the surface itself", remark=remark)
+        if guess := _guess_replica(levelled, entry):
+            step = Step("take for the surface itself", guess=guess)
             levelled = replace(levelled, processing=(*levelled.processing, step))
         window = entry["window"]
         if window == "detect":
@@ -136,6 +138,11 @@ def find_spectra(measurements: Sequence[Measurement]) -> list[tuple[MeasuredSpec
     ]
 
 
+def _find_sign(entry: Mapping[str, Any]) -> float:
+    """Sign of heights: those of a replica are turned upside down."""
+    return -1.0 if entry["invert"] else 1.0
+
+
 def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topography:
     """Name a feature that decides the energy of a map, or take the part of the map beside it."""
     choice = entry["features"]
@@ -174,19 +181,14 @@ def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topogra
     return replace(levelled, processing=processing, feature=feature, doubts=doubts)
 
 
-def _ask_for_replica(heights: Topography | Profile, entry: Mapping[str, Any]) -> str:
-    """Ask whether skewed heights of a replica are to be turned upside down; empty of others."""
+def _guess_replica(heights: Topography | Profile, entry: Mapping[str, Any]) -> Guess | None:
+    """Guess that skewed heights of a file named like a replica are those of the surface."""
     texts = [Path(entry.get("file") or "").name, *(entry.get(key) or "" for key in _ABOUT)]
     if entry["invert"] is not None or not (named := _REPLICA.search(" | ".join(texts))):
-        return ""
+        return None
     level = heights.heights - heights.heights.mean()
     skewness = float(np.mean(level**3) / np.mean(level**2) ** 1.5)
-    if abs(skewness) < LEAST_SKEWNESS:
-        return ""
-    return (
-        f"{named[0]!r} may mean a replica, which is upside down, and with a skewness of "
-        f"{skewness:.2g} that matters: to judge the surface that was replicated, give invert"
-    )
+    return guess_side(named[0], skewness) if abs(skewness) > LEAST_SKEWNESS else None
 
 
 def _doubt_missing(heights: Topography | Profile, most: float) -> Topography | Profile:

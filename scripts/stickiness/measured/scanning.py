@@ -23,8 +23,8 @@ separate parts of a row, as roughness is not, and must change from row to row as
   a form, too, which is a question again.
 - Hum is one wave across all of the map, far above those beside it, and often shorter than four
   points along an axis, as no resolved wave of a surface is. Marks of machining have harmonics
-  there, below a stronger longer wave. Whether an oblique longer one is hum is a question; marks
-  along an axis are left.
+  there, below a stronger longer wave. An oblique longer one is left, with a question whether it is
+  hum; marks along an axis are left.
 
 Limits were chosen on 1918 maps without faults, of 160 x 160 points: 14 families, self-affine maps
 of H = 0.3 to 1 whose lay is up to 40 times as long as wide, along, across and oblique to the rows,
@@ -34,8 +34,8 @@ and have waves as short as two points are taken for offsets in 2.5 % if H = 0.3,
 (128 rows). Of white offsets, 0.4 % of maps with 128 rows and 40 % with 64 are missed. Hum was tried
 on 1080 maps of 100 to 300 points of these and other families, turned ones oblique to the rows among
 them: of one crossed grating out of 60 a harmonic was taken for hum, else of none. Of 1080 maps with
-hum of any period and 5 to 50 % of their rms height, three quarters were found, a third of them with
-a question; up to 9 % of the height was left.
+hum of any period and 5 to 50 % of their rms height, it was subtracted in half, and asked about in a
+quarter; up to 9 % of its height was left.
 """
 
 from __future__ import annotations
@@ -98,6 +98,7 @@ class Mended:
     heights: NDArray  #: NaN in scars, else as given where nothing was found
     remarks: list[str] = field(default_factory=list)  #: what was found and done
     questions: list[str] = field(default_factory=list)  #: whether it may belong to the surface
+    kept: str = ""  #: question about what may be a fault and was left
     doubts: list[str] = field(default_factory=list)  #: why no verdict should rest on the heights
 
     def subtract(self, fault: NDArray, remark: str, question: str = "") -> None:
@@ -147,7 +148,7 @@ def mend(heights: NDArray, scan: Scan = "detect", scale: float = 1.0) -> Mended:
     for axis in (0, 1):
         for look_for in (_move_back_jumps, _align_rows, _subtract_smooth):
             look_for(mended, axis, scale)
-    _subtract_hum(mended, scale)
+    _subtract_hum(mended, scale, all_of_it=scan == "mend")
     scars = [_find_scars(_rows(mended.heights, axis)) for axis in (0, 1)]
     certain = [sum(scar.height > LEAST_SCAR for scar in of_axis) for of_axis in scars]
     across = int(np.argmax(certain))
@@ -422,8 +423,8 @@ def _fit_creep(level: NDArray, less_line: Callable[[NDArray], NDArray], longest:
 # Hum.
 
 
-def _subtract_hum(mended: Mended, scale: float) -> None:
-    """Subtract single waves; only those too short to be the surface's are hum without a question."""
+def _subtract_hum(mended: Mended, scale: float, all_of_it: bool) -> None:
+    """Subtract single waves; if `all_of_it`, also those that the surface may have."""
     for _ in range(MOST_LINES):
         heights = mended.heights
         wave = _find_line(heights)
@@ -437,12 +438,15 @@ def _subtract_hum(mended: Mended, scale: float) -> None:
         is_known = np.isfinite(heights)
         fitted = np.linalg.lstsq(basis[is_known], heights[is_known], rcond=None)[0]
         amplitude = amount(float(np.hypot(fitted[0], fitted[1])) * scale, "m", 2)
-        question = f"is one wave of {amplitude}, of {told}, hum, as of the mains, or a pattern?"
+        if min(period_x, period_y) > SHORTEST_WAVE and not all_of_it:
+            mended.kept = (
+                f"is one wave of {amplitude}, of {told}, a pattern of the surface, or hum?"
+            )
+            return
         mended.subtract(
             basis[..., :2] @ fitted[:2],
             f"one wave of the amplitude {amplitude}, of {told}, is far above those beside it, as "
             "hum is: it was subtracted",
-            question if min(period_x, period_y) > SHORTEST_WAVE else "",
         )
 
 

@@ -19,7 +19,7 @@ from stickiness.arguments import numbers, positive, with_gaps
 from stickiness.measured import levelling, readers, scanning
 from stickiness.measured.doubts import doubt_pixels, doubt_sizes, doubt_values
 from stickiness.measured.features import Feature
-from stickiness.measured.guess import Guess, guess_fault
+from stickiness.measured.guess import Guess, guess_fault, guess_pattern
 from stickiness.measured.levelling import MAX_MISSING, Detrend, Missing, Rim, Spikes
 from stickiness.measured.readers.raw import Length, Raw, fold, metres, metres_per, sides
 from stickiness.measured.scanning import Scan
@@ -236,7 +236,6 @@ def read(
     missing_rim: Rim = "detect",
     spikes: Spikes = "mask",
     scan: Scan = "detect",
-    invert: bool = False,
 ) -> Topography | Profile:
     """Read a topography or a line profile.
 
@@ -253,7 +252,7 @@ def read(
     height_unit, position_unit : str, optional
         Unit of the heights, and of positions, if the file does not tell: "nm".
     height_factor : float
-        What all heights are multiplied by.
+        What all heights are multiplied by; -1 turns a replica upside down.
     variable : str, optional
         NetCDF variable or npz key. Default: the only two-dimensional one, else the only profile.
     channel : str or int, optional
@@ -276,8 +275,6 @@ def read(
     scan : {"detect", "mend", "align", "keep"}
         What scanning leaves in a map (`scanning.mend`): "detect" mends what is found with
         certainty, "align" also sets the median of every row to zero.
-    invert : bool
-        Turn the heights upside down, as of a replica in place of the surface.
 
     Returns
     -------
@@ -325,7 +322,6 @@ def read(
         missing_rim=missing_rim,
         spikes=spikes,
         scan=scan,
-        invert=invert,
         source=raw.source,
         scale=height_factor * scale,
     )
@@ -349,7 +345,6 @@ def from_array(
     missing_rim: Rim = "detect",
     spikes: Spikes = "mask",
     scan: Scan = "detect",
-    invert: bool = False,
     source: str = "heights",
     scale: float = 1.0,
 ) -> Topography | Profile:
@@ -362,12 +357,13 @@ def from_array(
     steps : float, pair of float or (n,) array
         Grid step [m] along both axes, or along each. Of a profile its step, or the positions of
         its points [m], in any order: uneven ones are interpolated linearly to as many even ones.
-    missing, max_missing, missing_rim, spikes, scan, invert
+    missing, max_missing, missing_rim, spikes, scan
         As of `read`.
     source : str
         Name of the heights in messages.
     scale : float
-        Metres per unit of `heights`. Doubts about values are about numbers as they are given.
+        Metres per unit of `heights`, negative to turn them upside down. Doubts about values are
+        about numbers as they are given.
 
     Returns
     -------
@@ -394,10 +390,12 @@ def from_array(
     # Points beside missing ones, scars and spikes are taken for missing.
     as_measured, dropped = levelling.without_rims(heights, missing_rim)
     done.append(Step(DROP_RIMS, dropped, {"missing_rim": missing_rim}))
-    mended = scanning.mend(as_measured, scan, scale)
+    mended = scanning.mend(as_measured, scan, abs(scale))
     done += [Step("mend the scan", 0, {"scan": scan}, remark) for remark in mended.remarks]
     if scan == "detect" and mended.questions:
         done[-1] = replace(done[-1], guess=guess_fault(mended.questions))
+    if scan == "detect" and mended.kept:
+        done.append(Step("keep a pattern", 0, {"scan": scan}, guess=guess_pattern(mended.kept)))
     scarred = int(np.count_nonzero(np.isnan(mended.heights) & ~np.isnan(as_measured)))
     is_spike = np.zeros(heights.shape, dtype=bool)
     if spikes == "mask":
@@ -431,8 +429,7 @@ def from_array(
         filled, spacing, largest_gap = _resample(filled, places, source)
         if largest_gap > (1 + _EVEN) * spacing[0]:
             done.append(Step("interpolate at even positions", filled.size))
-    if invert:
-        scale = -scale
+    if scale < 0:
         done.append(Step("turn upside down", heights.size, {"invert": True}))
     filled = filled * scale
     if np.ptp(filled) == 0:
@@ -445,7 +442,7 @@ def from_array(
     is_cut_off = np.ones(heights.shape, dtype=bool)
     is_cut_off[kept] = False
     record: dict[str, Any] = {
-        "processing": tuple(step for step in done if step.points or step.remark),
+        "processing": tuple(step for step in done if step.points or step.remark or step.guess),
         "as_read": heights * scale,
         "unused": (unused | is_cut_off) & np.isfinite(heights),
         "doubts": tuple(f"{source}: {doubt}" for doubt in doubts),

@@ -163,7 +163,8 @@ def judge(
             )
             guesses = [other.guess for other in surface.readings]
             cell = ask(cell, list(zip(guesses, others, strict=True)), wanted_share)
-            if cell["verdict"] == DEPENDS and surface.as_measured is not None:
+            is_open = cell["verdict"] == DEPENDS and not cell["questions"]
+            if is_open and surface.as_measured is not None:
                 as_measured = judge_meeting(meet(material, surface.as_measured, wanted_share))
                 shortest = amount(surface.shortest_resolved, "m")
                 cell = ask_about_end(cell, as_measured, guess_end(shortest))

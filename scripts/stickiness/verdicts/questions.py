@@ -76,9 +76,7 @@ def ask_about_end(
         return dict(cell)
     told = zip(guess.answers, guess.options, (cell, as_measured), strict=True)
     answers = [_describe(words, options, by_it) for words, options, by_it in told]
-    asked = json.loads(cell["questions"] or "[]")
-    asked.append({"question": guess.question, "answers": answers})
-    return {**cell, "questions": json.dumps(asked)}
+    return {**cell, "questions": json.dumps([{"question": guess.question, "answers": answers}])}
 
 
 def _agree(cell: Mapping[str, Any], other: Mapping[str, Any]) -> bool:

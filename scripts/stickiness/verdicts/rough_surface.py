@@ -532,7 +532,7 @@ def read_measurements(entry: Mapping[str, Any]) -> tuple[Measurement, ...]:
     return tuple(map(Measurement.from_entry, list_measurements(entry)))
 
 
-def override(entry: Mapping[str, Any], options: Mapping[str, str]) -> dict[str, Any]:
+def override(entry: Mapping[str, Any], options: Mapping[str, Any]) -> dict[str, Any]:
     """Return an entry of a measured surface with other options, also of each measurement."""
     measurements = entry.get("measurements") or []
     return {**entry, **options, "measurements": [{**each, **options} for each in measurements]}

@@ -136,7 +136,10 @@ def list_questions(cell: xr.Dataset) -> list[dict[str, Any]]:
 def tell_answer(answer: Mapping[str, Any], cell: xr.Dataset) -> str:
     """What would be by one answer to a question: the option that gives it, verdict and numbers."""
     low, value, high = answer["remaining"]
-    options = " and ".join(f"{key}: {text}" for key, text in answer["give"].items())
+    options = " and ".join(
+        f"{key}: {choice if isinstance(choice, str) else json.dumps(choice)}"
+        for key, choice in answer["give"].items()
+    )
     told = f"{answer['answer']} (give {options})" if options else answer["answer"]
     by_it = {name: ("limit", answer[name]) for name in ("remaining", "modulus_threshold")}
     threshold = tell_threshold(cell.assign(by_it))

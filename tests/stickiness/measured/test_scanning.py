@@ -222,9 +222,13 @@ def test_an_oblique_wave_that_is_resolved_is_asked_about(sign):
     heights = rough() + 4.0 * np.sin(2 * np.pi * (ROW[:, None] / 12.6 + sign * ROW / 7.45))
     mended = scanning.mend(heights)
     assert mended.heights is heights
-    (remark,) = mended.remarks
-    assert "of 12.6 points along x and 7.45 points along y" in remark
-    assert "filter it out if it is hum" in remark
+    assert mended.remarks == []
+    assert "of 12.6 points along x and 7.45 points along y" in mended.kept
+    # Whoever says that all of it is a fault has it subtracted.
+    subtracted = scanning.mend(heights, "mend")
+    assert np.std(subtracted.heights - rough()) < 0.1 * np.std(heights - rough())
+    (guess,) = topography.from_array(heights, 1e-9).guesses
+    assert guess.options == ({"scan": "keep"}, {"scan": "mend"})
 
 
 def test_the_period_and_the_amplitude_of_hum_are_told():

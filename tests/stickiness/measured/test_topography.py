@@ -246,7 +246,11 @@ def test_heights_of_a_replica_are_turned_or_asked_about(tmp_path, name, skewed, 
     np.savetxt(tmp_path / name, heights.T)
     sides = {"length": "100 um", "height_unit": "um"}
     found = Surface.read(tmp_path / name, **sides, **options)
-    assert ("give invert" in found.data.attrs["remarks"]) == asks
+    options_asked = [reading.guess.options[1] for reading in found.readings]
+    assert options_asked == ([{"invert": True}] if asks else [])
+    for reading in found.readings:
+        skewness = float(reading.surface.data.skewness)
+        assert skewness == pytest.approx(-float(found.data.skewness), rel=1e-6)
     sign = -1 if options.get("invert") else 1
     as_array = Surface.from_heights(sign * 1e-6 * heights, 1e-4)
     assert float(found.data.skewness) == pytest.approx(float(as_array.data.skewness), rel=1e-6)
