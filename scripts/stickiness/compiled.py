@@ -34,5 +34,10 @@ def compiled(function):
 def _compile(function, *, cache):
     import numba  # noqa: PLC0415 - most programs of a workflow solve nothing, and start faster
 
-    options = {"fastmath": _FREEDOMS, "error_model": "numpy", "nogil": True}
-    return numba.njit(cache=cache, **options)(function)
+    return numba.njit(
+        cache=cache,
+        fastmath=_FREEDOMS,
+        error_model="numpy",
+        nogil=True,
+        no_cfunc_wrapper=True,  # only Python calls these loops
+    )(function)

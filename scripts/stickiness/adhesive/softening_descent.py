@@ -9,7 +9,7 @@ at the end are flat.
 
 import numpy as np
 
-from stickiness.adhesive.problem import largest, spans
+from stickiness.adhesive.problem import largest, spans, sum_blocks
 from stickiness.compiled import compiled
 from stickiness.repulsive import convolution
 
@@ -59,20 +59,18 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
 
 def _moved(problem, state, steps):
     """State after a round; None if the energy rose."""
-    gap = np.empty_like(state.gap)
-    total = _move_gap(state.gap.ravel(), gap.ravel(), steps.change, problem.unit, steps.above)
-    if problem.mean_gap is not None and total > 0:
+    gap = state.gap + np.multiply(steps.change, problem.unit, dtype=float).reshape(state.gap.shape)
+    above = steps.above.reshape(gap.shape)
+    gap[~above | (gap <= 0)] = 0  # what is not above the wall touches it
+    mean = float(gap.mean())
+    if problem.mean_gap is not None and mean > 0:
         # In proportion: contact stays contact, edges keep their shape.
-        gap *= problem.mean_gap * gap.size / total
+        gap *= problem.mean_gap / mean
     moved = problem.state(gap)
-    work = _sum_work_between(
-        state.gap.ravel(),
-        gap.ravel(),
-        state.elastic.ravel(),
-        moved.elastic.ravel(),
-        state.pressure,
-    )
-    change = work / gap.size + moved.potential - state.potential
+    # Work against elastic and mean pressure between the two gaps, and change of the potential.
+    pressure = (state.elastic + moved.elastic) / 2 + state.pressure
+    work = sum_blocks(np.vdot, gap - state.gap, pressure) / gap.size
+    change = work + moved.potential - state.potential
     return moved if change <= 8 * np.finfo(float).eps * abs(state.potential) else None
 
 
@@ -219,11 +217,11 @@ class _Steps:
         # A small force on what lies behind the wall is put off.
         allowed = max(_CUT_FORCE * self.residual if self.linear else 0.0, self.behind)
         bound = np.float32(-allowed / self.pixel)
-        if not _count_deeper(bound, self.direction, length, self.change, self.lowest):
-            return self.direction, self.image, length
-        total, count = _cut_at_wall(
-            self.step, self.direction, length, self.change, self.lowest, self.above
+        deeper, total, count = _cut_at_wall(
+            bound, self.step, self.direction, length, self.change, self.lowest, self.above
         )
+        if not deeper:
+            return self.direction, self.image, length
         if self.at_gap and count:
             mean = np.float32(total / count)
             np.subtract(self.step, mean, out=self.step, where=self.above)
@@ -299,27 +297,6 @@ class _Steps:
 
 
 @compiled
-def _move_gap(gap, new_gap, change, unit, above):
-    """Gap after a round, zero for what is not above the wall; returns its sum."""
-    total = 0.0
-    for i in range(gap.size):
-        moved = gap[i] + change[i] * unit
-        moved = 0.0 if not above[i] or moved <= 0 else moved  # NaN stays NaN
-        new_gap[i] = moved
-        total += moved
-    return total
-
-
-@compiled
-def _sum_work_between(gap, new_gap, elastic, new_elastic, pressure):
-    """Work against elastic and mean pressure between two gaps, summed over the grid."""
-    total = 0.0
-    for i in range(gap.size):
-        total += (new_gap[i] - gap[i]) * ((elastic[i] + new_elastic[i]) * 0.5 + pressure)
-    return total
-
-
-@compiled
 def _dot(a, b):
     total = 0.0
     for i in range(a.size):
@@ -370,29 +347,27 @@ def _settle_direction(direction, mean, above, force, slope):
 
 
 @compiled
-def _count_deeper(bound, direction, length, change, lowest):
-    """Count points that a step along a direction leaves below a bound."""
-    count = 0
-    for i in range(direction.size):
-        count += direction[i] * length + change[i] - lowest[i] < bound
-    return count
+def _cut_at_wall(bound, step, direction, length, change, lowest, above):
+    """Step that ends at the wall, or where a point behind it lies, if it went below a bound.
 
-
-@compiled
-def _cut_at_wall(step, direction, length, change, lowest, above):
-    """Step that ends at the wall, or where a point behind it lies; its sum, and points above."""
+    Returns the number of points below the bound, the sum of the step, and the points above.
+    """
+    deeper = 0
+    for i in range(step.size):
+        deeper += direction[i] * length + change[i] - lowest[i] < bound
     total = 0.0
     count = 0
-    for i in range(step.size):
-        least = lowest[i] - change[i]
-        least = least if least < 0 else _NONE
-        part = direction[i] * length
-        open_point = part > least
-        above[i] = open_point
-        count += open_point
-        step[i] = part if open_point else least
-        total += step[i]
-    return total, count
+    if deeper > 0:
+        for i in range(step.size):
+            least = lowest[i] - change[i]
+            least = least if least < 0 else _NONE
+            part = direction[i] * length
+            open_point = part > least
+            above[i] = open_point
+            count += open_point
+            step[i] = part if open_point else least
+            total += step[i]
+    return deeper, total, count
 
 
 @compiled

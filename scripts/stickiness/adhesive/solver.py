@@ -8,9 +8,8 @@ from numpy.typing import ArrayLike
 
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.equilibrium import relax
-from stickiness.adhesive.problem import Problem, lowered
+from stickiness.adhesive.problem import Problem, lowered, sum_blocks
 from stickiness.arguments import check_length, grid, integer, number, numbers
-from stickiness.compiled import compiled
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import measure_scale, measure_slope
 from stickiness.repulsive.solver import Contact, ConvergenceError
@@ -356,18 +355,13 @@ class Scaled:
         """`Adhesion` in the caller's units, those of `control`."""
         law = self.scaled.law
         gap = state.gap
-        net = np.empty(gap.shape)
-        repulsion, attraction, elastic, touching, compressed, near = _sum_up(
-            gap.ravel(),
-            state.elastic.ravel(),
-            state.traction.ravel(),
-            self.scaled.heights.ravel(),
-            net.ravel(),
-            state.pressure,
-            law.hard_wall,
-            law.range,
-        )
-        net *= self.stress
+        contact = gap <= 0 if law.hard_wall else gap < 0
+        push = 0.0
+        if law.hard_wall:  # it pushes where elastic pressure, traction and load pull
+            push = np.where(contact, state.elastic + state.traction + state.pressure, 0)
+            push = np.maximum(push, 0)
+        net = (push - state.traction) * self.stress
+        deformation = gap + self.scaled.heights
         energy = self.height * self.stress  # unit of energies per area
         mean_pressure = control.pressure
         if mean_pressure is None:
@@ -376,13 +370,13 @@ class Scaled:
             pressure=net,
             gap=gap * self.height,
             mean_pressure=float(mean_pressure),
-            repulsive_pressure=repulsion / gap.size * self.stress,
-            adhesive_pressure=attraction / gap.size * self.stress,
-            repulsive_area_fraction=touching / gap.size,
-            net_repulsive_area_fraction=compressed / gap.size,
-            adhesive_area_fraction=near / gap.size,
+            repulsive_pressure=float(net[net > 0].sum()) / gap.size,
+            adhesive_pressure=-float(net[net < 0].sum()) / gap.size,
+            repulsive_area_fraction=float(contact.mean()),
+            net_repulsive_area_fraction=float((contact & (net > 0)).mean()),
+            adhesive_area_fraction=float((~contact & (gap <= law.range)).mean()),
             mean_gap=float(gap.mean()) * self.height,
-            elastic_energy=elastic / gap.size / 2 * energy,
+            elastic_energy=sum_blocks(np.vdot, deformation, state.elastic) / gap.size / 2 * energy,
             interaction_energy=state.potential * energy,
             residual=state.residual,
             iterations=state.iterations,
@@ -393,21 +387,3 @@ class Scaled:
             length=self.lengths,
             rms_height=self.rms_height,
         )
-
-
-@compiled
-def _sum_up(gap, elastic, traction, heights, net, pressure, wall, reach):
-    """Fill in net pressures; sums of both parts, twice the elastic energy, and three areas."""
-    repulsion = attraction = energy = 0.0
-    touching = compressed = near = 0
-    for i in range(gap.size):
-        contact = gap[i] <= 0 if wall else gap[i] < 0
-        push = elastic[i] + traction[i] + pressure if wall and contact else 0.0
-        net[i] = (push if push > 0 else 0.0) - traction[i]
-        repulsion += net[i] if net[i] > 0 else 0.0
-        attraction -= net[i] if net[i] < 0 else 0.0
-        energy += (gap[i] + heights[i]) * elastic[i]
-        touching += contact
-        compressed += contact and net[i] > 0
-        near += not contact and gap[i] <= reach
-    return repulsion, attraction, energy, touching, compressed, near

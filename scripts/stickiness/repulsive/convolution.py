@@ -288,19 +288,12 @@ def _combine(direct, crossed, values, product, n):
     """
     rows, half = direct.shape
     for r in range(rows):
-        a = direct[r]
-        b = crossed[r]
-        z = values[r]
-        back = values[rows - 1 - r]
-        out = product[r]
-        mirror = back[0]
         for k in range(n):
-            if k > 0:
-                mirror = back[_U(n - k)]
-            m = _U(k if k < half else n - k)
-            out[k] = complex(
-                a[m] * z[k].real + b[m] * mirror.imag, a[m] * z[k].imag + b[m] * mirror.real
-            )
+            a = direct[r, k if k < half else n - k]
+            b = crossed[r, k if k < half else n - k]
+            z = values[r, k]
+            mirror = values[rows - 1 - r, n - k if k > 0 else 0]
+            product[r, k] = complex(a * z.real + b * mirror.imag, a * z.imag + b * mirror.real)
 
 
 def aligned_zeros(size, dtype):

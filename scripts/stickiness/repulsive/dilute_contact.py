@@ -13,7 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import fft, sparse
 
-from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, free_edges, half_space, sharing
 from stickiness.repulsive.preconditioner import close_gap
 
@@ -288,68 +287,36 @@ class _Neighbours:
         self.places = places[order]
         self.index = index[order]
 
-    def find_pairs(self, kernel, reach, starts, columns, values):
-        """Fill in `starts` of rows and, if not empty, `columns` and `values` of a matrix."""
-        _find_pairs(
-            self.places,
-            self.index,
-            self.row,
-            self.column,
-            self.height,
-            self.width,
-            kernel,
-            reach,
-            starts,
-            columns,
-            values,
-        )
+    def find_runs(self, down, half):
+        """Runs of neighbours in the row `down` below all points: first, end, and middle place."""
+        row = (self.row + down) % np.int32(self.height)
+        middle = row * np.int32(self.width) + self.column + np.int32(_REACH)
+        first = np.searchsorted(self.places, middle - half if down > 0 else middle + 1)
+        end = np.searchsorted(self.places, middle + half, side="right")
+        return first, end, middle
 
 
 def _symmetric(kernel, reach, neighbours, most):
     """Matrix of the pairs within reach; None of more than `most`."""
-    size = neighbours.row.size
-    # Count the pairs of every point, then list them.
-    starts = np.zeros(size + 1, np.int64)
-    columns = np.empty(0, np.int32)
-    values = np.empty(0, np.float32)
-    neighbours.find_pairs(kernel.beside, reach, starts, columns, values)
-    if starts[-1] > most:
+    # Every pair at its first point: half a disk around it, of which each row holds a run of points.
+    down = np.arange(reach + 1, dtype=np.int32)
+    half = np.sqrt(reach**2 - down**2).astype(np.int32)
+    runs = [neighbours.find_runs(k, half[k]) for k in down]
+    first, end, middle = (np.column_stack(parts) for parts in zip(*runs, strict=True))
+    count = (end - first).ravel()
+    total = np.cumsum(count)
+    if total[-1] > most:
         return None
-    columns = np.empty(starts[-1], np.int32)
-    values = np.empty(starts[-1], np.float32)
-    neighbours.find_pairs(kernel.beside, reach, starts, columns, values)
-    upper = sparse.csr_array((values, columns, starts.astype(np.int32)), shape=(size, size))
+    # All runs one after the other, and where each of their points is in the table of the kernel.
+    found = np.repeat(first.ravel() - total + count, count) + np.arange(total[-1])
+    origin = down * kernel.beside.shape[1] + np.int32(_REACH) - middle
+    place = neighbours.places.take(found) + np.repeat(origin.ravel(), count)
+    values = kernel.beside.take(place)
+    columns = neighbours.index.take(found)
+    starts = np.append(0, total[reach :: reach + 1]).astype(np.int32)
+    size = neighbours.row.size
+    upper = sparse.csr_array((values, columns, starts), shape=(size, size))
     return _SymmetricMatrix(upper=upper, lower=upper.T, diagonal=kernel.diagonal)
-
-
-@compiled
-def _find_pairs(places, index, row, column, height, width, kernel, reach, starts, columns, values):
-    """Find every pair of points once, at its first point; only count them if `columns` is empty.
-
-    `places` are the flat indices of the points, and of some again beyond the ends of rows, and
-    `index` says which points these are.
-    """
-    first = np.zeros(reach + 1, np.int64)  # where the run of the last point began, by row
-    total = 0
-    for k in range(row.size):
-        for down in range(reach + 1):
-            # In every row the neighbours are a run of points: half a disk holds every pair once.
-            half = int(np.sqrt(reach**2 - down**2))
-            place = (row[k] + down) % height * width + column[k] + _REACH
-            begin = place - half if down > 0 else place + 1
-            m = first[down]  # not far from here
-            while m > 0 and places[m - 1] >= begin:
-                m -= 1
-            while m < places.size and places[m] < begin:
-                m += 1
-            first[down] = m
-            while m < places.size and places[m] <= place + half:
-                if columns.size > 0:
-                    columns[total] = index[m]
-                    values[total] = kernel[down, places[m] - place + _REACH]
-                total += 1
-                m += 1
-        starts[k + 1] = total
 
 
 def _splines(row, column, split):

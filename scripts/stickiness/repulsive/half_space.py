@@ -13,7 +13,6 @@ from functools import cache, cached_property, lru_cache
 import numpy as np
 from scipy import fft
 
-from stickiness.compiled import compiled
 from stickiness.repulsive import convolution, free_edges, sharing
 from stickiness.repulsive.free_edges import displace_by_pixel
 from stickiness.solids import HALF_SPACE
@@ -217,25 +216,24 @@ def interpolate(field, shape):
     return field
 
 
-@compiled
 def _double(start, stop, field, fine):
     """Put points between those of some rows, on the cubics through their four neighbours."""
-    m0, m1 = field.shape
-    line = np.empty(m1 + 3, field.dtype)
-    for i in range(2 * start, 2 * stop):
-        k = i // 2
-        for j in range(m1):
-            line[j + 1] = field[k, j]
-            if i % 2:
-                near = field[k, j] + field[(k + 1) % m0, j]
-                far = field[(k - 1) % m0, j] + field[(k + 2) % m0, j]
-                line[j + 1] = (9 * near - far) / 16
-        line[0] = line[m1]
-        line[m1 + 1] = line[1]
-        line[m1 + 2] = line[2]
-        for j in range(m1):
-            fine[i, 2 * j] = line[j + 1]
-            fine[i, 2 * j + 1] = (9 * (line[j + 1] + line[j + 2]) - line[j] - line[j + 3]) / 16
+    # Every other line is a row of the field, the others are between two rows.
+    around = np.take(field, range(start - 1, stop + 2), axis=0, mode="wrap")
+    lines = np.empty((2 * (stop - start), field.shape[1] + 3), field.dtype)
+    inner = lines[:, 1:-2]
+    inner[::2] = around[1:-2]
+    inner[1::2] = _between(around[:-3], around[1:-2], around[2:-1], around[3:])
+    # Along the lines, which go on beyond both ends.
+    lines[:, 0] = inner[:, -1]
+    lines[:, -2:] = inner[:, :2]
+    fine[2 * start : 2 * stop, ::2] = inner
+    fine[2 * start : 2 * stop, 1::2] = _between(lines[:, :-3], inner, lines[:, 2:-1], lines[:, 3:])
+
+
+def _between(before, left, right, after):
+    """Middle of the cubic through four points at equal distances."""
+    return (9 * (left + right) - before - after) / 16
 
 
 def _resample(field, n, axis):

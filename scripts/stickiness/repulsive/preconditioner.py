@@ -9,10 +9,9 @@ Modern Potential Theory*, 1972). A mean with such weights on a coarser grid appr
 
 import numpy as np
 
-from stickiness.compiled import compiled
-from stickiness.repulsive import convolution, half_space, sharing
+from stickiness.repulsive import convolution, half_space, halving, sharing
 
-_SPACING = 4  # of the grid of the extension, in pixels
+_SPACING = 4  # of the grid of the extension, in pixels: a grid halved twice
 _SELF_WEIGHT = 8.0  # of a point of that grid; 1 is the weight of its neighbour, 2 to 16 do as well
 _FAR_WEIGHT = 0.3  # of a zero at infinity: far from all contact the extension vanishes
 _SMALLEST_REDUCTION = 1e-4  # of the gap, by a correction in single precision
@@ -73,7 +72,7 @@ class Preconditioner:
             sharing.put(grid.scratch, points, 1)
             self.mean.gather(grid.scratch.reshape(grid.shape))
             self.weights = np.empty(grid.shape, np.float32)
-            self.mean.spread(None, self.weights)
+            self.mean.spread(self.weights)
             flat = self.weights.ravel()
             sharing.evaluate(lambda w: 1 / (w + np.float32(_FAR_WEIGHT)), flat, flat)
             sharing.put(flat, points, 0)
@@ -94,13 +93,16 @@ class Preconditioner:
         sharing.evaluate(lambda: 0, scratch)
         sharing.put(scratch, points, residual)
         self.mean.gather(field)
-        self.mean.spread(self.weights, image)
+        self.mean.spread(image)
+        sharing.evaluate(np.multiply, quick.image, quick.image, self.weights.ravel())
         sharing.put(quick.image, points, residual)
         # Stiffness, and the transpose of the extension.
         stiffness(image, field)
-        self.mean.gather(field, self.weights)
-        pressure = self.mean.at(points)
-        pressure += sharing.take(scratch, points)
+        pressure = sharing.take(scratch, points)
+        sharing.evaluate(np.multiply, scratch, scratch, self.weights.ravel())
+        self.mean.gather(field)
+        self.mean.spread(image)
+        pressure += sharing.take(quick.image, points)
         self.grid.spent += 2 / _SPACING**2
         return pressure
 
@@ -115,131 +117,28 @@ class _Mean:
     """Sums weighted by the inverse square of the distance, smooth over a few pixels."""
 
     def __init__(self, shape, sides):
-        coarse = tuple(-(-n // _SPACING) for n in shape)
-        self._axes = [_interpolation(n, m) for n, m in zip(shape, coarse, strict=True)]
-        self._transposed = [
-            _transpose(left, right, t, m)
-            for (left, right, t), m in zip(self._axes, coarse, strict=True)
-        ]
-        # Inverse square of the distance on the coarse grid.
-        steps = [side / m for side, m in zip(sides, coarse, strict=True)]
+        self._half = tuple(map(half_space.coarsen, shape))
+        coarse = tuple(map(half_space.coarsen, self._half))
+        # Inverse square of the distance on the coarse grid, over the square of its spacing.
+        steps = [_SPACING * side / n for n, side in zip(shape, sides, strict=True)]
         axes = [np.fft.fftfreq(m, 1 / m) * step for m, step in zip(coarse, steps, strict=True)]
         square = np.add.outer(axes[0] ** 2, axes[1] ** 2) / (steps[0] * steps[1])
         square[0, 0] = 1 / _SELF_WEIGHT
-        symbol = np.fft.rfft2(1 / square).real / square.size / _SPACING**2
+        symbol = np.fft.rfft2(1 / square).real / square.size
+        # Halved twice, sums are 16 times those of linear interpolation and of its transpose.
+        symbol /= 16**2 * _SPACING**2
         self._convolution = convolution.convolution(coarse, np.float32)
         self._symbol = self._convolution.symbol(symbol[: coarse[0] // 2 + 1].T)
-        self._field = np.zeros(coarse, np.float32)
         self._image = np.zeros(coarse, np.float32)
 
-    def gather(self, field, weights=None):
-        """Take the sums of a field in single precision, or of its product with weights."""
-        axis0, axis1 = self._transposed
+    def gather(self, field):
+        """Take the sums of a field in single precision."""
+        coarse = halving.gather(halving.gather(field))
+        self._convolution.apply(self._symbol, coarse, self._image)
 
-        def add(rows):
-            _add_to_coarse(rows.start, field, weights, axis0, axis1, self._field[rows])
-
-        sharing.spread(add, size=len(self._field), width=_SPACING * field.shape[1])
-        self._convolution.apply(self._symbol, self._field, self._image)
-
-    def spread(self, weights, out):
-        """Sums at all points of a grid, times weights if any."""
-        axis0, axis1 = self._axes
-
-        def fill(rows):
-            _interpolate(rows.start, self._image, axis0, axis1, weights, out[rows])
-
-        sharing.spread(fill, size=out.shape[0], width=out.shape[1])
-
-    def at(self, points):
-        """Sums at some points, given by flat indices."""
-        axis0, axis1 = self._axes
-        out = np.empty(points.size, np.float32)
-
-        def fill(chunk):
-            _interpolate_at(points[chunk], self._image, axis0, axis1, out[chunk])
-
-        sharing.spread(fill, points.size)
-        return out
-
-
-def _interpolation(n, m):
-    """Linear interpolation along a periodic axis from m points to n: both neighbours, a weight."""
-    position = (np.arange(n) + 0.5) * (m / n) - 0.5
-    left = np.floor(position).astype(np.int64)
-    return left % m, (left + 1) % m, (position - left).astype(np.float32)
-
-
-def _transpose(left, right, t, m):
-    """For each of m points those interpolated from it, and with what weights; a row each."""
-    source = np.concatenate([left, right])
-    weights = np.concatenate([1 - t, t])
-    # Sorted by the point that they come from; `place` counts within each of these.
-    order = np.argsort(source, kind="stable")
-    count = np.bincount(source, minlength=m)
-    place = np.arange(source.size) - np.repeat(np.cumsum(count) - count, count)
-    points = np.zeros((m, count.max()), np.int64)
-    shares = np.zeros(points.shape, np.float32)
-    points[source[order], place] = order % left.size
-    shares[source[order], place] = weights[order]
-    return points, shares
-
-
-@compiled
-def _add_to_coarse(first, field, weights, axis0, axis1, coarse):
-    """Transpose of an interpolation of a field, or times weights: rows from a first one on."""
-    points0, shares0 = axis0
-    points1, shares1 = axis1
-    row = np.empty(field.shape[1], field.dtype)
-    for a in range(coarse.shape[0]):
-        row[:] = 0
-        for k in range(points0.shape[1]):
-            i = points0[first + a, k]
-            share = shares0[first + a, k]
-            for j in range(row.size):
-                row[j] += share * (field[i, j] if weights is None else field[i, j] * weights[i, j])
-        for b in range(coarse.shape[1]):
-            total = np.float32(0)
-            for k in range(points1.shape[1]):
-                total += shares1[b, k] * row[points1[b, k]]
-            coarse[a, b] = total
-
-
-@compiled
-def _interpolate(first, coarse, axis0, axis1, weights, out):
-    """Interpolate rows, from a first one on; times weights of the whole grid if any."""
-    left0, right0, t0 = axis0
-    left1, right1, t1 = axis1
-    beside = np.empty((2, left1.size), coarse.dtype)
-    before = -1
-    for i in range(out.shape[0]):
-        if left0[first + i] != before:  # the next coarse row, stretched, or at first two of them
-            for k in range(-1 if i == 0 else 0, 1):
-                row = coarse[left0[first] if k < 0 else right0[first + i]]
-                beside[0] = beside[1]
-                for j in range(left1.size):
-                    a = row[left1[j]]
-                    beside[1, j] = a + t1[j] * (row[right1[j]] - a)
-            before = left0[first + i]
-        for j in range(left1.size):
-            value = beside[0, j] + t0[first + i] * (beside[1, j] - beside[0, j])
-            out[i, j] = value if weights is None else value * weights[first + i, j]
-
-
-@compiled
-def _interpolate_at(points, coarse, axis0, axis1, out):
-    """Interpolate at some points, given by flat and increasing indices."""
-    left0, right0, t0 = axis0
-    left1, right1, t1 = axis1
-    i = 0
-    begin = 0
-    for k in range(points.size):
-        if points[k] >= begin + left1.size:
-            i = points[k] // left1.size
-            begin = i * left1.size
-        j = points[k] - begin
-        a = left1[j]
-        b = right1[j]
-        upper = coarse[left0[i], a] + t1[j] * (coarse[left0[i], b] - coarse[left0[i], a])
-        lower = coarse[right0[i], a] + t1[j] * (coarse[right0[i], b] - coarse[right0[i], a])
-        out[k] = upper + t0[i] * (lower - upper)
+    def spread(self, out):
+        """Fill in the sums at all points of a grid."""
+        half = np.zeros(self._half, np.float32)
+        halving.spread(self._image, half)
+        out[...] = 0
+        halving.spread(half, out)

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import scipy
 import xarray as xr
 
 from stickiness.error_budget import SOURCES, ErrorComponent, not_applicable, with_budget
@@ -22,7 +21,7 @@ from stickiness.measured.measurement import Measurement, find_spectra
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import DROP_RIMS, MASK_SPIKES, Profile, Topography
 from stickiness.plausibility import PLAUSIBLE
-from stickiness.remaining.height_shape import find_shape_of
+from stickiness.remaining.height_shape import find_shape_of, measure_shape
 from stickiness.remaining.uneven_roughness import find_unevenness
 from stickiness.spectrum.direction import find_ratio
 from stickiness.statistics import COVERS
@@ -294,6 +293,7 @@ def _describe_heights(
 ) -> xr.Dataset:
     """Parameters of the first heights, the shape of the highest, and what is missing of all."""
     first = every[0]
+    skewness, kurtosis = measure_shape(first.heights)
     # The largest rms height is that of the longest waves, whose shape decides.
     highest = max(every, key=lambda heights: heights.h_rms)
     shape = find_shape_of(highest.heights)
@@ -304,8 +304,8 @@ def _describe_heights(
             "h_rms_measured": first.h_rms,
             "mean_deviation": np.mean(np.abs(first.heights)),  # levelled heights have no mean
             "height_range": np.ptp(first.heights),
-            "skewness": scipy.stats.skew(first.heights, axis=None),
-            "kurtosis": scipy.stats.kurtosis(first.heights, axis=None, fisher=False),
+            "skewness": skewness,
+            "kurtosis": kurtosis,
             "shape": shape.shape,
             "shape_error": shape.error,
             "unevenness": find_unevenness(highest.heights, lags),

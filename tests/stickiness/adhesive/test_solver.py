@@ -369,12 +369,15 @@ def test_a_range_that_the_grid_loses_is_refused():
 @pytest.mark.parametrize("kind", LAWS)
 @pytest.mark.parametrize("eps", [1e-3, 1e-4, 1e-6, 1e-9])
 def test_weak_adhesion_is_solved_at_any_range(kind, eps):
-    """A strength below the pressures of contact cannot hold points: nothing changes."""
+    """A strength below the pressures of contact cannot hold points: nothing changes.
+
+    A few points may go on touching without a force.
+    """
     heights = rough(32)
     law = law_of(kind, eps, 0.1 / kind.strength_ratio)
     alone = repulsive.solve(heights, 1.0, LOAD)
     found = adhesive.solve(heights, 1.0, law, pressure=LOAD)
-    assert found.repulsive_area_fraction == pytest.approx(alone.area_fraction, rel=0.04)
+    assert found.net_repulsive_area_fraction == alone.area_fraction
     assert found.mean_gap == pytest.approx(alone.mean_gap, rel=1e-3)
 
 

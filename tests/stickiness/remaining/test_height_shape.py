@@ -8,6 +8,7 @@ from stickiness.remaining.height_shape import (
     find_height_shape,
     find_shape_of,
     find_skewness_error,
+    measure_shape,
 )
 from stickiness.spectrum import SelfAffine
 from stickiness.surface import synthesise
@@ -19,6 +20,12 @@ def test_heights_without_skewness_are_gaussian():
     assert find_height_shape(0.0) == (0, 0)
     wave = np.sin(2 * np.pi * np.arange(64) / 64)
     assert find_shape_of(wave) == pytest.approx((0, 0), abs=1e-9)
+
+
+def test_skewness_and_kurtosis_are_those_of_scipy():
+    heights = np.random.default_rng(1).gamma(2.0, size=(40, 30))
+    expected = stats.skew(heights, axis=None), stats.kurtosis(heights, axis=None, fisher=False)
+    assert measure_shape(heights) == pytest.approx(expected, rel=1e-12)
 
 
 def test_peaks_lower_and_plateaus_raise_what_remains():
