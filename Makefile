@@ -33,7 +33,7 @@ test-quick: $(VENV)/.dev  ## two to three minutes: no workflow, no other codes, 
 test-processors: $(VENV)/.dev $(VENV)/.peers  ## tests of what rounding may move, with the arithmetic of other processors
 	$(BIN)/python tests/helpers/run_processors.py -n $(CORES) --dist worksteal
 
-test-wheel: $(VENV)/.run  ## the package as it is installed, in an environment of its own
+test-wheel: $(VENV)/.dev  ## the package as an index would have it, installed in an environment of its own
 	$(BIN)/python tests/helpers/try_wheel.py
 
 coverage: $(VENV)/.dev  ## statements and branches of the library that its quick tests reach

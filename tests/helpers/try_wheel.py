@@ -1,9 +1,14 @@
-"""Build the wheel, install it in an empty environment, and judge the example with it."""
+"""Build both packages, check them for an index, and judge the example with the installed wheel.
+
+The wheel is made from the sources, and installed in an empty environment.
+"""
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
+import zipfile
 from pathlib import Path
 
 PROJECT = Path(__file__).parents[2]
@@ -20,16 +25,32 @@ def run(*command, folder):
     return done.stdout
 
 
+def check_page(wheel):
+    """End if the page of the package leads to files that an index does not have."""
+    with zipfile.ZipFile(wheel) as contents:
+        (metadata,) = [name for name in contents.namelist() if name.endswith("/METADATA")]
+        page = contents.read(metadata).decode()
+    if "pip install stickiness\npython -m stickiness --example" not in page:
+        sys.exit("the page of the package does not tell how to install it")
+    relative = re.findall(r"\]\((?!https://)[^)]*\)", page)
+    if relative:
+        sys.exit(f"the page of the package leads to files: {', '.join(relative)}")
+
+
 def main():
     """Print the verdict of the example, made by the installed package."""
     with tempfile.TemporaryDirectory() as folder:
-        quiet = ("--quiet", "--disable-pip-version-check")
-        run(sys.executable, "-m", "pip", "wheel", *quiet, "--no-deps", PROJECT, folder=folder)
-        (wheel,) = Path(folder).glob("*.whl")
+        packages = Path(folder, "packages")
+        run(sys.executable, "-m", "build", "--outdir", packages, PROJECT, folder=folder)
+        (sources,) = packages.glob("*.tar.gz")
+        (wheel,) = packages.glob("*.whl")
+        run(sys.executable, "-m", "twine", "check", "--strict", sources, wheel, folder=folder)
+        check_page(wheel)
         run(sys.executable, "-m", "venv", "empty", folder=folder)
         programs = Path(folder, "empty/bin")
         versions = ("--constraint", PROJECT / "envs/constraints.txt")
-        pip = (programs / "python", "-m", "pip", "install", *quiet, "--no-compile", *versions)
+        quiet = ("--quiet", "--disable-pip-version-check", "--no-compile")
+        pip = (programs / "python", "-m", "pip", "install", *quiet, *versions)
         run(*pip, wheel, folder=folder)
         place = run(
             programs / "python",

@@ -111,7 +111,7 @@ def image(tmp_path):
             assert all((folder / file).is_file() for file in read), rest
             if "--editable ." in rest:
                 project = tomllib.loads((folder / "pyproject.toml").read_text())["project"]
-                for file in (project["readme"], *project["license-files"]):
+                for file in ("setup.py", "README.md", *project["license-files"]):
                     assert (folder / file).is_file()
                 words["package"] = folder / "scripts"
         if step in ("ENTRYPOINT", "WORKDIR"):
