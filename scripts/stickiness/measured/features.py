@@ -58,8 +58,10 @@ class Feature:
             degrees = f"{np.degrees(self.angle):.0f}"
             oblique = f"at {degrees}° to x through x = {x}, y = {y}"
             where = {"0": f"along x at y = {y}", "90": f"along y at x = {x}"}.get(degrees, oblique)
-        share, area = (number(100 * part, 2) for part in (self.share, self.area))
-        return f"a {self.shape} {where}: {share} % of the energy on {area} % of the area"
+        share, area = (f"{number(100 * part, 2)} %" for part in (self.share, self.area))
+        return (
+            f"a {self.shape} {where}: {share} of the energy of full contact on {area} of the area"
+        )
 
 
 def find_feature(
@@ -89,7 +91,7 @@ def find_feature(
     True
     >>> scratch = 3e-7 * np.exp(-(((x - 20e-6) / 2e-6) ** 2))
     >>> print(find_feature(waves - scratch, (64e-6, 64e-6)))
-    a groove along y at x = 20 µm: 88 % of the energy on 6.2 % of the area
+    a groove along y at x = 20 µm: 88 % of the energy of full contact on 6.2 % of the area
     """
     heights = np.asarray(heights, dtype=float)
     if min(heights.shape) < CELLS:
