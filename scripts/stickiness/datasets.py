@@ -154,8 +154,15 @@ def read_groups(path: str | Path) -> dict[str, xr.Dataset]:
     """Read the groups of a file into memory, by name; of a file that `read` can read."""
     import netCDF4
 
+    def list_names(group: netCDF4.Dataset) -> list[str]:
+        return [
+            name
+            for each in group.groups.values()
+            for name in (each.path.strip("/"), *list_names(each))
+        ]
+
     with netCDF4.Dataset(path) as opened:
-        names = list(opened.groups)
+        names = list_names(opened)
     return {name: xr.load_dataset(path, engine="netcdf4", group=name) for name in names}
 
 

@@ -8,8 +8,9 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
 from snakemake.utils import update_config
+
+from stickiness.entries.yaml_files import YamlError, read_yaml
 
 TABLES = ("materials", "surfaces", "experiments")  #: files of their own, by the key that names them
 # Files that are read as one.
@@ -25,42 +26,14 @@ class ConfigError(ValueError):
     """A key of the configuration is unknown, missing or has a value that cannot be used."""
 
 
-class _UniqueKeys(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # libyaml where it is built in
-    """Loader that refuses a key given twice, of which YAML would keep the second."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
-        seen = set()
-        for key, _ in node.value:
-            if key.value in seen and key.value != "<<":
-                problem = f"the key {key.value!r} is given twice"
-                raise yaml.constructor.ConstructorError(
-                    problem=problem, problem_mark=key.start_mark
-                )
-            seen.add(key.value)
-        return super().construct_mapping(node, deep)
-
-
 def load(path: str | Path) -> dict[str, Any]:
     """Read a YAML file of the configuration; a ConfigError says if it is missing or not valid."""
     try:
-        text = Path(path).read_text(encoding="utf-8")
-        content = yaml.load(text, _UniqueKeys)
+        return read_yaml(path)
     except FileNotFoundError:
         raise ConfigError(f"{path}: no such file; set its path in {USER}") from None
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", "it is no text in UTF-8")
-        raise ConfigError(f"{path}: cannot be read as YAML: {reason}") from None
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        problem = getattr(error, "problem", error)
-        line = f" line {mark.line + 1}" if mark else ""
-        if mark and "\t" in "".join(text.splitlines()[mark.line : mark.line + 1]):
-            problem = "it holds a tab: indent with blanks"
-        raise ConfigError(f"{path}:{line}: not valid YAML: {problem}") from None
-    if not isinstance(content, dict):
-        found = "nothing" if content is None else type(content).__name__
-        raise ConfigError(f"{path}: must hold keys and values, found {found}")
-    return content
+    except YamlError as error:
+        raise ConfigError(f"{path}: {error}") from None
 
 
 def defaults(project: str | Path, locate: Callable[[str], str] = str) -> dict[str, Any]:

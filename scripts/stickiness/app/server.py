@@ -164,3 +164,4 @@ async def _serve() -> None:
         await asyncio.Event().wait()
     finally:
         signal.signal(signal.SIGINT, signal.SIG_IGN)  # one Ctrl-C is enough
+        WORKER.shutdown(wait=False, cancel_futures=True)

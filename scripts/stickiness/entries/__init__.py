@@ -127,14 +127,13 @@ def read_materials(path: str | Path) -> dict[str, dict[str, Any]]:
     OSError
         If the file cannot be read.
     """
-    import yaml
-
     from stickiness.entries.material import Materials
+    from stickiness.entries.yaml_files import YamlError, read_yaml
 
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
-    except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise EntryError(str(path), None, f"not valid YAML: {error}") from None
+        content = read_yaml(path)
+    except YamlError as error:
+        raise EntryError(str(path), None, str(error)) from None
     try:
         return _check(Materials, content, {})["materials"]
     except EntryError as error:

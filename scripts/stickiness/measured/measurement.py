@@ -27,7 +27,7 @@ _CLEANING = {"missing", "max_missing", "missing_rim", "spikes", "scan"}
 _READING = set(signature(topography.read).parameters) - {"path", "max_missing"}
 # Texts about a measurement that say that a replica was measured; metals and films are cast, too.
 _REPLICA = re.compile(
-    r"(?i)replica|imprint|abdruck"
+    r"(?i)repli[ck]|replis|imprint|impression|moulage|empreinte|abdruck|abguss|abformung"
     r"|(?<![a-z])(?:cast(?![ _-]?(?:iron|steel|al|film))|mou?ld)(?:ing)?(?![a-z])"
 )
 _ABOUT = ("label", "source", "note")  # keys with such texts

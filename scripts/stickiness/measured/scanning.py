@@ -328,13 +328,13 @@ def _move_back_jumps(mended: Mended, axis: int, scale: float) -> None:
     usual = [np.median(np.delete(steps[max(i - 3, 0) : i + 4], min(i, 3))) for i in places.tolist()]
     jumps = np.zeros(len(rows))
     jumps[places + 1] = steps[places] - usual
-    where = " and ".join(str(place + 1) for place in places)
+    numbers = " and ".join(str(place + 1) for place in places)
+    where = f"{('column', 'row')[axis]} {numbers} along {'xy'[axis]}"
     heights = " and ".join(amount(abs(jump) * scale, "m", 2) for jump in jumps[places + 1])
     mended.subtract(
         np.expand_dims(np.cumsum(jumps), 1 - axis),
-        f"from row {where} along {'xy'[axis]} on, heights were {heights} off, as a probe jumps: "
-        "they were moved back",
-        f"did the probe jump by {heights} at row {where} along {'xy'[axis]}, or does the surface "
+        f"from {where} on, heights were {heights} off, as a probe jumps: they were moved back",
+        f"did the probe jump by {heights} at {where}, or does the surface "
         f"have {'a step' if len(places) == 1 else 'steps'} there?",
     )
 
@@ -447,6 +447,7 @@ def _subtract_hum(mended: Mended, scale: float, all_of_it: bool) -> None:
             basis[..., :2] @ fitted[:2],
             f"one wave of the amplitude {amplitude}, of {told}, is far above those beside it, as "
             "hum is: it was subtracted",
+            f"is one wave of {amplitude}, of {told}, hum, as of the mains, or a pattern?",
         )
 
 

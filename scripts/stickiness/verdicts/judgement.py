@@ -154,15 +154,15 @@ def judge(
                 cell[name] = [found.low, found.value, found.high]
         return cell | {"doubts": "\n".join(_list_doubts(material, surface, meeting, cell))}
 
+    def judge_all(material: Material, surface: Surface) -> dict[str, Any]:
+        """The same by all answers, and the questions that decide."""
+        others = [(guess, judge_all(material, other)) for guess, other in surface.readings]
+        return ask(judge_reading(material, surface), others, wanted_share)
+
     cells = []
     for material in materials.values():
         for surface in surfaces.values():
-            cell, *others = (
-                judge_reading(material, reading)
-                for reading in (surface, *(other.surface for other in surface.readings))
-            )
-            guesses = [other.guess for other in surface.readings]
-            cell = ask(cell, list(zip(guesses, others, strict=True)), wanted_share)
+            cell = judge_all(material, surface)
             is_open = cell["verdict"] == DEPENDS and not cell["questions"]
             if is_open and surface.as_measured is not None:
                 as_measured = judge_meeting(meet(material, surface.as_measured, wanted_share))

@@ -1,8 +1,9 @@
 """Questions that a measurement leaves open, and on which a verdict may depend.
 
 A surface is also read by the other answer to each question. Where the threshold by one answer lies
-beyond the limits by the other, the question decides: limits contain both answers, so that the
-verdict holds whichever is right, and the user is asked. Otherwise it is harmless.
+beyond the limits by the other, the question is told, and limits contain both answers, so that the
+verdict holds whichever is right. Otherwise it is harmless, and so is an answer by which the data
+are implausible. Of several questions, not all combinations of answers are read.
 """
 
 from __future__ import annotations
@@ -55,11 +56,7 @@ def ask(
                 "answers": [_describe(words, options, by_it) for words, options, by_it in told],
             }
         )
-        for name, dimensions in DIMENSIONS.items():
-            if "limit" in dimensions and name in united:
-                united[name] = _unite(np.asarray(united[name]), np.asarray(other[name]))
-        united["probability"] = np.fmax(united["probability"], other["probability"])
-        united["probability_low"] = np.fmin(united["probability_low"], other["probability_low"])
+        united = _unite_limits(united, other)
     if asked:
         low, _, high = united["remaining"]
         grows = any(each["verdict"] == TOUCHES for each in (cell, *(other for _, other in others)))
@@ -71,12 +68,24 @@ def ask(
 def ask_about_end(
     cell: Mapping[str, Any], as_measured: Mapping[str, Any], guess: Guess
 ) -> dict[str, Any]:
-    """Ask where the waves end if that decides: limits of the cell contain both answers already."""
+    """Ask where the waves end if that decides; limits contain both answers."""
     if as_measured["verdict"] == cell["verdict"] or cell["not_judged"]:
         return dict(cell)
     told = zip(guess.answers, guess.options, (cell, as_measured), strict=True)
     answers = [_describe(words, options, by_it) for words, options, by_it in told]
-    return {**cell, "questions": json.dumps([{"question": guess.question, "answers": answers}])}
+    united = _unite_limits(cell, as_measured)
+    return united | {"questions": json.dumps([{"question": guess.question, "answers": answers}])}
+
+
+def _unite_limits(cell: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
+    """The cell with limits that contain those of the other, where both have them."""
+    united = dict(cell)
+    for name, dimensions in DIMENSIONS.items():
+        if "limit" in dimensions and name in cell and name in other:
+            united[name] = _unite(np.asarray(cell[name]), np.asarray(other[name]))
+    united["probability"] = np.fmax(cell["probability"], other["probability"])
+    united["probability_low"] = np.fmin(cell["probability_low"], other["probability_low"])
+    return united
 
 
 def _agree(cell: Mapping[str, Any], other: Mapping[str, Any]) -> bool:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 import xarray as xr
@@ -290,10 +290,12 @@ class Surface:
         guesses: dict[str, Guess] = {}
         for guess in (guess for each in measurements for guess in each.heights.guesses):
             guesses.setdefault(repr(guess.options), guess)
+        # A surface may leave other questions open if one is answered otherwise.
+        taken = {key: text for each in guesses.values() for key, text in each.options[0].items()}
         return cls(
             analyse_as(measurements),
             readings=tuple(
-                Reading(guess, cls(analyse_as(measure(override(entry, guess.options[1])))))
+                Reading(guess, cls._analyse(measure, override(entry, taken | guess.options[1])))
                 for guess in guesses.values()
             ),
         )
@@ -303,23 +305,33 @@ class Surface:
         """Open a file that `write` has written; raise ValueError with the reason if it has none."""
         if reason := datasets.read(path).attrs.get("unread"):
             raise ValueError(reason)
-        return cls(
-            datasets.read(path, NEEDED),
-            readings=tuple(
-                Reading(Guess(**json.loads(data.attrs["guess"])), cls(data))
-                for data in datasets.read_groups(path).values()
-            ),
+        return cls._collect(datasets.read(path, NEEDED), datasets.read_groups(path))
+
+    @classmethod
+    def _collect(cls, data: xr.Dataset, groups: Mapping[str, xr.Dataset], place: str = "") -> Self:
+        """Make a surface of its data, and of those of its readings, the groups below a place."""
+        own = {name: each for name, each in groups.items() if name.rpartition("/")[0] == place}
+        readings = (
+            Reading(Guess(**json.loads(each.attrs["guess"])), cls._collect(each, groups, name))
+            for name, each in own.items()
         )
+        return cls(data, readings=tuple(readings))
 
     def write(self, path: str | Path, *, title: str, parameters: Mapping[str, Any]) -> None:
         """Write what is known of the surface to a NetCDF file."""
         if self.shells is not None:
             raise ValueError("the spectrum of a periodic cell has no density that can be written")
-        groups = {
-            f"reading_{number}": other.data.assign_attrs(guess=json.dumps(guess._asdict()))
-            for number, (guess, other) in enumerate(self.readings, 1)
-        }
+        groups = self._list_groups()
         datasets.write(self.data, path, title=title, parameters=parameters, groups=groups)
+
+    def _list_groups(self, place: str = "") -> dict[str, xr.Dataset]:
+        """Data of all readings, and of theirs, by their groups in a file."""
+        groups = {}
+        for number, (guess, other) in enumerate(self.readings, 1):
+            name = f"{place}reading_{number}"
+            groups[name] = other.data.assign_attrs(guess=json.dumps(guess._asdict()))
+            groups |= other._list_groups(f"{name}/")
+        return groups
 
     @property
     def contact(self) -> float:
