@@ -16,9 +16,12 @@ POISSON_RATIO = 0.5  #: of most soft solids, which hardly change their volume
 
 # Columns of a rheometer's file, by the keys that take it.
 _PRIME = "['′’´]"  # noqa: RUF001
+_WORDS = "(?:storage modulus|speichermodul)"
 _STORAGE = {
-    "youngs_modulus_table": rf"E ?{_PRIME}|E[ _]prime|(?:tensile |young'?s )?storage modulus",
-    "shear_modulus_table": rf"G ?{_PRIME}|G[ _]prime|(?:shear )?storage modulus|speichermodul",
+    "youngs_modulus_table": (
+        rf"E ?{_PRIME}|E[ _]prime|(?:tensile |young'?s )?{_WORDS}(?:,? E ?{_PRIME})?"
+    ),
+    "shear_modulus_table": rf"G ?{_PRIME}|G[ _]prime|(?:shear )?{_WORDS}(?:,? G ?{_PRIME})?",
 }
 _FREQUENCY = r"(?:angular |kreis)?(?:frequency|freq\.?|frequenz)|f|ω|omega"
 

@@ -85,6 +85,14 @@ RHEOMETERS = {
         "Sweep 1\nPoint\tFrequency\tStorage Modulus\tLoss Modulus\n\t[Hz]\t[Pa]\t[Pa]\n"
         "1\t0,01\t10000\t3000\n2\t10\t20000,0\t\n",
     ),
+    "falling": (
+        "shear_modulus_table",
+        "Frequency (Hz),Storage modulus G' (kPa),Loss modulus G'' (kPa)\n10,20,3\n0.01,10,2\n",
+    ),
+    "German": (
+        "shear_modulus_table",
+        "Frequenz [Hz];Speichermodul G' [kPa]\n0,01;10,0\n10,0;20,0\n",
+    ),
     "tension": ("youngs_modulus_table", "f (Hz);E′ (MPa)\n0,01;0,03\n10;0,06\n"),  # noqa: RUF001
 }
 
@@ -105,6 +113,11 @@ def test_a_table_is_read_from_a_file_of_a_rheometer(tmp_path, name):
         ("youngs_modulus_table", "Frequency [Hz],G' [kPa]\n1,20\n2,30\n", "G' with shear_modulus_"),
         ("shear_modulus_table", "Frequency [Hz],E' [kPa]\n1,20\n2,30\n", "E' goes with youngs_mod"),
         ("shear_modulus_table", "Frequency,G'\n1,20\n2,30\n", "named with their units"),
+        (
+            "youngs_modulus_table",
+            "f [Hz];Storage modulus, G' [kPa]\n1;20\n2;30\n",
+            "G' with shear_modulus_table",
+        ),
         ("shear_modulus_table", "Frequency [Hz],G'' [kPa]\n1,20\n2,30\n", "of a storage modulus"),
         ("shear_modulus_table", "Frequency [Hz],G' [mm]\n1,20\n2,30\n", "is a length; a pressure"),
         (
