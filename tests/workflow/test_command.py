@@ -242,7 +242,7 @@ def test_another_tape_replaces_the_page(folder, first):
         (["wall#1.npy", *TAPE, "--length", 2], "--length 2: "),
         (["wall#1.npy", *TAPE, "--detrend", "cubic"], "--detrend 'cubic': "),
         (["wall#1.npy", *TAPE, "--backing", "slip"], "--backing 'slip': "),
-        (["wall#1.npy", "--tape", "wall#1.npy"], "wall#1.npy: not valid YAML"),
+        (["wall#1.npy", "--tape", "wall#1.npy"], "wall#1.npy: cannot be read as YAML: it is no"),
         (["wall#1.npy", *TAPE], "wall#1.npy: "),  # of unknown size
         (["tape.yaml", *TAPE, *SIZE], "tape.yaml: no line of numbers found"),
         (["wall#1.npy", *TAPE, "--radius", "2,5 mm"], "--radius '2,5 mm' holds a comma, where"),
