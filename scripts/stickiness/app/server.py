@@ -145,7 +145,9 @@ def listen() -> tuple[HTTPServer, str]:
 def serve() -> None:
     """Open the form of the app in the browser, and serve it until Ctrl-C."""
     logging.getLogger("tornado.access").setLevel(logging.ERROR)  # what is refused needs no line
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    # Also where a script has started the app, in which Ctrl-C is ignored.
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
     with (
         suppress(KeyboardInterrupt),
         tempfile.TemporaryDirectory(prefix="stickiness-") as folder,
