@@ -49,9 +49,10 @@ def main():
     parser.add_argument("--tasks", nargs="+", choices=TASKS, default=DEFAULT)
     parser.add_argument("--rounds", type=int, default=3)
     options = parser.parse_args()
+    with_tests = any(task.endswith("tests") for task in options.tasks)
     with tempfile.TemporaryDirectory(prefix="commits-") as place:
         folders = {
-            name: check_out(commit, Path(place, name))
+            name: check_out(commit, Path(place, name), with_tests=with_tests)
             for name, commit in (("base", options.base), ("here", options.here))
         }
         times = defaultdict(list)
@@ -65,11 +66,12 @@ def main():
     print(tabulate(times, options.rounds).to_string(index=False))
 
 
-def check_out(commit, folder):
+def check_out(commit, folder, with_tests):
     """Check a commit out into a new folder, and install it there."""
+    stamps = (".venv/.peers", ".venv/.docs") if with_tests else (".venv/.run",)
     subprocess.run(["git", "clone", "--quiet", ROOT, folder], check=True)
     subprocess.run(["git", "checkout", "--quiet", find_hash(commit)], cwd=folder, check=True)
-    subprocess.run(["make", "--silent", ".venv/.peers", ".venv/.docs"], cwd=folder, check=True)
+    subprocess.run(["make", "--silent", *stamps], cwd=folder, check=True)
     return folder
 
 

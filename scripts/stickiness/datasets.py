@@ -23,6 +23,7 @@ __all__ = [
     "DatasetError",
     "WriteError",
     "annotate",
+    "demand",
     "flags",
     "parameters",
     "provenance",
@@ -144,10 +145,15 @@ def read(path: str | Path, variables: Iterable[str] = ()) -> xr.Dataset:
     written_as = dataset.attrs.get("written_as", path.name)
     if not path.absolute().as_posix().endswith(f"/{written_as}"):
         raise DatasetError(f"{path}: holds what belongs in {written_as}; delete it and re-run")
+    demand(dataset, path, variables)
+    return dataset
+
+
+def demand(dataset: xr.Dataset, path: str | Path, variables: Iterable[str]) -> None:
+    """Raise an error that names the file if a dataset lacks one of these variables."""
     missing = [name for name in variables if name not in dataset.variables]
     if missing:
         raise DatasetError(f"{path}: lacks the variable {missing[0]!r}; delete it and re-run")
-    return dataset
 
 
 def read_groups(path: str | Path) -> dict[str, xr.Dataset]:

@@ -64,9 +64,7 @@ class Feature:
         )
 
 
-def find_feature(
-    heights: ArrayLike, sides: tuple[float, float], cutoff: float = np.inf
-) -> Feature | None:
+def find_feature(heights: ArrayLike, sides: tuple[float, float]) -> Feature | None:
     """Find the feature that decides the elastic energy of full contact with a map.
 
     Parameters
@@ -75,8 +73,6 @@ def find_feature(
         Levelled heights [m].
     sides : pair of floats
         Sides of the map [m].
-    cutoff : float
-        Wave number beyond which waves, such as noise, do not count [1/m].
 
     Returns
     -------
@@ -102,7 +98,7 @@ def find_feature(
     # Local energy of the heights and their mirror images, and the share that every cell has of it.
     qx, qy = (np.pi * np.arange(n) / side for n, side in zip(heights.shape, sides, strict=True))
     q = np.hypot(qx[:, None], qy)
-    modes = np.where(q <= cutoff, np.sqrt(q), 0.0) * fft.dctn(heights, norm="ortho")
+    modes = np.sqrt(q) * fft.dctn(heights, norm="ortho")
     local_energy = fft.idctn(modes, norm="ortho") ** 2
     x, y = (np.arange(n) * CELLS // n for n in heights.shape)
     cell = CELLS * x[:, None] + y

@@ -9,7 +9,6 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from stickiness.measured import instrument_spectrum, topography
@@ -18,6 +17,7 @@ from stickiness.measured.guess import Guess, guess_place, guess_side
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum, TrustedWaves
 from stickiness.measured.psd import Taper
 from stickiness.measured.topography import Profile, Step, Topography
+from stickiness.statistics import measure_shape
 
 FEWEST_POINTS = {1: 256, 2: 64}  #: along a profile, and along the shorter side of a map, for a fit
 _ALL_MISSING = 1 - 1e-9  # a share of missing points that no file reaches
@@ -149,11 +149,11 @@ def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topogra
     feature = None if choice == "keep" else find_feature(levelled.heights, levelled.size)
     if feature is None:
         return levelled
-    rows = [
+    points = tuple(
         slice(*(round(end / step) for end in ends))
         for ends, step in zip(feature.beside, levelled.steps, strict=True)
-    ]
-    beside = levelled.heights[tuple(rows)]
+    )
+    beside = levelled.heights[points]
     is_enough = min(beside.shape) >= FEWEST_POINTS[2]
     if choice == "beside" and is_enough:
         done = Step("take the part beside a feature", beside.size, {"features": choice})
@@ -172,6 +172,12 @@ def _look_for_feature(levelled: Topography, entry: Mapping[str, Any]) -> Topogra
     guess = guess_place(str(feature)) if is_enough and choice == "detect" else None
     step = Step("keep a feature", parameters={"features": choice}, remark=remark, guess=guess)
     doubts = levelled.doubts
+    if choice == "beside":
+        sides = " x ".join(map(str, beside.shape))
+        doubts += (
+            f"{levelled.source}: the map beside the feature has {sides} points, too few to judge "
+            f"({FEWEST_POINTS[2]} a side): map a larger part, or give features: keep",
+        )
     if (entry.get("contact") or 0.0) > max(levelled.size):
         doubts += (
             f"{levelled.source}: {feature}. A contact larger than the map may hold more of these, "
@@ -186,8 +192,7 @@ def _guess_replica(heights: Topography | Profile, entry: Mapping[str, Any]) -> G
     texts = [Path(entry.get("file") or "").name, *(entry.get(key) or "" for key in _ABOUT)]
     if entry["invert"] is not None or not (named := _REPLICA.search(" | ".join(texts))):
         return None
-    level = heights.heights - heights.heights.mean()
-    skewness = float(np.mean(level**3) / np.mean(level**2) ** 1.5)
+    skewness, _ = measure_shape(heights.heights)
     return guess_side(named[0], skewness) if abs(skewness) > LEAST_SKEWNESS else None
 
 

@@ -23,6 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.measured.psd import autocorrelation
 from stickiness.remaining.errors import SKEWNESS
+from stickiness.statistics import measure_shape
 
 SLOPE = 1.0  # of the logarithm of the factor, against the skewness
 CHANCE = 1.645  # standard errors of the skewness, within which 90 % of Gaussian heights are
@@ -65,19 +66,6 @@ def find_shape_of(heights: ArrayLike) -> HeightShape:
     skewness, _ = measure_shape(heights)
     chance = CHANCE * find_skewness_error(heights)
     return keep_beyond_chance(find_height_shape(skewness), skewness, chance)
-
-
-def measure_shape(heights: NDArray) -> tuple[float, float]:
-    """Skewness and kurtosis, which is 3 for Gaussian heights: means of powers over the rms height.
-
-    Those of `scipy.stats`, which takes longer to load than both of any map to compute.
-    """
-    deviation = heights - heights.mean()
-    square = deviation**2
-    variance = square.mean()
-    skewness = np.mean(square * deviation) / variance**1.5
-    kurtosis = np.mean(square**2) / variance**2
-    return float(skewness), float(kurtosis)
 
 
 def keep_beyond_chance(found: HeightShape, size: float, chance: float) -> HeightShape:

@@ -21,10 +21,10 @@ from stickiness.measured.measurement import Measurement, find_spectra
 from stickiness.measured.self_affine_fit import SelfAffineFit
 from stickiness.measured.topography import DROP_RIMS, MASK_SPIKES, Profile, Topography
 from stickiness.plausibility import PLAUSIBLE
-from stickiness.remaining.height_shape import find_shape_of, measure_shape
+from stickiness.remaining.height_shape import find_shape_of
 from stickiness.remaining.uneven_roughness import find_unevenness
 from stickiness.spectrum.direction import find_ratio
-from stickiness.statistics import COVERS
+from stickiness.statistics import COVERS, measure_shape
 from stickiness.verdicts.simulated_surface import simulate_surface
 from stickiness.verdicts.surface_data import (
     END_QUANTILES,

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
+from itertools import product
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -141,39 +142,50 @@ def judge(
     surfaces = _name("surfaces", surfaces, Surface)
     axes = find_axes(materials.values(), np.atleast_1d(frequencies))
 
-    def judge_reading(material: Material, surface: Surface) -> dict[str, Any]:
-        """All of a pair, by one answer to what its measurement leaves open."""
-        meeting = meet(material, surface, wanted_share)
-        cell = judge_meeting(meeting)
-        if curves:
-            cell |= follow_remaining(meeting, axes)
-        if thresholds:
-            # Of two rough solids only the rms height of the pair is defined.
-            known = surface.rms_height if material.surface is None else None
-            for name, found in find_thresholds(meeting, cell, contact_area, known).items():
-                cell[name] = [found.low, found.value, found.high]
-        return cell | {"doubts": "\n".join(_list_doubts(material, surface, meeting, cell))}
-
-    def judge_all(material: Material, surface: Surface) -> dict[str, Any]:
-        """The same by all answers, and the questions that decide."""
-        others = [(guess, judge_all(material, other)) for guess, other in surface.readings]
-        return ask(judge_reading(material, surface), others, wanted_share)
-
-    cells = []
-    for material in materials.values():
-        for surface in surfaces.values():
-            cell = judge_all(material, surface)
-            is_open = cell["verdict"] == DEPENDS and not cell["questions"]
-            if is_open and surface.as_measured is not None:
-                as_measured = judge_meeting(meet(material, surface.as_measured, wanted_share))
-                shortest = amount(surface.shortest_resolved, "m")
-                cell = ask_about_end(cell, as_measured, guess_end(shortest))
-            cells.append(cell)
+    wanted = _Wanted(wanted_share, contact_area, axes if curves else None, thresholds)
+    cells = [
+        _judge_pair(material, surface, wanted)
+        for material, surface in product(materials.values(), surfaces.values())
+    ]
     dataset = _arrange(cells, materials, surfaces).assign(wanted_share=wanted_share)
     rate_moduli = [find_rate_moduli(each.plane_strain, axes) for each in materials.values()]
     dataset["modulus"] = ("material", "frequency"), rate_moduli
     along = {name: points for name, points in axes.items() if name in dataset.dims}
     return withhold(_describe(dataset.assign_coords(along)))
+
+
+class _Wanted(NamedTuple):
+    """What is asked of every pair."""
+
+    share: float  #: that must remain for it to stick
+    contact_area: float
+    axes: Mapping[str, NDArray] | None  #: along which the share is followed; None of no curves
+    thresholds: bool
+
+
+def _judge_pair(material: Material, surface: Surface, wanted: _Wanted) -> dict[str, Any]:
+    """All numbers of a pair, whatever is true of what its measurement leaves open."""
+    others = [(guess, _judge_pair(material, other, wanted)) for guess, other in surface.readings]
+    return ask(_judge_reading(material, surface, wanted), others, wanted.share)
+
+
+def _judge_reading(material: Material, surface: Surface, wanted: _Wanted) -> dict[str, Any]:
+    """The same by one answer, with the question where the waves end if that decides."""
+    meeting = meet(material, surface, wanted.share)
+    cell = judge_meeting(meeting)
+    if wanted.axes is not None:
+        cell |= follow_remaining(meeting, wanted.axes)
+    if wanted.thresholds:
+        # Of two rough solids only the rms height of the pair is defined.
+        known = surface.rms_height if material.surface is None else None
+        for name, found in find_thresholds(meeting, cell, wanted.contact_area, known).items():
+            cell[name] = [found.low, found.value, found.high]
+    cell["doubts"] = "\n".join(_list_doubts(material, surface, meeting, cell))
+    cell["questions"] = ""
+    if cell["verdict"] != DEPENDS or surface.as_measured is None:
+        return cell
+    as_measured = judge_meeting(meet(material, surface.as_measured, wanted.share))
+    return ask_about_end(cell, as_measured, guess_end(amount(surface.shortest_resolved, "m")))
 
 
 def _check_shares(wanted_share: float, contact_area: float) -> None:

@@ -31,7 +31,7 @@ def ask(
     Parameters
     ----------
     cell : mapping
-        What `judgement.judge_meeting` says by the guesses.
+        Numbers and codes by the guesses, with a question where the waves end if that decides.
     others : sequence of (Guess, mapping)
         The same by the other answer to each of them.
     wanted_share : float
@@ -42,26 +42,20 @@ def ask(
     dict
         The cell with limits that contain all answers. `questions` has, as JSON, each question that
         decides with its answers: what they are in words, the options that give them, and the
-        verdict, the share and the threshold by each.
+        verdict, the share and the threshold by each. Where waves end is asked if nothing else is.
     """
     united = dict(cell)
     asked = []
     for guess, other in others:
         if cell["not_judged"] or other["not_judged"] or _agree(cell, other):
             continue
-        told = zip(guess.answers, guess.options, (cell, other), strict=True)
-        asked.append(
-            {
-                "question": guess.question,
-                "answers": [_describe(words, options, by_it) for words, options, by_it in told],
-            }
-        )
+        asked.append(_tell(guess, cell, other))
         united = _unite_limits(united, other)
     if asked:
         low, _, high = united["remaining"]
         grows = any(each["verdict"] == TOUCHES for each in (cell, *(other for _, other in others)))
         united["verdict"] = decide(low, high, grows, wanted_share)
-    united["questions"] = json.dumps(asked) if asked else ""
+        united["questions"] = json.dumps(asked)
     return united
 
 
@@ -71,10 +65,17 @@ def ask_about_end(
     """Ask where the waves end if that decides; limits contain both answers."""
     if as_measured["verdict"] == cell["verdict"] or cell["not_judged"]:
         return dict(cell)
-    told = zip(guess.answers, guess.options, (cell, as_measured), strict=True)
-    answers = [_describe(words, options, by_it) for words, options, by_it in told]
-    united = _unite_limits(cell, as_measured)
-    return united | {"questions": json.dumps([{"question": guess.question, "answers": answers}])}
+    asked = [_tell(guess, cell, as_measured)]
+    return _unite_limits(cell, as_measured) | {"questions": json.dumps(asked)}
+
+
+def _tell(guess: Guess, cell: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:
+    """A question with what would be by either answer."""
+    told = zip(guess.answers, guess.options, (cell, other), strict=True)
+    return {
+        "question": guess.question,
+        "answers": [_describe(words, options, by_it) for words, options, by_it in told],
+    }
 
 
 def _unite_limits(cell: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, Any]:

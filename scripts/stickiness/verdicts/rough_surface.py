@@ -303,9 +303,11 @@ class Surface:
     @classmethod
     def open(cls, path: str | Path) -> Surface:
         """Open a file that `write` has written; raise ValueError with the reason if it has none."""
-        if reason := datasets.read(path).attrs.get("unread"):
+        data = datasets.read(path)
+        if reason := data.attrs.get("unread"):
             raise ValueError(reason)
-        return cls._collect(datasets.read(path, NEEDED), datasets.read_groups(path))
+        datasets.demand(data, path, NEEDED)
+        return cls._collect(data, datasets.read_groups(path))
 
     @classmethod
     def _collect(cls, data: xr.Dataset, groups: Mapping[str, xr.Dataset], place: str = "") -> Self:

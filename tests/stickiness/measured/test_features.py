@@ -300,14 +300,6 @@ def test_turned_scaled_and_unlike_sides():
     np.testing.assert_allclose(larger.outline, 7 * np.array(found.outline))
 
 
-def test_waves_beyond_the_cutoff_do_not_count():
-    noise = np.random.default_rng(0).standard_normal((N, N))
-    heights = make(weld, 0, 0) + 0.3 * HEIGHT * noise
-    assert find(heights) is None
-    found = find_feature(heights, (SIDE, SIDE), cutoff=2 * np.pi / (0.1 * SIDE))
-    assert found.shape == "ridge"
-
-
 def test_large_maps_are_thinned_and_small_ones_have_none():
     heights = make(indent, 1, 2)
     larger = np.kron(heights, np.ones((7, 7)))

@@ -8,9 +8,9 @@ from stickiness.remaining.height_shape import (
     find_height_shape,
     find_shape_of,
     find_skewness_error,
-    measure_shape,
 )
 from stickiness.spectrum import SelfAffine
+from stickiness.statistics import measure_shape
 from stickiness.surface import synthesise
 
 BAND = SelfAffine(hurst=0.8, q0=2 * np.pi, q1=32 * np.pi, h_rms=1.0)

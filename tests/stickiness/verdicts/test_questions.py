@@ -153,6 +153,15 @@ def test_a_feature_is_a_question(film):
     assert low < verdict(read(heights), TAPE).modulus_threshold < high
 
 
+def test_a_part_that_is_too_small_is_not_judged(film):
+    """A step in the middle leaves less than 64 points on either side."""
+    heights, _ = film
+    step = heights + 1e-6 * (np.arange(128)[:, None] + np.arange(128) > 128)
+    answer = verdict(read(step, features="beside"), TAPE)
+    assert answer.word == "not judged"
+    assert "too few to judge (64 a side)" in answer.not_judged[0]
+
+
 def test_a_feature_forbids_a_larger_contact(film):
     heights, step = film
     larger = {"contact": "2 mm"}
