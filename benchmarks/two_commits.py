@@ -67,11 +67,12 @@ def main():
 
 
 def check_out(commit, folder, with_tests):
-    """Check a commit out into a new folder, and install it there."""
+    """Check a commit out into a new folder, install it there, and call it once."""
     stamps = (".venv/.peers", ".venv/.docs") if with_tests else (".venv/.run",)
     subprocess.run(["git", "clone", "--quiet", ROOT, folder], check=True)
     subprocess.run(["git", "checkout", "--quiet", find_hash(commit)], cwd=folder, check=True)
     subprocess.run(["make", "--silent", *stamps], cwd=folder, check=True)
+    run("verdict", folder)  # after which numba has compiled
     return folder
 
 
