@@ -58,7 +58,8 @@ rule judge_surface:
         surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
         material_surfaces=MATERIAL_SURFACES,
     output:
-        verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
+        # The job keeps what it finds there of materials that are the same as before.
+        verdicts=update(f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc"),
         contact_laws=f"{RESULTS}/criteria/verdicts/{{real_surface}}.json",
     log:
         f"{RESULTS}/logs/judge_surface/criteria/verdicts/{{real_surface}}.log",
@@ -71,7 +72,7 @@ rule judge_surface:
         label=lambda wildcards: LABELS[wildcards.real_surface],
         code=source_hash("criteria/judge_surface.py"),
     message:
-        "Judge all materials on a surface: {wildcards.real_surface}"
+        "Judge materials on a surface, unless they are judged: {wildcards.real_surface}"
     script:
         "../scripts/criteria/judge_surface.py"
 

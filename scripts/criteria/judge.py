@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 
 from common.job import start
 from common.pairs import SHARES, arrange_pairs, list_doubts
+from criteria.joined_pairs import join_pairs
 from stickiness import datasets
 from stickiness.criteria.a_v_theory import THEORY_ERROR
 from stickiness.criteria.pair import FULL_SHARE
@@ -38,7 +38,7 @@ def main(job):
     output = job.output
     paths = {Path(path).stem: path for path in job.input.verdicts}
     verdicts = join_unread({name: datasets.read(path) for name, path in paths.items()})
-    dataset = join_surfaces(verdicts)
+    dataset = join_pairs(verdicts, "surface")
     datasets.write(
         dataset,
         output.dataset,
@@ -77,24 +77,6 @@ def join_unread(verdicts):
         joined.append(withhold(row))
     if unread:
         joined[0] = joined[0].assign_attrs(unread=", ".join(unread))
-    return joined
-
-
-def join_surfaces(verdicts):
-    """One dataset of the verdicts on several surfaces, for the same materials."""
-    joined = xr.concat(
-        verdicts,
-        "surface",
-        data_vars="minimal",
-        coords="minimal",
-        compat="override",
-        combine_attrs="override",
-    )
-    # Numbers may be missing for more reasons on one surface than on another.
-    for name in joined.variables:
-        reasons = [each[name].attrs.get("nan_means", "") for each in verdicts]
-        if any(reasons):
-            joined[name].attrs["nan_means"] = max(reasons, key=len)
     return joined
 
 

@@ -82,6 +82,7 @@ def judge_by_rule(analysed, folder, materials):
             materials=materials,
             material_surfaces=["plate"],
             label=analysed.entry["label"],
+            code="",
         )
     )
     return {"surface": surface_file, "verdicts": verdicts}

@@ -4,7 +4,9 @@ import re
 import time
 
 import pytest
-from helpers.copy_workflow import copy_code
+from helpers.copy_workflow import FEW, copy_code
+
+from stickiness import datasets
 
 pytestmark = pytest.mark.workflow
 
@@ -228,6 +230,41 @@ def test_a_new_surface_a_material_and_a_case_that_goes_solve_nothing_else(copy_o
     after = copy_of_finished.outputs()
     assert before.keys() & (SOLVING | ANSWERING) == after.keys() & (SOLVING | ANSWERING)
     assert {"judge", "write_surface"} <= after.keys() - before.keys()
+
+
+def run_verdicts(workflow):
+    """Materials that a run for verdicts judges, by surface; a job's log says it."""
+    logs = workflow / "results/tiny/logs/judge_surface/criteria/verdicts"
+    for log in logs.glob("*.log"):
+        log.unlink()
+    done = workflow.snakemake("verdicts")
+    assert done.returncode == 0, done.stdout
+    said = {log.stem: log.read_text(encoding="utf-8") for log in logs.glob("*.log")}
+    return {name: re.search(r" judges (.*)", text)[1] for name, text in said.items()}
+
+
+def test_a_new_material_and_a_new_surface_are_judged_alone_and_a_label_judges_nothing(
+    copy_of_finished,
+):
+    workflow = copy_of_finished
+    before = datasets.read(workflow / "results/tiny/criteria/verdicts.nc")
+    names = list(FEW["surfaces"])
+    workflow.add("  mine: {common: pdms, work_of_adhesion: 30 mJ/m^2}\n", "config/materials.yaml")
+    assert run_verdicts(workflow) == dict.fromkeys(names, "mine")
+    after = datasets.read(workflow / "results/tiny/criteria/verdicts.nc")
+    assert after.material.values.tolist() == [*before.material.values, "mine"]
+    assert after.sel(material=before.material).equals(before)
+
+    workflow.edit("config/materials.yaml", "{common: pdms,", "{common: pdms, label: my silicone,")
+    new = "  mine: {kind: self_affine, label: mine, source: own, hurst: 0.8, "
+    new += "h_rms: 1 um, longest_wavelength: 1 mm, shortest_wavelength: 10 nm}\n"
+    workflow.add(new, "config/tiny_surfaces.yaml")
+    every = ", ".join(after.material.values)
+    assert run_verdicts(workflow) == dict.fromkeys(names, "no material anew") | {"mine": every}
+    labelled = datasets.read(workflow / "results/tiny/criteria/verdicts.nc")
+    assert labelled.material_label.sel(material="mine") == "my silicone"
+    rest, before = (each.drop_vars("material_label") for each in (labelled, after))
+    assert rest.sel(surface=names).equals(before.sel(surface=names))
 
 
 def test_what_was_solved_for_a_case_outlives_it(copy_of_finished):

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stickiness.entries.material import Material
 from stickiness.solids.moduli import Modulus
 from stickiness.verdicts.meeting import Meeting
 
@@ -29,14 +28,13 @@ class _Path(NamedTuple):
     heights: ArrayLike = 1.0  #: factors on the heights
 
 
-def find_axes(materials: Iterable[Material], frequencies: NDArray) -> dict[str, NDArray]:
-    """Points of all axes by their dimension, in common for the materials."""
-    has_dwell = any(material.dwell is not None for material in materials)
+def find_axes(frequencies: NDArray) -> dict[str, NDArray]:
+    """Points of all axes by their dimension, the same for every material."""
     return {
         "modulus_factor": MODULUS_FACTORS,
         "roughness_factor": ROUGHNESS_FACTORS,
         "frequency": frequencies,
-        "dwell_factor": DWELL_FACTORS if has_dwell else np.ones(1),
+        "dwell_factor": DWELL_FACTORS,
     }
 
 

@@ -140,7 +140,7 @@ def judge(
     _check_shares(wanted_share, contact_area)
     materials = _name("materials", materials, Material)
     surfaces = _name("surfaces", surfaces, Surface)
-    axes = find_axes(materials.values(), np.atleast_1d(frequencies))
+    axes = find_axes(np.atleast_1d(frequencies))
 
     wanted = _Wanted(wanted_share, contact_area, axes if curves else None, thresholds)
     cells = [
