@@ -6,7 +6,7 @@
 #   real surfaces ──► spectrum, H, C0 ────────────────────────────────┘        report
 #
 # The rules of a stage are in rules/<stage>.smk, their scripts are scripts/<stage>/<rule>.py, and their
-# results are in results/<fidelity>/<stage>/.
+# results are in results/<fidelity>/<stage>/, or in results/<stage>/ if no fidelity changes them.
 
 from pathlib import Path
 

@@ -36,7 +36,7 @@ wildcard_constraints:
 
 def campaign_table(name):
     """Table that a campaign makes."""
-    return f"{CAMPAIGN_RESULTS}/{CAMPAIGN_STAGES[name]}/{name}.csv"
+    return f"{SHARED_RESULTS}/{CAMPAIGN_STAGES[name]}/{name}.csv"
 
 
 def setting_of(wildcards):
@@ -52,11 +52,11 @@ def shared_by_sets(wildcards):
 
 rule measure:
     output:
-        f"{CAMPAIGN_RESULTS}/{{stage}}/{{campaign}}/{{set}}/seed{{seed}}.nc",
+        f"{SHARED_RESULTS}/{{stage}}/{{campaign}}/{{set}}/seed{{seed}}.nc",
     log:
-        f"{CAMPAIGN_RESULTS}/{{stage}}/logs/measure/{{campaign}}/{{set}}/seed{{seed}}.log",
+        f"{SHARED_RESULTS}/{{stage}}/logs/measure/{{campaign}}/{{set}}/seed{{seed}}.log",
     benchmark:
-        f"{CAMPAIGN_RESULTS}/{{stage}}/benchmarks/measure/{{campaign}}/{{set}}/seed{{seed}}.tsv"
+        f"{SHARED_RESULTS}/{{stage}}/benchmarks/measure/{{campaign}}/{{set}}/seed{{seed}}.tsv"
     conda:
         "../envs/environment.yaml"
     resources:
@@ -75,7 +75,7 @@ rule measure:
 
 def measured_files(wildcards):
     """Files of all sets and seeds of a campaign."""
-    folder = f"{CAMPAIGN_RESULTS}/{wildcards.stage}/{wildcards.campaign}"
+    folder = f"{SHARED_RESULTS}/{wildcards.stage}/{wildcards.campaign}"
     return [
         f"{folder}/{name}/seed{seed}.nc"
         for name, setting in CAMPAIGNS[wildcards.campaign]["sets"].items()
@@ -87,11 +87,11 @@ rule tabulate:
     input:
         measured_files,
     output:
-        f"{CAMPAIGN_RESULTS}/{{stage}}/{{campaign}}.csv",
+        f"{SHARED_RESULTS}/{{stage}}/{{campaign}}.csv",
     log:
-        f"{CAMPAIGN_RESULTS}/{{stage}}/logs/tabulate/{{campaign}}.log",
+        f"{SHARED_RESULTS}/{{stage}}/logs/tabulate/{{campaign}}.log",
     benchmark:
-        f"{CAMPAIGN_RESULTS}/{{stage}}/benchmarks/tabulate/{{campaign}}.tsv"
+        f"{SHARED_RESULTS}/{{stage}}/benchmarks/tabulate/{{campaign}}.tsv"
     conda:
         "../envs/environment.yaml"
     params:

@@ -13,7 +13,7 @@ def paper_surface(name):
     def find(wildcards):
         if name not in REAL_SURFACES:
             raise WorkflowError(f"{config['surfaces']}: the claims need the surface {name!r}")
-        return f"{RESULTS}/real_surfaces/{name}.nc"
+        return ANALYSED.format(real_surface=name)
 
     return find
 
@@ -43,7 +43,7 @@ def ledger_inputs():
         **{name: paper_surface(name) for name in PAPER_SURFACES},
         "remaining": REMAINING_TABLE,
         "experiments": rules.predict_experiments.output.dataset,
-        "measured_surfaces": several("real_surfaces/{surface}.nc", surface=MEASURED_SURFACES),
+        "measured_surfaces": analysed(MEASURED_SURFACES),
         "seeds": lambda wildcards: surfaces_of(ROLES.middle_band, seeds_of(ROLES.middle_band)),
     }
 

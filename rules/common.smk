@@ -75,9 +75,9 @@ COMPLETE = [
 ]
 
 RESULTS = f"{config['results']}/{config['fidelity']}"
-CAMPAIGN_RESULTS = config["results"]  # the same at every fidelity
-TRADEOFF = f"{CAMPAIGN_RESULTS}/tradeoff"
-LIMITS = f"{CAMPAIGN_RESULTS}/limits"
+SHARED_RESULTS = config["results"]  # of campaigns and real surfaces, the same at every fidelity
+TRADEOFF = f"{SHARED_RESULTS}/tradeoff"
+LIMITS = f"{SHARED_RESULTS}/limits"
 for folder in (Path(RESULTS), *Path(RESULTS).parents):
     if folder.exists() and not folder.is_dir():
         sys.exit(f"{folder} must be a folder: move this file, or set `results` in {load.USER}")

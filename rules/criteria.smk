@@ -43,7 +43,7 @@ def material_surfaces():
     return sorted({entry["surface"] for entry in MATERIALS.values() if entry["surface"]})
 
 
-MATERIAL_SURFACES = several("real_surfaces/{surface}.nc", surface=material_surfaces())
+MATERIAL_SURFACES = analysed(material_surfaces())
 # What a verdict depends on beside the surface. Of the texts about a material it tells the label alone.
 JUDGED = {
     "material_surfaces": material_surfaces(),
@@ -55,7 +55,7 @@ JUDGED = {
 
 rule judge_surface:
     input:
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        surface=ANALYSED,
         material_surfaces=MATERIAL_SURFACES,
     output:
         # The job keeps what it finds there of materials that are the same as before.

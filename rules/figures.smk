@@ -42,7 +42,7 @@ FIGURE_INPUTS = {
         "a_v": several("fits/a_v/ensembles/{case}.nc", case=MAGNIFICATIONS[1:]),
     },
     "fig5": {"map": f"{RESULTS}/criteria/map.nc"},
-    "fig6": {"surfaces": several("real_surfaces/{surface}.nc", surface=FIG6_SURFACES)},
+    "fig6": {"surfaces": analysed(FIG6_SURFACES)},
     "fig7": {"adhesive": f"{RESULTS}/adhesion/full/dmt_error.nc"},
     "fig8": {
         "comparisons": several("fits/theory/{compared}.nc", compared=SIMULATED),

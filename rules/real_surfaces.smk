@@ -1,4 +1,12 @@
-# Real surfaces: parameters from the literature, or topographies analysed for their spectrum.
+# Real surfaces: parameters from the literature, or topographies analysed for their spectrum. No fidelity
+# changes them: contact is simulated on the heights as they were measured.
+
+ANALYSED = f"{SHARED_RESULTS}/real_surfaces/{{real_surface}}.nc"
+
+
+def analysed(names):
+    """Files of some real surfaces."""
+    return expand(ANALYSED, real_surface=names)
 
 
 def topographies(wildcards):
@@ -14,7 +22,7 @@ rule analyse_surface:
     input:
         topographies=topographies,
     output:
-        f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        ANALYSED,
     log:
         f"{RESULTS}/logs/analyse_surface/real_surfaces/{{real_surface}}.log",
     benchmark:

@@ -6,10 +6,10 @@ from common.paper import compare_panels
 def figure_sources(wildcards, output):
     """Datasets that each figure shows."""
     # A module may put the results below a prefix, which parameters lack.
-    moved = f"{Path(output[0]).parents[1]}/"
+    moved = f"{Path(output[0]).parents[2]}/"
     return {
         figure: [
-            str(file).replace(f"{RESULTS}/", moved)
+            re.sub(f"^{re.escape(SHARED_RESULTS)}/", lambda _: moved, str(file))
             for files in FIGURE_INPUTS[figure].values()
             for file in ([files] if isinstance(files, str) else files)
         ]
@@ -37,7 +37,7 @@ rule write_report:
         experiments_caption=project_file("report/experiments.rst"),
         ensembles=several("contact/ensembles/{case}.nc", case=COMPLETE),
         comparisons=several("fits/theory/{case}.nc", case=COMPLETE),
-        surfaces=several("real_surfaces/{surface}.nc", surface=REAL_SURFACES),
+        surfaces=analysed(REAL_SURFACES),
         answers=several("cases/{case}.nc", case=CASES),
         laws=ERROR_MODELS,
         heights=HEIGHTS_TABLE,
@@ -79,7 +79,7 @@ rule write_surface:
                 for part in ("surface", "thresholds", "reasons")
             ),
         ],
-        surface=f"{RESULTS}/real_surfaces/{{real_surface}}.nc",
+        surface=ANALYSED,
         verdicts=f"{RESULTS}/criteria/verdicts/{{real_surface}}.nc",
     output:
         page=report(

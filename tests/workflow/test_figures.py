@@ -97,7 +97,7 @@ PANELS = {
         ["adhesion/loops/fig4a.nc"],
         lambda loop: [find_loading(loop.isel(resolution=-1)).repulsive_area_fraction],
     ),
-    "6": (draw_6, ["real_surfaces/asphalt.nc"], lambda surface: [surface.psd]),
+    "6": (draw_6, ["../real_surfaces/asphalt.nc"], lambda surface: [surface.psd]),
     "7A": (draw_7a, ["adhesion/full/dmt_error.nc"], lambda d: [d.dmt_ratio.isel(pressure=0)]),
     "7B": (plot_fig7.draw_weak, ["adhesion/full/dmt_error.nc"], list_weak),
     "8E": (plot_fig8.draw_gamma, ["fits/gamma.nc"], lambda fit: [fit.gamma, fit.gamma_low]),

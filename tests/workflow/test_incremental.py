@@ -312,6 +312,8 @@ def test_another_fidelity_or_preset_and_back_solves_nothing(copy_of_finished):
     workflow.edit(config, "fidelity: tiny", "fidelity: draft")
     planned = workflow.planned("cases")
     assert planned["solve_repulsive"] == 6
+    assert {"judge_surface", "write_surface"} <= workflow.planned("verdicts", "surfaces").keys()
+    assert "analyse_surface" not in workflow.planned("verdicts", "surfaces")
     workflow.edit(config, "fidelity: draft", "fidelity: tiny")
     assert plan_changes(workflow) == ({}, {"H0.7_zeta64"})
 

@@ -18,7 +18,7 @@ SIGNED = r"(?!range)(\w+ ){0,3}(pressure|gap|tension|attraction)( over E| over h
 @pytest.fixture(scope="module")
 def files(finished):
     folders = [
-        finished / "results/tiny" / name for name in ("contact", "adhesion", "real_surfaces")
+        finished / "results" / name for name in ("tiny/contact", "tiny/adhesion", "real_surfaces")
     ]
     paths = [path for folder in folders for path in sorted(folder.rglob("*.nc"))]
     return {path.as_posix(): datasets.read(path) for path in paths}
