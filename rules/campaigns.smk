@@ -10,7 +10,7 @@ CAMPAIGNS = {
         name: {"law": LIMIT_CAMPAIGN["law"], **LIMIT_CAMPAIGN[name]}
         for name in (
             *("solids", "patches", "ranges", "pull_offs"),
-            *("unresolved", "larger", "coated", "balls"),
+            *("unresolved", "larger", "coated", "balls", "long_ranges"),
         )
     },
 }

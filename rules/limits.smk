@@ -18,7 +18,6 @@ rule calibrate_limits:
     conda:
         "../envs/environment.yaml"
     params:
-        touching=LIMIT_CAMPAIGN["touching"],
         code=source_hash("limits/calibrate_limits.py"),
     message:
         "Calibrate the limits of verdicts"

@@ -6,7 +6,7 @@ from common.conventions import Q0
 
 OF_SET = {
     "set": "as in the configuration of the campaign",
-    "role": "fitted: limits are fitted to these rows; unseen: they are compared with them",
+    "role": "fitted: constants of the theory may have been fitted to these rows; unseen: none were",
 }
 SEED = {"seed": "of the realisation"}
 #: Columns of synthetic topographies.

@@ -54,6 +54,7 @@ def make_roughness(states, pixel):
         quarters=(states,),
         resolved_energy=states.full_contact_energy,
         pixel=pixel,
+        independent_areas=1.0,
     )
     return Roughness(
         h_rms=1.0, q0=Q0, elastic_energy=states.full_contact_energy, simulated=simulated

@@ -8,7 +8,7 @@ from stickiness import datasets
 from stickiness.formatting import number
 from stickiness.pages import plotting
 from stickiness.pages.plotting import GREY, make_key, state
-from stickiness.remaining.errors import APPROACH, SEPARATION
+from stickiness.remaining.errors import PATH
 
 DENSITY = r"probability density $h_\mathrm{rms}P(u)$"
 VARIANT_KEYS = [
@@ -40,7 +40,7 @@ def draw_theory(ax, x, values, colour, **look):
 
 def draw_work_limits(ax):
     """Limits of the works of approach and separation over the energy gained."""
-    for limit in np.exp([APPROACH.spread.low, SEPARATION.spread.high]):
+    for limit in np.exp([PATH.spread.low, PATH.spread.high]):
         ax.axhline(limit, color=GREY, linestyle=":")
     ax.axhline(1, color=GREY, linewidth=0.9)
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 import campaigns.balls
 import campaigns.coated
 import campaigns.larger
+import campaigns.long_ranges
 import campaigns.patches
 import campaigns.pull_offs
 import campaigns.ranges
@@ -28,6 +29,7 @@ from stickiness.remaining import errors
 from stickiness.remaining.errors import ErrorLaw
 from stickiness.remaining.height_shape import find_height_shape
 from stickiness.remaining.roughness import PULL_OFF_KNOWN, Roughness
+from stickiness.remaining.share import find_first_touch
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.verdicts.longer_waves import find_unlikeness
 from stickiness.verdicts.meeting import meet
@@ -44,31 +46,41 @@ SIMULATED = {
     "larger": campaigns.larger.COLUMNS,
     "coated": campaigns.coated.COLUMNS,
     "balls": campaigns.balls.COLUMNS,
+    "long_ranges": campaigns.long_ranges.COLUMNS,
 }
 #: Fields of `Roughness` of which rows may tell, but for the elastic energy.
 MODELLED = (
     *("q1", "rms_slope", "waves", "shape", "shape_error"),
-    *("relative_compliance", "flow", "half_space_energy", "solid", "unresolved"),
+    *("relative_compliance", "flow", "half_space_energy", "rigid_base_energy"),
+    *("solid", "unresolved"),
 )
 #: Half-widths of limits that are tried, in ln w.
 HALF_WIDTHS = np.linspace(0.0, 3.0, 601)
-NEXT_TO_NOTHING = 0.01  # share, below which an error is absolute
 LEAST_SHARE = 0.02  # of which ratios of pull-offs and works are taken
 LEAST_LACKING = 0.02  # energy, over that of the others
+SMALLEST = 1e-9  # unit of an error that is divided by
 LEAST_LOST = 1e-3  # ln of what roughness takes from the force, of weights
 #: Columns of what is the same for all places of a ball.
 OF_BALL = ("law", "tabor", "hurst", "skewness", "shortest", "waves", "height")
 BALL_RANGE = 3e-10  # m
 BALL_WORK = 0.05  # J/m^2
 ROUNDING = 1e-4  # of shares: tolerance of simulations, rounding of tables
+CELLS = (1, 2, 4)  # of the longest waves along a side
+LAYER = "layer"  # kind of solids that errs as half-spaces do
+PATHS = ("approach", "separation")  # works of making and of breaking contact
+
+
+#: Shares of the work of adhesion at which thresholds of patches are compared, by their columns.
+PATCH_SHARES = {"3": 0.03, "10": 0.1, "30": 0.3, "60": 0.6}
 
 
 @dataclass(frozen=True)
 class Comparison:
     """Predictions of one kind beside simulations.
 
-    The rows have their `role`, what was `simulated`, and the `value` predicted. `low` and `high`
-    are limits from other, known errors. `unit` is what the calibrated error is proportional to.
+    The rows have their `set` and `seed`, what was `simulated`, and the `value` predicted. `low` and
+    `high` are limits from other, known errors. `unit` is what the calibrated error is proportional
+    to. A `group` tells rows of one kind apart.
     """
 
     law: ErrorLaw  # whose size is calibrated
@@ -81,6 +93,16 @@ class Comparison:
     def column(self, name: str, otherwise: ArrayLike) -> NDArray:
         """A column of the rows, or what stands for it where there is none."""
         return np.broadcast_to(self.rows.get(name, otherwise), len(self.rows))
+
+    @property
+    def surfaces(self) -> NDArray:
+        """Number of the surface of every row: rows of one surface are not independent."""
+        return self.rows.groupby(["set", "seed"], sort=False).ngroup().to_numpy()
+
+    @property
+    def groups(self) -> NDArray:
+        """Names of what rows are."""
+        return self.column("group", otherwise=self.law.label)
 
     @property
     def simulated(self) -> NDArray:
@@ -109,17 +131,29 @@ class Comparison:
         return np.abs(self.simulated - self.predicted.value)
 
     @property
+    def required(self) -> NDArray:
+        """Size of the error with which limits hold what was simulated, beside the known ones."""
+        excess = np.sqrt(np.maximum(self.needed**2 - self.half_width**2, 0.0))
+        return excess / self.unit
+
+    @property
     def half_width(self) -> NDArray:
         """Half-width of the limits without the error, on the side of what was simulated."""
         value, low, high = self.predicted
         return np.where(self.simulated > value, high - value, value - low)
 
+    def with_least_error(self, least: float) -> Self:
+        """The same with errors that are no less."""
+        simulated = np.maximum(self.simulated, self.predicted.value + least * self.unit)
+        return replace(self, rows=self.rows.assign(simulated=simulated))
+
     def limit(self, spread: Limited[float]) -> Limited[NDArray]:
         """Value and limits with an error, which adds in quadrature."""
         value, low, high = self.predicted
-        below, above = np.sort([spread.low * self.unit, spread.high * self.unit], axis=0)
+        middle, *ends = spread
+        below, above = np.sort([end * self.unit for end in ends], axis=0)
         return Limited(
-            value=value + spread.value * self.unit,
+            value=value + middle * self.unit,
             low=value - np.hypot(value - low, below),
             high=value + np.hypot(high - value, above),
         )
@@ -131,8 +165,67 @@ class Comparison:
 
 
 @dataclass(frozen=True)
-class ShareByTheory(Comparison):
+class ByTheory(Comparison):
+    """Shares by the spectrum of which the rows tell."""
+
+    @property
+    def half_width(self) -> NDArray:
+        """None: all known errors are in the theory."""
+        return np.zeros(len(self.rows))
+
+    @property
+    def limits(self) -> Limited[NDArray]:
+        """Value and limits as the library gives them, with all errors."""
+        return find_limits(Roughness.share, self.rows)
+
+    def find_log_thresholds(self) -> Limited[NDArray]:
+        """Logarithm of the work of adhesion from which on the default share remains."""
+        ranges = self.rows.range.to_numpy()[:, None]
+        return errors.find_limits(
+            model(self.rows), lambda rough: np.log(rough.threshold(ranges))[:, 0]
+        )
+
+
+@dataclass(frozen=True)
+class TheoryOfShare(ByTheory):
+    """Shares by the spectrum of which the rows tell, whose error is one of the share."""
+
+    @property
+    def unit(self) -> NDArray:
+        """What the error goes with, at the value."""
+        return self._find_unit(self.predicted.value)
+
+    @property
+    def required(self) -> NDArray:
+        """Size of the error with which limits hold the share, beside that of the first touch."""
+        _, low, high = self.predicted
+        below = (low - self.simulated - ROUNDING) / self._find_unit(low)
+        above = (self.simulated - high - ROUNDING) / self._find_unit(high)
+        return np.maximum(np.maximum(below, above), 0.0)
+
+    @cached_property
+    def predicted(self) -> Limited[NDArray]:
+        """Value and limits by the first touch alone."""
+        rough = model(self.rows)
+        lowest = find_first_touch(rough.waves)
+        shares = (
+            predict(replace(rough, first_touch=lowest + touch).share_by_theory, self.rows, error=0)
+            for touch in (0.0, *errors.FIRST_TOUCH.spread[:0:-1])
+        )
+        return Limited(*(share[:, 0] for share in shares))
+
+    def _find_unit(self, share: NDArray) -> NDArray:
+        return errors.SHARE.unit(share, self.column("waves", np.inf)) + SMALLEST
+
+
+@dataclass(frozen=True)
+class ShareByTheory(ByTheory):
     """Shares by the spectrum of which the rows tell; their error is one of ln w."""
+
+    @property
+    def required(self) -> NDArray:
+        """Size of the error beside those that the theory has of a half-space."""
+        return self.needed / self.unit
 
     @cached_property
     def needed(self) -> NDArray:
@@ -144,11 +237,6 @@ class ShareByTheory(Comparison):
         simulated = self.simulated[:, None]
         holds = (low - ROUNDING <= simulated) & (simulated <= high + ROUNDING)
         return np.where(holds.any(axis=1), HALF_WIDTHS[holds.argmax(axis=1)], HALF_WIDTHS[-1])
-
-    @property
-    def limits(self) -> Limited[NDArray]:
-        """Value and limits as the library gives them, with all errors."""
-        return find_limits(Roughness.share, self.rows)
 
 
 def read_tables(paths) -> dict[str, pd.DataFrame]:
@@ -184,7 +272,9 @@ def find_limits(quantity, rows, **given):
 
 def model(rows):
     """`Roughness` of which rows tell, in columns."""
-    known = {name: rows[name].to_numpy()[:, None] for name in MODELLED if name in rows}
+    # What other kinds of solids have is empty.
+    given = (name for name in MODELLED if name in rows and not rows[name].isna().all())
+    known = {name: rows[name].to_numpy()[:, None] for name in given}
     energy = rows.full_contact_energy.to_numpy()[:, None]
     return Roughness(h_rms=1.0, q0=Q0, elastic_energy=energy, **known)
 
@@ -199,19 +289,40 @@ def find_gaussian(heights, window):
     return heights[(heights.kind == heights_table.GAUSSIAN) & (heights.window == window)]
 
 
+def of_theory(tables):
+    """Shares by the spectrum alone: of Gaussian heights, and of layers, which err no more.
+
+    The theory was fitted to most cells of `remaining`, but these need no smaller an error.
+    """
+    heights = tables["heights"]
+    cells = (tables["remaining"], heights[heights.kind == heights_table.GAUSSIAN])
+    half_spaces = [
+        add_waves(rows).assign(group=f"spectrum, {window} × {window}", solid="half-space")
+        for table in cells
+        for window, rows in table.groupby("window")
+        if window in CELLS
+    ]
+    long_ranges = tables["long_ranges"].dropna(subset="simulated")
+    long_ranges = long_ranges.assign(group="long range", solid="half-space")
+    solids = tables["solids"].dropna(subset="simulated")
+    layers = add_waves(solids[solids.kind == LAYER]).assign(group=LAYER, solid="layer")
+    rows = pd.concat([*half_spaces, long_ranges, layers], ignore_index=True)
+    # A half-space is as compliant as itself.
+    return TheoryOfShare(errors.SHARE, rows.fillna({"relative_compliance": 1.0, "flow": 0.0}))
+
+
 def of_heights(rows):
-    """Shares by the spectrum alone, on heights in cells of one size."""
-    (window,) = rows.window.unique()
-    return ShareByTheory(errors.CELLS[window], add_waves(rows))
+    """Shares by the spectrum alone, of some rows of heights."""
+    return TheoryOfShare(errors.SHARE, add_waves(rows))
 
 
-def of_weak(heights):
-    """Shares by the spectrum where next to nothing remains; the error fades with the adhesion."""
-    rows = find_gaussian(heights, window=4)
-    rows = rows[rows.theory < NEXT_TO_NOTHING]
-    onset = predict(model(add_waves(rows)).onset, rows)[:, 0]
-    unit = errors.WEAK.unit(rows.energy_ratio / onset)
-    return Comparison(errors.WEAK, rows.assign(value=rows.theory, unit=unit))
+def of_first_touch(long_ranges):
+    """The highest summit of every surface, in place of the mean gap at which it touches."""
+    rows = long_ranges.drop_duplicates(["set", "seed"])
+    return Comparison(
+        errors.FIRST_TOUCH,
+        rows.assign(simulated=rows.highest, value=find_first_touch(rows.waves)),
+    )
 
 
 def of_skewed(heights):
@@ -224,28 +335,27 @@ def of_skewed(heights):
 
 
 def of_solids(solids):
-    """Shares by the spectrum on every kind of solids."""
-    for law in sorted(errors.SOLIDS, key=lambda law: law.kind):
+    """Shares by the spectrum on thin layers, on those whose film bends, and on skins."""
+    for law in (errors.THIN, errors.FILM, errors.SKIN):
         rows = solids[solids.kind == law.kind].dropna(subset="simulated")
-        if len(rows):
-            rows = rows.assign(solid="layer" if law.kind == "thin" else law.kind)
-            yield ShareByTheory(law, rows.assign(unit=law.unit(model(rows))[:, 0]))
+        rows = add_waves(rows).assign(solid="layer" if law is errors.THIN else law.kind)
+        yield ShareByTheory(law, rows.assign(unit=law.unit(model(rows))[:, 0]))
 
 
 def of_paths(remaining):
-    """Pull-off, and works of making and breaking contact, by the energy gained; logarithms."""
+    """Pull-off, and works of making and breaking contact, by the energy gained; logarithms.
+
+    Contact is made by less work than the energy gained, and broken by more.
+    """
     rows = remaining[(remaining.window >= 2) & (remaining.bound > LEAST_SHARE)]
     rows = rows.dropna(subset=["approach", "separation", "pull_off"])
     # The theory's distance over which the work acts, beside the simulated one.
     distance = predict(model(add_waves(rows)).distance, rows)[:, 0]
-    quantities = {
-        errors.TENSION: (rows.pull_off, rows.adhesion_length * rows.bound / distance),
-        errors.APPROACH: (rows.approach, rows.bound),
-        errors.SEPARATION: (rows.separation, rows.bound),
-    }
-    for law, (simulated, predicted) in quantities.items():
-        rows = rows.assign(simulated=np.log(simulated), value=np.log(predicted))
-        yield Comparison(law, rows)
+    energy = rows.adhesion_length * rows.bound
+    tension = rows.assign(simulated=np.log(rows.pull_off), value=np.log(energy / distance))
+    works = pd.concat([rows.assign(simulated=np.log(rows[name])) for name in PATHS])
+    yield Comparison(errors.TENSION, tension)
+    yield Comparison(errors.PATH, works.assign(value=np.log(works.bound)))
 
 
 def of_states(heights):
@@ -292,24 +402,25 @@ def of_pull_offs(pull_offs, exponent):
     return Comparison(errors.STATES_TENSION, rows)
 
 
-def of_patches(patches, least):
-    """Thresholds of maps for the surface that they were cut from.
+def of_patches(patches):
+    """Thresholds of maps for the surface that they were cut from, at several shares.
 
-    The error is a least one, in quadrature with one that goes with the rms distance of the
-    thresholds of the quarters from that of the patch.
+    The error goes with the rms distance of the thresholds of the quarters from that of the patch.
     """
-    rows = patches.dropna(subset=["threshold_10", "whole_threshold_10"])
-    value = rows.threshold_10
-    quarters = rows[[f"q{number}_10" for number in (1, 2, 3, 4)]]
-    distance = np.sqrt((quarters.sub(value, axis=0) ** 2).mean(axis=1))
-    rows = rows.assign(
-        simulated=rows.whole_threshold_10,
-        value=value,
-        low=value - least,
-        high=value + least,
-        unit=errors.PATCH.unit(distance),
-    )
-    return Comparison(errors.PATCH, rows)
+    quarters = patches[[f"q{number}_10" for number in (1, 2, 3, 4)]]
+    distance = np.sqrt((quarters.sub(patches.threshold_10, axis=0) ** 2).mean(axis=1))
+    parts = []
+    for ending, share in PATCH_SHARES.items():
+        part = patches.assign(
+            simulated=patches[f"whole_threshold_{ending}"],
+            value=patches[f"threshold_{ending}"],
+            unit=errors.PATCH.unit(distance, patches.independent_areas, share),
+            distance=distance,
+            share=share,
+            group="map, " + patches.patch_waves.astype(str) + " waves",
+        )
+        parts.append(part.dropna(subset=["simulated", "value", "unit"]))
+    return Comparison(errors.PATCH, pd.concat(parts, ignore_index=True))
 
 
 def of_larger(larger):

@@ -18,7 +18,7 @@ from stickiness.accuracy import error_models
 from stickiness.formatting import number, percent, table
 from stickiness.limited import Limited
 from stickiness.pages.rendering import make_environment
-from stickiness.remaining.errors import APPROACH, LARGER, PATCH_LEAST, find_states_error
+from stickiness.remaining.errors import LARGER, PATH, find_states_error
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 
@@ -55,7 +55,7 @@ def page() -> str:
     tables = comparisons.read_tables(find_table(name) for name in names)
     shares = [
         *compare_shapes(tables["heights"]),
-        *compare_solids(tables["solids"]),
+        *compare_solids(tables),
         *compare_short_ranges(tables["ranges"]),
     ]
     thresholds = list(compare_thresholds(tables))
@@ -89,10 +89,13 @@ def compare_shapes(heights):
         yield Compared(name, "simulated states", states.predicted, states.simulated)
 
 
-def compare_solids(solids):
-    """Shares on layers, films, skins and thin incompressible layers."""
-    for comparison in comparisons.of_solids(solids):
-        yield Compared.of(comparison.law.kind, "spectrum", comparison)
+def compare_solids(tables):
+    """Shares on layers, thin incompressible layers, films and skins."""
+    of_theory = comparisons.of_theory(tables)
+    layers = of_theory.where(of_theory.groups == comparisons.LAYER)
+    for comparison in (layers, *comparisons.of_solids(tables["solids"])):
+        (name,) = set(comparison.groups)
+        yield Compared.of(name, "spectrum", comparison)
 
 
 def compare_short_ranges(ranges):
@@ -113,8 +116,10 @@ def compare_short_ranges(ranges):
 
 def compare_thresholds(tables):
     """Thresholds of patches, of thinned grids, of coated maps, and of scans by family."""
-    patches = comparisons.of_patches(tables["patches"], PATCH_LEAST.spread.high)
-    yield Compared.of("patch for its surface", "simulated states", patches)
+    patches = comparisons.of_patches(tables["patches"])
+    for share in comparisons.PATCH_SHARES.values():
+        name = f"patch for its surface, share of {percent(share)}"
+        yield Compared.of(name, "simulated states", patches.where(patches.rows.share == share))
     thinned = comparisons.of_unresolved(tables["unresolved"], {"10": DEFAULT_SHARE})
     yield Compared.of("thinned map for the whole", "simulated states", thinned)
     for name, by, is_skin in (
@@ -131,7 +136,7 @@ def compare_thresholds(tables):
 
 def compare_works(remaining):
     """Energies, works and pull-offs of paths, by cells, in logarithms."""
-    late = np.exp(APPROACH.spread.low)
+    late = np.exp(PATH.spread.low)
     labels = {"bound": "share", "pull_off": "pull-off"}
     for window, rows in remaining[remaining.bound > comparisons.LEAST_SHARE].groupby("window"):
         for name in ("bound", "approach", "separation", "pull_off"):

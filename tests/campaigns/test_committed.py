@@ -30,6 +30,7 @@ def rows_of_seed(name, setting):
         ),
         "patches": lambda: sum(size["count"] for size in campaign["patches"]),
         "unresolved": lambda: len(campaign["strides"]) * len(campaign["ranges"]),
+        "long_ranges": lambda: len(campaign["energies"]) * len(campaign["ranges"]),
         "larger": lambda: len(setting["parts"]) * campaign["count"],
         "coated": lambda: sum(len(solid["energies"]) for solid in campaign["solids"].values()),
         "balls": lambda: len(setting["waves"]) * len(setting["heights"]) * setting["places"],

@@ -89,6 +89,7 @@ SMALL = {
     "larger": ("gaussian_1", 1),
     "coated": ("plateau_honed_1", 1),
     "balls": ("gaussian_5", 3),
+    "long_ranges": ("H0.5_1x1_zeta8", 3),
     "heights": ("H0.5_zeta8_2x2", 2),
     "remaining": ("H0.8_zeta4_coarse", 1),
 }
@@ -97,6 +98,7 @@ ROUGHLY = {"remaining": ("approach", "separation", "pull_off")}
 #: Limits by the calibration of their time, and times.
 NOT_COMPARED = {
     "remaining": ("jumps",),
+    "coated": ("low", "high"),
     "heights": tuple(each for each in heights.COLUMNS if each.endswith(("_low", "_high"))),
 }
 SLOW = ("patches", "larger", "coated", "heights")

@@ -8,7 +8,9 @@ from limits.comparisons import Comparison
 from stickiness.limited import Limited
 from stickiness.remaining import errors
 
-ROWS = pd.DataFrame({"simulated": [1.0, 3.0], "value": [2.0, 2.0], "role": ["fitted", "unseen"]})
+ROWS = pd.DataFrame(
+    {"simulated": [1.0, 3.0], "value": [2.0, 2.0], "set": ["a", "b"], "seed": [1, 1]}
+)
 
 
 def compare(**columns):
@@ -19,7 +21,7 @@ def test_errors_are_in_their_unit():
     comparison = compare(unit=[2.0, -2.0])
     assert comparison.error.tolist() == [-0.5, -0.5]
     assert comparison.needed.tolist() == [1, 1]
-    assert comparison.where(comparison.rows.role == "unseen").simulated.tolist() == [3]
+    assert comparison.where(comparison.rows["set"] == "b").simulated.tolist() == [3]
 
 
 def test_a_prediction_without_limits_takes_those_of_the_error():

@@ -4,7 +4,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, ValidationInfo, model_validator
 
-from common.config.simulations import GaussianSurface, Loads, ModelSurface, Pixels, Values
+from common.config.simulations import GaussianSurface, Loads, Pixels, Values
 from stickiness.entries import fields as f
 from stickiness.entries.errors import EntryError, suggest
 from stickiness.entries.fields import Section, needed, optional
@@ -154,7 +154,7 @@ class Tradeoff(Section):
 
 Role = Annotated[
     Literal["fitted", "unseen"],
-    Field(description="whether limits are fitted to a set, or compared with it afterwards"),
+    Field(description="whether constants of the theory may have been fitted to a set"),
 ]
 
 
@@ -373,11 +373,12 @@ class BallCampaign(Section):
     sets: f.Names[BallSet]
 
 
-class TouchingSurface(ModelSurface):
-    """A surface whose highest summits are looked for."""
+class LongRangeCampaign(Section):
+    """What remains where attraction reaches across much of the roughness."""
 
-    points: Annotated[int, Field(ge=32, multiple_of=2)]
-    seeds: f.Count = needed("realisations")
+    energies: Values = needed("works of adhesion over the energy of full contact")
+    ranges: Values = needed("ranges over h_rms")
+    sets: f.Names[TopographySet]
 
 
 class LimitCampaign(Section):
@@ -392,4 +393,4 @@ class LimitCampaign(Section):
     larger: LargerCampaign
     coated: CoatedCampaign
     balls: BallCampaign
-    touching: f.Several[TouchingSurface]
+    long_ranges: LongRangeCampaign

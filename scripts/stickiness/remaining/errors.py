@@ -1,7 +1,7 @@
 """Errors of predictions of what remains: what each of them is proportional to, written once.
 
-Most are errors of the work of adhesion: a limit of the share is its value at the work of adhesion
-times exp(error). Where next to nothing remains, errors are of the share itself. An error is a
+The theory of a spectrum errs by a share of the work of adhesion. Most other errors are of that work
+itself: a limit of the share is its value at the work of adhesion times exp(error). An error is a
 half-width that was measured, times a unit that says how it grows from one surface or solid to
 another. The library multiplies both, and adds errors in quadrature. The rule `calibrate_limits`
 divides what simulations are off by the same units, and takes quantiles: those are the half-widths,
@@ -61,80 +61,68 @@ def find_limits(model: Any, evaluate: Callable[[Any], Any]) -> Limited[Any]:
     return Limited(*(evaluate(model.deviating(eta)) for eta in (0.0, -1.0, 1.0)))
 
 
-# Errors of ln of the work of adhesion, where the share is predicted from a spectrum.
+# Errors of what is predicted from a spectrum.
+
+FADING = 0.01  #: share of which half the error of larger ones is left
+MOST_WAVES = 4  #: along a side of the contact; more tell the theory nothing new
 
 
-def _weigh_cell(waves: float) -> Callable[[Roughness], NDArray]:
-    """Weight of cells of so many waves a side, by which contacts of other sizes lie between."""
-    cells = (1.0, 2.0, 4.0)
-    is_this = np.equal(cells, waves).astype(float)
-    return lambda rough: np.interp(np.log(rough.waves), np.log(cells), is_this)
+def _share_unit(share: ArrayLike, waves: ArrayLike) -> NDArray:
+    """Absolute, but none where nothing remains; a contact of few waves is one realisation."""
+    return np.asarray(share) / (np.asarray(share) + FADING) / np.minimum(waves, MOST_WAVES)
 
 
-def _lose_compliance(rough: Roughness) -> NDArray:
-    """How much less a solid yields than a half-space."""
-    return np.maximum(1 - np.asarray(rough.relative_compliance), 0.0)
+#: Of the share itself, by its value and the longest waves along a side of the contact.
+SHARE = ErrorLaw("spectrum", "share", "heights.csv", unit=_share_unit, label="spectrum (of S)")
+#: Of the mean gap at which the highest summit touches.
+FIRST_TOUCH = ErrorLaw("spectrum", "first_touch", "long_ranges.csv", unit=np.ones_like)
 
 
-def _of(solid: str, unit: Callable[[Roughness], ArrayLike]) -> Callable[[Roughness], NDArray]:
+def _of(*solids: str, unit: Callable[[Roughness], ArrayLike]) -> Callable[[Roughness], NDArray]:
     """A unit that is zero on other solids."""
-    return lambda rough: np.where(np.equal(rough.solid, solid), unit(rough), 0.0)
+    return lambda rough: np.where(np.isin(rough.solid, solids), unit(rough), 0.0)
 
 
-#: By the longest waves along a side of the contact: one of few is one realisation.
-CELLS = {
-    waves: ErrorLaw(kind, "ln_work", source, unit=_weigh_cell(waves), label=label)
-    for waves, kind, source, label in (
-        (1, "one wave", "remaining.csv", "cell 1 × 1"),
-        (2, "two waves", "heights.csv", "cell 2 × 2"),
-        (4, "spectrum", "heights.csv", "spectrum"),
-    )
-}
-#: By the solid: the further from a half-space the less certain, on a film alike everywhere.
-SOLIDS = tuple(
-    ErrorLaw(kind, "ln_work", "solids.csv", unit=unit, label=label)
-    for kind, label, unit in (
-        ("layer", "layer", _of("layer", lambda rough: _lose_compliance(rough) * (1 - rough.flow))),
-        ("film", "layer on a film", _of("film", lambda rough: 1.0)),
-        ("thin", "thin layer", _of("layer", lambda rough: rough.flow)),
-        ("skin", "skin", _of("skin", _lose_compliance)),
-    )
-)
+def _flow(rough: Roughness) -> ArrayLike:
+    """How far material has to flow along a layer."""
+    return rough.flow
+
+
+def _measure_bending(rough: Roughness) -> NDArray:
+    """Logarithm of what a film takes of a layer's energy by bending."""
+    return np.log(np.divide(rough.rigid_base_energy, rough.elastic_energy))
+
+
+# Of ln of the work of adhesion, by the solid. Layers err as half-spaces do, but where the material
+# has to flow along them.
+THIN = ErrorLaw("thin", "ln_work", "solids.csv", unit=_of("layer", "film", unit=_flow), label="thin layer")
+FILM = ErrorLaw("film", "ln_work", "solids.csv", unit=_of("film", unit=_measure_bending), label="film")
+SKIN = ErrorLaw("skin", "ln_work", "solids.csv", unit=_of("skin", unit=lambda _: 1.0), label="skin")
 #: Where waves were not measured, to which a skin is stiff. How much of the energy they are thought
 #: to hold tells little of the error.
 COATED = ErrorLaw(
     kind="coated",
     quantity="ln_work",
     source="coated.csv",
-    unit=_of("skin", lambda rough: np.greater(rough.unresolved, 0.0)),
+    unit=_of("skin", unit=lambda rough: np.greater(rough.unresolved, 0.0)),
     label="skin on a map",
 )
 #: By the ln of the factor that the skewness of the heights makes.
 SKEWNESS = ErrorLaw("skewness", "ln_work", "heights.csv", unit=np.abs, label="with skewness")
 
 
-def find_theory_error(rough: Roughness, extrapolated: ArrayLike) -> NDArray:
+def find_work_error(rough: Roughness, extrapolated: ArrayLike) -> NDArray:
     """Error of ln of the work of adhesion by theory; `extrapolated` is that beyond simulations."""
-    # Between cells of two sizes the error lies between theirs.
-    of_waves = sum(law.half_width(rough) for law in CELLS.values())
-    of_solid = sum(np.square(law.half_width(rough)) for law in (*SOLIDS, COATED))
-    independent = np.sqrt(np.square(of_waves) + of_solid + np.square(extrapolated))
+    of_solid = sum(np.square(law.half_width(rough)) for law in (THIN, FILM, SKIN, COATED))
+    independent = np.sqrt(of_solid + np.square(extrapolated))
     return np.hypot(independent * rough.anisotropy_error_factor, rough.shape_error)
 
 
-#: Where next to nothing remains the error of the share is absolute, and fades with the adhesion, by
-#: its ratio to that of the onset.
-WEAK = ErrorLaw(
-    kind="spectrum",
-    quantity="share",
-    source="heights.csv",
-    unit=lambda ratio: np.minimum(ratio, 1.0) ** 2,
-)
-
-#: Logarithms of works and of pull-offs over those by the energy gained.
-APPROACH, SEPARATION, TENSION = (
+#: Logarithms of works and of pull-offs over those by the energy gained. Of works
+#: the low limit is that of making contact, the high one of breaking it.
+PATH, TENSION = (
     ErrorLaw("spectrum", quantity, "remaining.csv", unit=np.ones_like)
-    for quantity in ("ln_approach", "ln_separation", "ln_tension")
+    for quantity in ("ln_path", "ln_tension")
 )
 
 # Errors where contact is simulated on the heights.
@@ -160,14 +148,16 @@ STATES = ErrorLaw("states", "share", "heights.csv", unit=np.ones_like)
 STATES_TENSION = ErrorLaw("states", "ln_tension", "pull_offs.csv", unit=np.ones_like)
 #: Exponent of the ratio of ranges, with which the distance falls over which attraction acts.
 SHORTENING = ErrorLaw("states", "shortening", "pull_offs.csv", unit=lambda ratio: -np.log(ratio))
-#: Of a map, by the rms distance of the thresholds of its quarters from its own, and at least.
-PATCH = ErrorLaw("patch", "ln_work", "patches.csv", unit=np.asarray, label="map")
-PATCH_LEAST = ErrorLaw("patch", "least", "patches.csv", unit=np.ones_like)
 
 
-def find_patch_error(distance: float) -> float:
-    """Error of ln of the work of adhesion by what the quarters of a map differ from it."""
-    return float(np.hypot(PATCH_LEAST.half_width(distance), PATCH.half_width(distance)))
+def _patch_unit(distance: ArrayLike, areas: ArrayLike, share: ArrayLike) -> NDArray:
+    """The fewer independent heights, and the less remains, the more one place tells of another."""
+    return np.hypot(distance, np.power(areas, -0.5)) * np.power(share, -0.35)
+
+
+#: Of a map, by the rms distance of the thresholds of its quarters from its own, by its number of
+#: independent heights, and by the share that is wanted.
+PATCH = ErrorLaw("patch", "ln_work", "patches.csv", unit=_patch_unit, label="map")
 
 
 def find_states_error(share: NDArray) -> NDArray:
@@ -214,4 +204,4 @@ BALL = ErrorLaw(
 SUMMITS = ErrorLaw("ball", "summits", "balls.csv", unit=np.ones_like)
 
 #: Those with a name on pages, in their order there.
-SHOWN = (CELLS[4], CELLS[2], CELLS[1], SKEWNESS, *SOLIDS, COATED, PATCH, LARGER, UNLIKE, BALL)
+SHOWN = (SHARE, SKEWNESS, THIN, FILM, SKIN, COATED, PATCH, LARGER, UNLIKE, BALL)

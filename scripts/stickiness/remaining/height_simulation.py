@@ -102,6 +102,7 @@ def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> S
         whole=simulate(standard.whole, is_whole=True),
         resolved_energy=standard.resolved_energy,
         pixel=standard.pixel,
+        independent_areas=standard.whole.independent_areas,
     )
 
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from stickiness.arguments import number
-from stickiness.remaining.errors import APPROACH
+from stickiness.remaining.errors import PATH
 from stickiness.remaining.roughness import Roughness, find_anisotropy_error_factor
 from stickiness.solids import HALF_SPACE, Solid
 from stickiness.spectrum.family import SpectrumFamily
@@ -114,7 +114,7 @@ def predict(
     high = rough.deviating(1)
     share = float(rough.share(length, range))
     least_share = float(low.share(length, range))
-    late = float(np.exp(APPROACH.spread.low))
+    late = float(np.exp(PATH.spread.low))
     softened = length * rough.relative_compliance
     maugis_range = range / find_strength(law)
     return Prediction(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any, Self
 
 import numpy as np
@@ -12,16 +12,16 @@ from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
 from stickiness.limited import Limited
-from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.errors import (
     COATED,
-    SEPARATION,
+    FIRST_TOUCH,
+    PATH,
+    SHARE,
     STATES_TENSION,
     TENSION,
-    WEAK,
     between,
     find_limits,
-    find_theory_error,
+    find_work_error,
     raise_limit,
 )
 from stickiness.remaining.share import (
@@ -29,6 +29,7 @@ from stickiness.remaining.share import (
     count_scales,
     find_deepest_state,
     find_exponent,
+    find_first_touch,
     find_narrowest_wave,
     find_onset,
     remaining_share,
@@ -63,7 +64,7 @@ THRESHOLD_TOLERANCE = 1e-9  #: of their logarithm
 SOFTEST = 1e-6
 # Factor on the errors of surfaces unlike those simulated, at a ratio of correlation lengths of 4.
 UNLIKE = 2.0
-SHARED = ("simulated", "response")  #: fields that all rows have in common
+SHARED = ("simulated", "response", "wanted_share")  #: fields that all rows have in common
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -92,10 +93,12 @@ class Roughness:
     first_touch: float | NDArray = np.nan
     #: Instantaneous modulus over E* after a dwell, by which fast separation may exceed the share
     instant_ratio: float | NDArray = 1.0
+    wanted_share: float = DEFAULT_SHARE  #: of the work of adhesion, at which limits cover 90 %
 
     # What the solid decides, see `solid_response.find_columns`.
     solid: str | NDArray = "half-space"
     half_space_energy: float | NDArray = np.nan  #: energy of full contact of a half-space
+    rigid_base_energy: float | NDArray = np.nan  #: and of a layer whose film does not bend
     relative_compliance: float | NDArray = 1.0
     flow: float | NDArray = 0.0  #: of the longest waves along a layer, see `thin_layers.find_flow`
     #: Share of the elastic energy in waves finer than those measured
@@ -144,6 +147,7 @@ class Roughness:
             rms_slope=self.rms_slope * factor,
             elastic_energy=self.elastic_energy * factor**2,
             half_space_energy=self.half_space_energy * factor**2,
+            rigid_base_energy=self.rigid_base_energy * factor**2,
             height_factor=self.height_factor * factor,
         )
 
@@ -179,7 +183,8 @@ class Roughness:
         if self.simulated is None:
             slow = self.share_by_theory(adhesion_length, range)
         else:
-            slow = self._ask_simulated("share", adhesion_length, range, self.eta)
+            ask = partial(self._ask_simulated, "share", wanted_share=self.wanted_share)
+            slow = ask(adhesion_length, range, self.eta)
         return plain(slow * self._fast_ratio)
 
     def limit_share(self, adhesion_length: ArrayLike, range: ArrayLike) -> Limited[Any]:
@@ -204,8 +209,7 @@ class Roughness:
         error = self._find_error(length, range) if error is None else error
         shifted = length * np.exp(np.multiply(self.eta, error))
         is_wide = np.isnan(self.first_touch)
-        touch = find_spread("spectrum", "first_touch")
-        of_many = between(touch._replace(low=touch.high, high=touch.low), self.eta)
+        touch = find_first_touch(self.waves) + between(FIRST_TOUCH.spread, -np.asarray(self.eta))
         energy_ratio = self._shaped_energy_ratio(shifted)
         compliance = np.asarray(self.relative_compliance)
         # Points of a skin are coupled, so that the limit of independent springs does not apply.
@@ -218,11 +222,11 @@ class Roughness:
             load_scale=self.load_scale,
             law=self.law,
             gain=find_gain(energy_ratio, compliance, self.flow),
-            first_touch=np.where(is_wide, of_many, self.first_touch),
+            first_touch=np.where(is_wide, touch, self.first_touch),
         )
-        # Where next to nothing remains an error is absolute, and fades with the adhesion.
-        weak_error = WEAK.half_width(self._energy_ratio(length) / self.onset(length, range))
-        share = share + is_wide * self.eta * weak_error
+        # The theory itself errs by a share, and twice as much where it was not simulated.
+        of_theory = SHARE.half_width(share, self.waves) * self.anisotropy_error_factor
+        share = share + is_wide * self.eta * of_theory
         if np.isin(self.solid, BOUNDED).any():
             share = self._bound_by_half_space(share, length, range)
 
@@ -235,9 +239,9 @@ class Roughness:
         onset = self.onset(adhesion_length, range)
         simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
         extrapolated = EXTRAPOLATION_ERROR * np.log(onset / np.asarray(simulated_onset))
-        return find_theory_error(self, extrapolated)
+        return find_work_error(self, extrapolated)
 
-    def _ask_simulated(self, quantity: str, adhesion_length, range, *others) -> NDArray:
+    def _ask_simulated(self, quantity: str, adhesion_length, range, *others, **shared) -> NDArray:
         """A quantity by the states simulated on heights, which all rows have in common."""
         # Heights times a factor take the factor squared of all energies.
         length = adhesion_length / np.square(self.height_factor)
@@ -249,7 +253,7 @@ class Roughness:
             rows = laws == law
             known = (column[rows] for column in (lacking, *rest))
             found[rows] = getattr(self.simulated, quantity)(
-                lengths[rows], ranges[rows], str(law), *known
+                lengths[rows], ranges[rows], str(law), *known, **shared
             )
         return found.reshape(columns[0].shape)
 
@@ -314,9 +318,9 @@ class Roughness:
 
     @property
     def _energy_on_half_space(self) -> NDArray:
-        """Energy of full contact of a half-space; of a layer on a film its own stands for it."""
-        is_known = np.isin(self.solid, BOUNDED)
-        return np.where(is_known, self.half_space_energy, self.elastic_energy)
+        """Energy of full contact of a half-space, whatever the solid."""
+        is_other = np.not_equal(self.solid, "half-space")
+        return np.where(is_other, self.half_space_energy, self.elastic_energy)
 
     @property
     def load_scale(self) -> float | NDArray:
@@ -375,7 +379,7 @@ class Roughness:
         """
         share = np.asarray(self.share(adhesion_length, range))
         energy_ratio = self._energy_ratio(adhesion_length)
-        jumps = np.exp(SEPARATION.spread.high)
+        jumps = np.exp(PATH.spread.high)
         with_jumps = np.minimum(jumps * share, 1.0)
         pinned = np.minimum(share + self.area(adhesion_length, range), 1 + PINNING / energy_ratio)
         high_limit = np.maximum(with_jumps, pinned)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -30,14 +30,23 @@ def find_columns(family: SpectrumFamily, solid: Solid, q0: Any) -> dict[str, Any
     """
     response = SolidResponse(family, solid, q0)
     is_split = name_solid(solid) in ("film", "skin")  # of two solids, which differ in modulus
+    on_rigid_base = _without_film(solid)
     return {
         **response.find(),
         "half_space_energy": family.energy(),
-        "flow": find_flow(solid, q0),
+        "rigid_base_energy": family.energy(on_rigid_base),
+        "flow": find_flow(on_rigid_base, q0),
         "solid": name_solid(solid),
         "response": response if is_split else None,
         "row": np.arange(family.count),
     }
+
+
+def _without_film(solid: Solid) -> Solid:
+    """A layer on a rigid base in the place of its film; other solids as they are."""
+    if isinstance(solid, Layer) and isinstance(solid.backing, Film):
+        return replace(solid, backing="bonded")
+    return solid
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +64,11 @@ class SolidResponse:
     def find(self, modulus: Any = 1.0, rows: Any = slice(None)) -> dict[str, NDArray]:
         """Energy over E*, and compliance over that of a half-space, with E* times a `modulus`.
 
-        The compliance is S of the longest waves, see `solids`. A skin is stiff to short waves,
-        which then store most of the energy. The mean of 1/S of all waves, weighted by the energy of
-        a half-space, stands for them.
+        The compliance is S of the longest waves, see `solids`. A film below a layer bends under
+        them, but couples no points that are as close as the layer is thick: the compliance is that
+        of the layer on a rigid base. A skin is stiff to short waves, which then store most of the
+        energy. The mean of 1/S of all waves, weighted by the energy of a half-space, stands for
+        them.
         """
         family = self.family.take(rows)
         energy = family.energy(self.solid, modulus)
@@ -65,7 +76,7 @@ class SolidResponse:
             compliance = family.energy() / energy
         else:
             longest = self.q0[rows]
-            compliance = self.solid.factor(longest, modulus) * np.ones(longest.shape)
+            compliance = _without_film(self.solid).factor(longest) * np.ones(longest.shape)
         return {"elastic_energy": energy, "relative_compliance": compliance}
 
     def change(self, rows: Any, modulus: Any) -> dict[str, NDArray]:

@@ -16,9 +16,9 @@ import scipy  # its parts are loaded when first used, which reading a configurat
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.arguments import plain, positive
-from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.errors import BALL
 from stickiness.remaining.roughness import Roughness
+from stickiness.remaining.share import find_first_touch
 from stickiness.traction_laws import find_strength
 
 LEAST_SHARE = 1e-200  #: whose logarithm may be taken
@@ -105,15 +105,12 @@ def pull_off(
 def narrow(rough: Roughness, waves: ArrayLike, summits: float) -> Roughness:
     """Roughness in a zone of contact that is a number of its longest waves wide.
 
-    Few waves have few summits, so that hard solids touch at a lower one: the expected highest of n
-    Gaussian heights is about sqrt(2 ln n) times h_rms. Contacts of many waves are as between flats.
-    `summits` are independent heights in a zone one wave wide: `errors.SUMMITS`.
+    Few waves have few summits, so that hard solids touch at a lower one. `summits` are independent
+    heights in a zone one wave wide: `errors.SUMMITS`.
     """
-    touch = np.sqrt(2 * np.log1p(summits * np.square(waves)))
-    most = find_spread("spectrum", "first_touch").value
     return replace(
         rough,
-        first_touch=np.minimum(touch, most),
+        first_touch=find_first_touch(waves, summits),
         waves=np.minimum(rough.waves, np.maximum(waves, 1.0)),
     )
 

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.measured import periodic
+from stickiness.measured.psd import autocorrelation
 from stickiness.remaining.full_contact import full_contact_energy
 
 MOST_POINTS = 128  #: of the grid without its mirror images, along the longer side
@@ -39,6 +40,11 @@ class StandardMap:
     def mirrored_sides(self) -> tuple[float, float]:
         """Sides of these, over the first side of the whole map."""
         return 2 * self.sides[0], 2 * self.sides[1]
+
+    @property
+    def independent_areas(self) -> float:
+        """Number of independent heights: 1 over the mean square of the autocorrelation."""
+        return float(1 / np.mean(np.square(autocorrelation(self.heights))))
 
 
 @dataclass(frozen=True, eq=False)

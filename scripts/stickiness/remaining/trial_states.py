@@ -33,11 +33,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.remaining.errors import (
+    PATCH,
     PLACE,
     SHORTENING,
     UNRESOLVED,
     between,
-    find_patch_error,
     find_states_error,
 )
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
@@ -230,8 +230,9 @@ class SimulatedHeights:
     #: Energy of full contact of the map's waves up to the cutoff, per nominal area [length]
     resolved_energy: float
     pixel: float  #: of the grid simulated [length]
-    #: Errors by the scatter of the parts, of ranges and laws asked for before
-    _errors: dict[tuple[float, str], float] = field(init=False, repr=False, default_factory=dict)
+    independent_areas: float  #: of the map, see `standard_heights.StandardMap`
+    #: Distances of the quarters from the map, of ranges and laws asked for before
+    _distances: dict[tuple[float, str], float] = field(init=False, repr=False, default_factory=dict)
 
     def without_adhesion(self) -> Self:
         """Return the states that were simulated without adhesion, and full contact."""
@@ -245,6 +246,7 @@ class SimulatedHeights:
         law: str,
         lacking: NDArray,
         eta: NDArray,
+        wanted_share: float = DEFAULT_SHARE,
     ) -> NDArray:
         """Share of the work of adhesion that remains, ``(n,)``.
 
@@ -258,8 +260,10 @@ class SimulatedHeights:
             Energy of full contact of the waves that are not simulated, over that of the others.
         eta : (n,) array
             0 for the value, -1 or +1 for its low or high limit, between them in proportion.
+        wanted_share : float
+            Share at which limits cover 90 %: they are wider where less is asked for.
         """
-        shift = self.find_shift(adhesion_length, range, law, lacking, eta)
+        shift = self.find_shift(adhesion_length, range, law, lacking, eta, wanted_share)
         share = self.whole.share_between(adhesion_length * np.exp(shift), range, law, eta)
         return np.clip(share + eta * find_states_error(share), 0.0, 1.0)
 
@@ -270,10 +274,12 @@ class SimulatedHeights:
         law: str,
         lacking: NDArray,
         eta: ArrayLike = 0.0,
+        wanted_share: float = DEFAULT_SHARE,
     ) -> NDArray:
         """Logarithm of the factor on the work of adhesion, ``(n,)``; arguments as of `share`."""
         ranges, place = np.unique(range, return_inverse=True)
-        of_patch = np.array([self.find_patch_error(float(one_range), law) for one_range in ranges])
+        errors = [self.find_patch_error(float(each), law, wanted_share) for each in ranges]
+        of_patch = np.array(errors)
         # Waves that lack cost their energy, and more where contact is sparse: they part summits.
         stored = np.log1p(lacking)
         lost = 1 - self.whole.share(adhesion_length / (1 + lacking), range, law)
@@ -283,20 +289,25 @@ class SimulatedHeights:
         error = np.hypot(of_patch[place], of_waves * beyond)
         return value * beyond - stored + np.multiply(eta, error)
 
-    def find_patch_error(self, range: float, law: str) -> float:
-        """Error of ln of the work of adhesion by what the quarters of the map differ from it.
+    def find_patch_error(self, range: float, law: str, wanted_share: float) -> float:
+        """Error of ln of the work of adhesion by what another place of the surface may differ.
 
-        It covers 90 %, and is that at the share wanted by default. `range` is in the unit of the
-        heights, `law` a name in `traction_laws.LAWS`.
+        It covers 90 % at the share that is wanted. `range` is in the unit of the heights, `law` a
+        name in `traction_laws.LAWS`.
         """
-        if (range, law) not in self._errors:
+        distance = self._find_distance(range, law)
+        return float(PATCH.half_width(distance, self.independent_areas, wanted_share))
+
+    def _find_distance(self, range: float, law: str) -> float:
+        """Rms distance of the quarters from the map, in ln of thresholds of the default share."""
+        if (range, law) not in self._distances:
             parts = (self.whole, *self.quarters)
             whole, *quarters = (part.find_threshold(range, law, DEFAULT_SHARE) for part in parts)
             # Parts that hold at any work of adhesion have no threshold.
             known = np.array(quarters)[np.isfinite(quarters)] - whole
             distance = np.sqrt(np.mean(known**2)) if np.isfinite(known).any() else 0.0
-            self._errors[range, law] = find_patch_error(distance)
-        return self._errors[range, law]
+            self._distances[range, law] = float(distance)
+        return self._distances[range, law]
 
     def area(self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray) -> NDArray:
         """Share of the nominal area in contact at zero load, ``(n,)``; arguments as of `share`."""

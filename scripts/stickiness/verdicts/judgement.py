@@ -302,11 +302,11 @@ def _find_errors_of_map(pair: Pair) -> NDArray:
     if simulated is None:
         return np.zeros(2)
     law = str(pair.rough.law)
-    of_map = simulated.find_patch_error(float(pair.range), law)
+    of_map = simulated.find_patch_error(float(pair.range), law, pair.wanted_share)
     length = np.array([np.median(pair.remaining_threshold)])
     lacking = np.array([np.median(pair.rough.lacking)])
     low, high = (
-        simulated.find_shift(length, np.array([pair.range]), law, lacking, eta)
+        simulated.find_shift(length, np.array([pair.range]), law, lacking, eta, pair.wanted_share)
         for eta in (-np.ones(1), np.ones(1))
     )
     half_width = (high - low).item() / 2

@@ -24,7 +24,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from stickiness.formatting import amount, number
-from stickiness.remaining.errors import CELLS, LARGER, UNLIKE
+from stickiness.remaining.errors import LARGER, UNLIKE
 from stickiness.remaining.height_shape import HeightShape
 from stickiness.spectrum.family import SpectrumFamily
 from stickiness.statistics import COVERS
@@ -45,6 +45,7 @@ FIRST_TOLD = 1.9  #: lowest ring over 2 pi/L that tells of the roll-off; levelli
 SEED = 4  #: of the roll-offs, and of the power of the longest waves
 SCATTER_SEED = 5  #: of what a scan does not tell of a larger contact
 RINGS = 20  #: per decade
+TOLD_ERROR = 0.5  #: of ln of the work of adhesion, above which it is explained
 #: Wave number over 2 pi/L from which integrals over C equal sums over the lattice of a square of
 #: side L: 0.67 to 0.72 for energy and variance of self-affine spectra, H = 0.6 to 0.9.
 FIRST_WAVE = 0.7
@@ -224,7 +225,7 @@ def lengthen(data: xr.Dataset, contact: float, error: float | None = None) -> xr
 
 def _explain_error(data: xr.Dataset, ratio: float, error: float) -> str:
     """Say why a scan tells little of a contact `ratio` times as large; empty unless it does."""
-    if error <= CELLS[1].spread.high:
+    if error <= TOLD_ERROR:
         return ""
     factor = number(np.exp(error), 2)
     skewness = number(float(data.skewness), 2)

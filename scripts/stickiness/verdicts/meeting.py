@@ -109,7 +109,12 @@ def meet(material: Material, surface: Surface, wanted_share: float) -> Meeting:
 def make_pair(material: Material, rough: Roughness, wanted_share: float) -> Pair:
     """`Pair` of a material on roughness that it meets: all that results know of the material."""
     return Pair(
-        rough=replace(rough, law=material.law, instant_ratio=material.instant_ratio),
+        rough=replace(
+            rough,
+            law=material.law,
+            instant_ratio=material.instant_ratio,
+            wanted_share=wanted_share,
+        ),
         modulus=material.plane_strain_modulus,
         work_of_adhesion=material.work_of_adhesion,
         range=material.range,

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.measured.instrument_spectrum import MeasuredSpectrum
 from stickiness.measured.measurement import Measurement
 from stickiness.measured.topography import Topography
-from stickiness.remaining.errors import CELLS
+from stickiness.remaining.errors import find_limits
 from stickiness.remaining.height_shape import HeightShape, keep_beyond_chance
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.standard_heights import (
@@ -138,7 +138,11 @@ def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
     """Variables of `STATE_VARIABLES` and of the grid; `read_simulated` reads them."""
     parts = (simulated.whole, *simulated.quarters)
     dataset = xr.Dataset(
-        {"resolved_energy": simulated.resolved_energy, "simulated_pixel": simulated.pixel}
+        {
+            "resolved_energy": simulated.resolved_energy,
+            "simulated_pixel": simulated.pixel,
+            "independent_areas": simulated.independent_areas,
+        }
     )
     for field, (name, dimensions) in STATE_VARIABLES.items():
         stacked = _stack([getattr(part, field) for part in parts])
@@ -187,6 +191,7 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
         quarters=tuple(quarters),
         resolved_energy=float(data.resolved_energy),
         pixel=float(data.simulated_pixel),
+        independent_areas=float(data.independent_areas),
     )
 
 
@@ -210,12 +215,17 @@ def find_simulated_shape(data: xr.Dataset) -> HeightShape | None:
         q1=np.pi / simulated.pixel,
         elastic_energy=float(states.full_contact_energy),
     )
-    by_theory = float(np.log(rough.threshold(simulated_range)))
+
+    def find_log_threshold(rough: Roughness) -> float:
+        return float(np.log(rough.threshold(simulated_range)))
+
+    by_theory = find_log_threshold(rough)
     by_states = states.find_threshold(simulated_range, EXPONENTIAL, DEFAULT_SHARE)
     if np.isnan(by_states):
         return None
     change = by_theory - by_states
-    chance = CELLS[1].spread.high
+    by_one_wave = find_limits(replace(rough, waves=1.0), find_log_threshold)
+    chance = by_one_wave.low - by_one_wave.value
     return keep_beyond_chance(HeightShape(change, 0.0), change, chance)
 
 

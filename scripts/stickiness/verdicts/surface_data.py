@@ -53,6 +53,7 @@ SURFACE_VARIABLES = {
     "part": ("1", "part of the map that is simulated: 0 the whole, then its quarters"),
     "resolved_energy": ("m", "elastic energy of full contact of the periodic map, resolved waves"),
     "simulated_pixel": ("m", "pixel of the grid on which the heights are simulated"),
+    "independent_areas": ("1", "number of independent heights among these"),
     "standard_heights": ("1", "heights as they are simulated, over standard_height_unit"),
     "standard_quarters": ("1", "the same of the quarters of the map"),
     "standard_sides": ("1", "sides of every part, over standard_length_unit"),

@@ -31,6 +31,8 @@ AREA_ERROR = 0.15
 AREA_ERROR_LAYER = 0.45
 AREA_ERROR_SKIN = 0.35  # simulations have 0.75 to 1.2 times the area of theory
 MOST_AREA_ERROR = 0.9
+#: Columns of roughness that change with the thickness of a layer.
+OF_LAYER = ("elastic_energy", "rigid_base_energy", "relative_compliance", "flow")
 ROUGHEST = 1e3  #: highest rms height that is searched, over the actual one
 DEEPEST = 25.0  #: thickest layer that is searched, over 1/q of the longest waves
 LOWEST_FREQUENCY = 1e-12  #: [Hz], lowest and highest that are searched of a Prony series
@@ -99,7 +101,7 @@ def find_thickness(meeting: Meeting) -> Limited[float]:
         by_layer = [find_columns(family, layer, rough.q0) for layer in layers]
         columns: dict[str, Any] = {
             name: np.array([column[name] for column in by_layer])
-            for name in ("elastic_energy", "relative_compliance", "flow")
+            for name in OF_LAYER
         }
         changed = replace(
             pair,

