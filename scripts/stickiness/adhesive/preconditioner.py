@@ -58,6 +58,6 @@ class Smoother:
             out *= share
         if self.halved:
             coarse = out
-            out = self._constant * field
-            halving.spread(coarse, out)
+            out = field.copy()
+            halving.spread(coarse, out, self._constant)
         return out

@@ -59,18 +59,23 @@ def quick_descent(problem, gap, tol, max_iterations, observer=None, convex=False
 
 def _moved(problem, state, steps):
     """State after a round; None if the energy rose."""
-    gap = state.gap + np.multiply(steps.change, problem.unit, dtype=float).reshape(state.gap.shape)
-    above = steps.above.reshape(gap.shape)
-    gap[~above | (gap <= 0)] = 0  # what is not above the wall touches it
-    mean = float(gap.mean())
-    if problem.mean_gap is not None and mean > 0:
+    gap = np.empty_like(state.gap)
+    total = _move_gap(state.gap.ravel(), gap.ravel(), steps.change, problem.unit, steps.above)
+    if problem.mean_gap is not None and total > 0:
         # In proportion: contact stays contact, edges keep their shape.
-        gap *= problem.mean_gap / mean
+        gap *= problem.mean_gap * gap.size / total
     moved = problem.state(gap)
     # Work against elastic and mean pressure between the two gaps, and change of the potential.
-    pressure = (state.elastic + moved.elastic) / 2 + state.pressure
-    work = sum_blocks(np.vdot, gap - state.gap, pressure) / gap.size
-    change = work + moved.potential - state.potential
+    work = sum_blocks(
+        lambda last_gap, gap, last_elastic, elastic: np.vdot(
+            gap - last_gap, (last_elastic + elastic) / 2 + state.pressure
+        ),
+        state.gap,
+        gap,
+        state.elastic,
+        moved.elastic,
+    )
+    change = work / gap.size + moved.potential - state.potential
     return moved if change <= 8 * np.finfo(float).eps * abs(state.potential) else None
 
 
@@ -294,6 +299,18 @@ class _Steps:
 
     def _stiffen(self, field, out):
         self.problem.quick.stiffness(field.reshape(self.shape), out=out.reshape(self.shape))
+
+
+@compiled
+def _move_gap(gap, new_gap, change, unit, above):
+    """Gap after a round, zero for what is not above the wall; returns its sum."""
+    total = 0.0
+    for i in range(gap.size):
+        moved = gap[i] + change[i] * unit
+        moved = 0.0 if not above[i] or moved <= 0 else moved  # NaN stays NaN
+        new_gap[i] = moved
+        total += moved
+    return total
 
 
 @compiled

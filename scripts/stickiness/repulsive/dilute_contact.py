@@ -72,11 +72,11 @@ def select_candidates(grid, last, points, below, image, shift):
         pixel = tuple(side / n for side, n in zip(grid.sides, grid.shape, strict=True))
         split = _FreeSplit((int(row.max()) + 1, int(column.max()) + 1), pixel)
     # Short waves between near pairs, the stiffness that preconditions, and long waves.
-    neighbours = _Neighbours(row, column, split.cell)
-    near = _symmetric(split.near, _REACH, neighbours, most=_MAX_PAIRS * _points(grid))
-    if near is None:
+    pairs = _find_pairs(row, column, split.cell, most=_MAX_PAIRS * _points(grid))
+    if pairs is None:
         return None
-    beside = _symmetric(split.beside, _BESIDE, neighbours, most=np.inf)
+    near = _symmetric(split.near, pairs)
+    beside = _symmetric(split.beside, pairs)
     splines = _splines(row, column, split)
     return Candidates(grid, likely, split, splines, near, beside)
 
@@ -265,57 +265,56 @@ class _SymmetricMatrix:
         return image + upper + lower + self.diagonal * values
 
 
-class _Neighbours:
-    """Points in the order of rows that go on beyond both ends of the cell.
+@dataclass(frozen=True, eq=False)
+class _Pairs:
+    """Pairs of points within reach, each once, by its first point."""
 
-    Neighbours across the boundary then follow one another, too. `places` are the flat indices in
-    these wider rows, and `index` says which points these are.
-    """
-
-    def __init__(self, row, column, cell):
-        self.row = row
-        self.column = column
-        self.height, period = cell
-        self.width = period + 2 * _REACH
-        left = np.flatnonzero(column >= period - _REACH)
-        right = np.flatnonzero(column < _REACH)
-        index = np.concatenate([np.arange(row.size, dtype=np.int32), left, right], dtype=np.int32)
-        places = row[index] * np.int32(self.width) + column[index] + np.int32(_REACH)
-        places[row.size : row.size + left.size] -= np.int32(period)
-        places[row.size + left.size :] += np.int32(period)
-        order = np.argsort(places, kind="stable")
-        self.places = places[order]
-        self.index = index[order]
-
-    def find_runs(self, down, half):
-        """Runs of neighbours in the row `down` below all points: first, end, and middle place."""
-        row = (self.row + down) % np.int32(self.height)
-        middle = row * np.int32(self.width) + self.column + np.int32(_REACH)
-        first = np.searchsorted(self.places, middle - half if down > 0 else middle + 1)
-        end = np.searchsorted(self.places, middle + half, side="right")
-        return first, end, middle
+    starts: np.ndarray  #: where the pairs of each first point begin, and the end
+    second: np.ndarray  #: the other point
+    place: np.ndarray  #: of the pair in a table of a kernel
 
 
-def _symmetric(kernel, reach, neighbours, most):
-    """Matrix of the pairs within reach; None of more than `most`."""
-    # Every pair at its first point: half a disk around it, of which each row holds a run of points.
-    down = np.arange(reach + 1, dtype=np.int32)
-    half = np.sqrt(reach**2 - down**2).astype(np.int32)
-    runs = [neighbours.find_runs(k, half[k]) for k in down]
-    first, end, middle = (np.column_stack(parts) for parts in zip(*runs, strict=True))
-    count = (end - first).ravel()
+def _find_pairs(row, column, cell, most):
+    """Pairs of points by row and column of a periodic cell; None if more than `most`."""
+    height, period = (np.int32(n) for n in cell)
+    # Points in the order of rows that go on beyond both ends of the cell: neighbours across the
+    # boundary then follow one another, too.
+    left = np.flatnonzero(column >= period - _REACH)
+    right = np.flatnonzero(column < _REACH)
+    index = np.concatenate([np.arange(row.size, dtype=np.int32), left, right], dtype=np.int32)
+    width = period + np.int32(2 * _REACH)
+    places = row[index] * width + column[index] + np.int32(_REACH)
+    places[row.size : row.size + left.size] -= period
+    places[row.size + left.size :] += period
+    order = np.argsort(places, kind="stable")
+    places = places[order]
+    # Half a disk around a point holds every pair once, in each row a run of points.
+    down = np.arange(_REACH + 1, dtype=np.int32)
+    half = np.sqrt(_REACH**2 - down**2).astype(np.int32)
+    middle = (row[:, None] + down) % height * width + column[:, None] + np.int32(_REACH)
+    begin = middle - half
+    begin[:, 0] = middle[:, 0] + 1
+    first = np.searchsorted(places, begin.ravel())
+    count = np.searchsorted(places, (middle + half).ravel(), side="right") - first
     total = np.cumsum(count)
     if total[-1] > most:
         return None
-    # All runs one after the other, and where each of their points is in the table of the kernel.
-    found = np.repeat(first.ravel() - total + count, count) + np.arange(total[-1])
-    origin = down * kernel.beside.shape[1] + np.int32(_REACH) - middle
-    place = neighbours.places.take(found) + np.repeat(origin.ravel(), count)
-    values = kernel.beside.take(place)
-    columns = neighbours.index.take(found)
-    starts = np.append(0, total[reach :: reach + 1]).astype(np.int32)
-    size = neighbours.row.size
-    upper = sparse.csr_array((values, columns, starts), shape=(size, size))
+    # All runs one after the other, and where their points are in a table by rows down.
+    found = np.repeat(first - total + count, count) + np.arange(total[-1])
+    origin = down * (2 * _REACH + 1) + np.int32(_REACH) - middle
+    return _Pairs(
+        starts=np.append(0, total[_REACH :: _REACH + 1]).astype(np.int32),
+        second=index[order].take(found),
+        place=places.take(found) + np.repeat(origin.ravel(), count),
+    )
+
+
+def _symmetric(kernel, pairs):
+    """Matrix of a kernel, without the pairs beyond its reach."""
+    size = pairs.starts.size - 1
+    entries = (kernel.beside.take(pairs.place), pairs.second, pairs.starts)
+    upper = sparse.csr_array(entries, shape=(size, size), copy=True)
+    upper.eliminate_zeros()
     return _SymmetricMatrix(upper=upper, lower=upper.T, diagonal=kernel.diagonal)
 
 
