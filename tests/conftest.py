@@ -16,7 +16,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from stickiness.remaining import height_simulation
-from stickiness.remaining.height_simulation import find_trial_states
+from stickiness.remaining.height_simulation import find_pull_offs, find_trial_states
 from stickiness.verdicts import simulated_surface
 
 # The same examples every time and few of them: a test that fails now and then helps nobody.
@@ -92,11 +92,11 @@ def pytest_make_collect_report():
 _FOUND = {}  # states of contact
 
 
-def _find_once(heights, length, **options):
-    """`find_trial_states`, once on the same heights for all tests of a process."""
-    key = (heights.tobytes(), heights.shape, length, *options.values())
+def _find_once(find, heights, length, **options):
+    """What is found by `find`, once on the same heights for all tests of a process."""
+    key = (find, heights.tobytes(), heights.shape, length, *options.values())
     if key not in _FOUND:
-        _FOUND[key] = find_trial_states(heights, length, **options)
+        _FOUND[key] = find(heights, length, **options)
     return _FOUND[key]
 
 
@@ -109,5 +109,6 @@ def coarse_simulation():
     with pytest.MonkeyPatch.context() as patch:
         coarse = partial(simulated_surface.standardise, most_points=32)
         patch.setattr(simulated_surface, "standardise", coarse)
-        patch.setattr(height_simulation, "find_trial_states", _find_once)
+        for find in (find_trial_states, find_pull_offs):
+            patch.setattr(height_simulation, find.__name__, partial(_find_once, find))
         yield

@@ -67,7 +67,7 @@ def measure(setting, seed, shared):
 
 def measure_whole(heights, side, range_):
     """Thresholds on a whole surface, and what the rows of its patches tell of it."""
-    states = find_trial_states(heights, side, pull=False)
+    states = find_trial_states(heights, side)
     thresholds = find_log_thresholds(states, range_)
     return thresholds, {
         "range": range_,
@@ -94,9 +94,7 @@ def measure_patch(patch, side, whole_thresholds, range_):
     """Row of one patch, whose states are simulated as those of a map and of its quarters."""
     standard = standardise(patch, (side, side), most_points=patch.shape[0])
     states = [
-        find_trial_states(part.mirrored, part.mirrored_sides, pull=False).scaled(
-            part.height_unit, side
-        )
+        find_trial_states(part.mirrored, part.mirrored_sides).scaled(part.height_unit, side)
         for part in (standard.whole, *standard.quarters)
     ]
     correlation = autocorrelation(standard.whole.heights)

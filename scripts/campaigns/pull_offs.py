@@ -9,18 +9,19 @@ import logging
 import numpy as np
 
 from campaigns.columns import find_side
-from campaigns.ranges import OF_REFINED, interpolate_at_work, refine
-from common.conventions import Q0
+from campaigns.ranges import OF_REFINED, refine
 from common.topographies import make_set
-from stickiness.remaining.height_simulation import ADHESION_TOLERANCE, find_trial_states
+from stickiness.remaining.height_simulation import (
+    ADHESION_TOLERANCE,
+    find_pull_offs,
+    find_trial_states,
+)
 from stickiness.remaining.measurement import measure as follow_path
-from stickiness.remaining.roughness import Roughness
-from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.repulsive.solver import ConvergenceError
 
 COLUMNS = OF_REFINED | {
-    "share": "that is predicted to remain at this range",
-    "distance": "work that remains over the largest tension, of the states at their own range",
+    "lost_ratio": "energy ratio at which contact is nearly lost, by the states",
+    "predicted": "largest tension over E*, by the states",
     "path_share": "largest gain of energy on a path at given mean gaps on the finer grid",
     "pull_off": "largest tension on that path over E*",
 }
@@ -34,31 +35,17 @@ def measure(setting, seed, shared):
     heights = make_set(setting, seed)
     length = find_side(setting)
     states = find_trial_states(heights, length)
-    rough = make_roughness(states, length / setting["points"])
+    pull_offs = find_pull_offs(heights, length)
     for law, fine, row in refine(heights, states, setting, shared):
-        work = law.adhesion_length
         path_share, pull_off = separate(fine, length, law, shared)
+        held = pull_offs.find_held(np.array([law.adhesion_length]), np.array([law.range]))
         yield {
             **row,
-            "share": rough.share(work, law.range),
-            "distance": interpolate_at_work(states, states.simulated_distance, work),
+            "lost_ratio": pull_offs.lost_length / states.full_contact_energy,
+            "predicted": law.adhesion_length * held[0],
             "path_share": path_share,
             "pull_off": pull_off,
         }
-
-
-def make_roughness(states, pixel):
-    """`Roughness` of which a verdict tells by these states alone: no waves lack."""
-    simulated = SimulatedHeights(
-        whole=states,
-        quarters=(states,),
-        resolved_energy=states.full_contact_energy,
-        pixel=pixel,
-        independent_areas=1.0,
-    )
-    return Roughness(
-        h_rms=1.0, q0=Q0, elastic_energy=states.full_contact_energy, simulated=simulated
-    )
 
 
 def separate(heights, length, law, shared):

@@ -34,7 +34,7 @@ def measure(setting, seed, shared):
     """Rows of all works of adhesion and ranges, by states on a grid and by finer ones."""
     heights = make_set(setting, seed)
     length = find_side(setting)
-    states = find_trial_states(heights, length, pull=False)
+    states = find_trial_states(heights, length)
     lengths = [0, *states.simulated_length]
     gains = [0, *states.simulated_length * states.simulated_share]
     for law, fine, row in refine(heights, states, setting, shared):

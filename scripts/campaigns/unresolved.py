@@ -24,9 +24,9 @@ def measure(setting, seed, shared):
     """Rows of all strides and ranges."""
     heights = make_set(setting, seed)
     length = find_side(setting)
-    full = find_trial_states(heights, length, pull=False)
+    full = find_trial_states(heights, length)
     for stride in shared["strides"]:
-        thinned = find_trial_states(heights[::stride, ::stride], length, pull=False)
+        thinned = find_trial_states(heights[::stride, ::stride], length)
         lacking = full.full_contact_energy / thinned.full_contact_energy - 1
         for range_ in shared["ranges"]:
             of_thinned = find_log_thresholds(thinned, range_)

@@ -139,7 +139,6 @@ def keep_contact(simulated):
             simulated_length=np.array([states.full_contact_energy]),
             simulated_range=none + np.finfo(float).tiny,  # the bound stands at any longer range
             simulated_share=none,
-            simulated_distance=none + states.gap.max(),
         )
 
     quarters = tuple(keep(quarter) for quarter in simulated.quarters)

@@ -1,6 +1,5 @@
 """Limits of what remains: how far simulations lie from predictions, by kind of prediction."""
 
-from dataclasses import replace
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Context
 from typing import NamedTuple
 
@@ -54,10 +53,10 @@ COMMENT = f"""\
 # its factor, of "thin" over the flow, of "film" over the logarithm of what bending takes of the
 # energy, of "patch" over the rms distance of the quarters' thresholds, of "larger" contacts over
 # the root of the doublings of the scan, and of "larger non-Gaussian" ones over that times what
-# makes the scan unlike Gaussian heights); ln_tension and ln_path, of simulated over predicted
-# ones, the low limit of a path for making contact and the high one for breaking it; place, of a
-# share between both bounds, over w/U_full (1 - ratio of ranges)^2; shortening, exponent of the
-# ratio of ranges with which the distance of the attraction falls; unresolved, ln w beyond the
+# makes the scan unlike Gaussian heights); ln_tension and ln_path, of simulated over predicted ones,
+# the low limit of a path for making contact and the high one for breaking it (tensions of "states"
+# over a factor that grows with the work of adhesion at which contact is nearly lost); place, of a
+# share between both bounds, over w/U_full (1 - ratio of ranges)^2; unresolved, ln w beyond the
 # energy that lacks, over the root of ln(1 + lacking energy) and the cube of the share lost;
 # ln_force, of balls, over the root of ln of the factor that roughness takes from the force;
 # summits, independent heights in a zone one wave wide, low and high with errors within 5 % of the
@@ -80,7 +79,6 @@ def main(job):
         describe_first_touch(tables["long_ranges"]),
         *(describe_spread(each, find_spread(each)) for each in list_spreads(tables)),
         describe_states(tables["heights"]),
-        *describe_pull_offs(tables["pull_offs"]),
     ]
     text = COMMENT + pd.DataFrame(rows, columns=COLUMNS).to_csv(index=False, float_format="%.4g")
     summaries = summarise(sizes), summarise_pull_offs(tables["pull_offs"])
@@ -279,35 +277,16 @@ def list_spreads(tables):
     # Beyond the energy that lacks.
     yield comparisons.of_unresolved(tables["unresolved"], UNRESOLVED_SHARES)
 
+    # At the range of the states pull-offs are known within 10 %. Surfaces attract at shorter ones.
+    pull_offs = tables["pull_offs"]
+    yield comparisons.of_pull_offs(pull_offs[pull_offs.range_ratio < 1])
+
 
 def describe_states(heights):
     """Row of the table for shares by states that are simulated on the same heights."""
     states = comparisons.of_states(heights[heights.window == 4])
     required = find_share_error(states.rows)
     return describe_size(Size(states, required, find_size(required)))
-
-
-def describe_pull_offs(pull_offs):
-    """Pull-off by states simulated on heights: how their distance shortens, and what that errs.
-
-    At the range of the states the pull-off is known within 10 %. Surfaces attract at shorter ones,
-    of which the limits are.
-    """
-    exponents, compared = fit_pull_offs(pull_offs)
-    shorter = compared.where(compared.rows.range_ratio < 1)
-    yield describe_spread(exponents, find_spread(exponents), errors.SHORTENING)
-    # The median is that of the exponent.
-    yield describe_spread(shorter, find_spread(shorter)._replace(value=0.0))
-
-
-def fit_pull_offs(pull_offs):
-    """Exponents with which distances shorten, and pull-offs by the middle of these."""
-    unshortened = comparisons.of_pull_offs(pull_offs, exponent=0.0)
-    shorter = unshortened.where(unshortened.rows.range_ratio < 1)
-    # In the unit of -ln of the ratio of ranges, errors are exponents.
-    units = shorter.rows.assign(unit=errors.SHORTENING.unit(shorter.rows.range_ratio))
-    exponents = replace(shorter, rows=units)
-    return exponents, comparisons.of_pull_offs(pull_offs, find_spread(exponents).value)
 
 
 def find_share_error(rows):
@@ -357,14 +336,13 @@ def judge(comparison):
 
 def summarise_pull_offs(pull_offs):
     """Coverage and errors of pull-offs by states, by the range, as a table in Markdown."""
-    _, compared = fit_pull_offs(pull_offs)
-    shorter = compared.where(compared.rows.range_ratio < 1)
-    _, low, high = find_spread(shorter)
+    compared = comparisons.of_pull_offs(pull_offs)
+    value, low, high = find_spread(compared.where(compared.rows.range_ratio < 1))
     of_rows = compared.rows.assign(error=compared.error)
     lines = []
     for ratio, part in of_rows.groupby("range_ratio", sort=False):
         inside = percent(part.error.between(low, high).mean())
-        median = number(float(np.exp(part.error.median())), 3)
+        median = number(float(np.exp(((part.error - value) * part.unit).median())), 3)
         lines.append((number(ratio, 2), str(len(part)), inside, median))
     columns = ("range over that of the states", "pull-offs", "inside")
     return table((*columns, "simulated over predicted"), lines)

@@ -388,17 +388,16 @@ def of_unresolved(unresolved, shares):
     return Comparison(errors.UNRESOLVED, pd.concat(parts))
 
 
-def of_pull_offs(pull_offs, exponent):
-    """Logarithms of pull-offs by states whose distance shortens by an exponent.
+def of_pull_offs(pull_offs):
+    """Logarithms of pull-offs by states.
 
     Rows are left out where next to nothing remains, and where contact is full: there the strength
     of the law bounds the pull-off.
     """
     rows = pull_offs.dropna(subset="pull_off")
     rows = rows[(rows.path_share > LEAST_SHARE) & (rows.energy_ratio < PULL_OFF_KNOWN)]
-    distance = rows.distance * rows.range_ratio**exponent
-    predicted = np.log(rows.adhesion_length * rows.share / distance)
-    rows = rows.assign(simulated=np.log(rows.pull_off), value=predicted)
+    unit = errors.STATES_TENSION.unit(rows.lost_ratio)
+    rows = rows.assign(simulated=np.log(rows.pull_off), value=np.log(rows.predicted), unit=unit)
     return Comparison(errors.STATES_TENSION, rows)
 
 

@@ -122,14 +122,6 @@ def test_pull_offs_are_possible():
     assert known.path_share.max() > 0.55
 
 
-def test_states_and_paths_agree_on_what_remains():
-    """Predicted for every range and gained on the path, in shares of w."""
-    table = read("pull_offs").dropna(subset="pull_off")
-    error = abs(table.share - table.path_share)
-    assert error.quantile(0.9) < 0.012
-    assert error.max() < 0.05
-
-
 def test_lacking_energy_grows_with_the_stride():
     table = read("unresolved")
     lacking = table.pivot_table(index=["set", "seed"], columns="stride", values="lacking")

@@ -145,9 +145,14 @@ PLACE = ErrorLaw(
 )
 #: Of a share on the same heights, see `find_states_error`.
 STATES = ErrorLaw("states", "share", "heights.csv", unit=np.ones_like)
-STATES_TENSION = ErrorLaw("states", "ln_tension", "pull_offs.csv", unit=np.ones_like)
-#: Exponent of the ratio of ranges, with which the distance falls over which attraction acts.
-SHORTENING = ErrorLaw("states", "shortening", "pull_offs.csv", unit=lambda ratio: -np.log(ratio))
+#: Of a tension, by the work of adhesion over the energy of full contact at which contact is nearly
+#: lost: where that is at once, as on peaks, it depends on chance at which tension.
+STATES_TENSION = ErrorLaw(
+    kind="states",
+    quantity="ln_tension",
+    source="pull_offs.csv",
+    unit=lambda lost_ratio: 1 + 4 * np.asarray(lost_ratio),
+)
 
 
 def _patch_unit(distance: ArrayLike, areas: ArrayLike, share: ArrayLike) -> NDArray:

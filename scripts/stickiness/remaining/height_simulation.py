@@ -22,6 +22,7 @@ from stickiness.adhesive import solver as adhesive
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.arguments import check_length, grid
 from stickiness.remaining.full_contact import full_contact_energy
+from stickiness.remaining.pull_offs import PullOffs
 from stickiness.remaining.standard_heights import (
     MOST_POINTS,
     StandardHeights,
@@ -40,8 +41,17 @@ from stickiness.traction_laws import Exponential, TractionLaw
 #: hardly anything of them remains: broad tops hold with very little adhesion.
 ENERGY_RATIOS = np.append(np.geomspace(2.0, 0.2, 8), np.geomspace(0.1, 1e-4, 11))
 HARDLY_ANYTHING = 0.005
-FIRST_STEP = 2.0**0.25  #: of the tension on separation, over the one before
-LAST_STEP = 1.05
+#: Mean gaps at which contact is pulled off are wider than that of zero load by these ranges of the
+#: attraction; one is so much wider than the next.
+FIRST_OPENING = 0.7
+LEAST_OPENING = 0.05
+WIDER = 1.4
+FALLEN = 0.85  #: of the largest tension, by which the surfaces part
+#: Contact is lost where its area falls by more than this factor from one work of adhesion to the
+#: next. Then works between them are simulated, down to a ratio of two works.
+STEEP = 2.0
+CLOSE = 1.1
+SUMMITS_AREA = 0.01  #: in contact, below which single summits hold, in proportion to the work
 #: Shares of the area in contact by theory, for the loads without adhesion.
 CONTACT_AREAS = np.geomspace(1e-3, 0.9, 12)
 CONTACT_TOLERANCE = 1e-4
@@ -91,15 +101,17 @@ def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> S
             part.mirrored,
             part.mirrored_sides,
             solid=in_unit,
-            pull=is_whole,
             # Pictures show the whole map, without its mirror images.
             pictured=part.heights.shape if is_whole else None,
         )
         return states.scaled(height_unit=part.height_unit, length_unit=length_unit)
 
+    whole = standard.whole
+    pull_offs = find_pull_offs(whole.mirrored, whole.mirrored_sides, solid=in_unit)
     return SimulatedHeights(
         quarters=tuple(simulate(quarter) for quarter in standard.quarters),
-        whole=simulate(standard.whole, is_whole=True),
+        whole=simulate(whole, is_whole=True),
+        pull_offs=pull_offs.scaled(height_unit=whole.height_unit, length_unit=length_unit),
         resolved_energy=standard.resolved_energy,
         pixel=standard.pixel,
         independent_areas=standard.whole.independent_areas,
@@ -110,7 +122,6 @@ def find_trial_states(
     heights: ArrayLike,
     length: float | tuple[float, float],
     solid: Solid = HALF_SPACE,
-    pull: bool = True,
     pictured: tuple[int, ...] | None = None,
 ) -> TrialStates:
     """Simulate states of contact on periodic heights.
@@ -123,8 +134,6 @@ def find_trial_states(
         Sides of the cell [length].
     solid : solids.HalfSpace, solids.Layer or solids.Skin
         Elastic solid; the thickness of a layer is in the unit of `length`.
-    pull : bool
-        Whether to pull the surfaces off, for `TrialStates.distance`.
     pictured : pair of ints, optional
         Points along both sides of whose gaps pictures are kept, in `TrialStates.gap_bin`.
 
@@ -152,8 +161,7 @@ def find_trial_states(
     ]
     without_adhesion = len(counted)
 
-    # States at zero load, from strong to weak adhesion: the share in the deepest of each, and the
-    # distance over which that acts on separation.
+    # States at zero load, from strong to weak adhesion, and the share in the deepest of each.
     simulated = []
     closed: str | NDArray = adhesive.SEPARATION
     for energy_ratio in ENERGY_RATIOS:
@@ -170,15 +178,12 @@ def find_trial_states(
         counted += [cell.count(state.elastic_energy, state.gap) for state in states]
         adhesion_length = law.adhesion_length
         share = max(-deepest.energy, 0.0) / adhesion_length
+        simulated.append((adhesion_length, deepest.law.range, share))
         if share < HARDLY_ANYTHING:
-            simulated.append((adhesion_length, deepest.law.range, share, cell.h_rms))
             break
-        tension = cell.pull_off(deepest, share) if pull else np.nan
-        distance = adhesion_length * share / tension
-        simulated.append((adhesion_length, deepest.law.range, share, distance))
     if not simulated:
         raise ConvergenceError("no state of contact with adhesion converged", None)
-    lengths, ranges, shares, distances = np.array(simulated[::-1]).T
+    lengths, ranges, shares = np.array(simulated[::-1]).T
     trial_states = TrialStates(
         elastic_energy=np.array([state.elastic_energy for state in counted]),
         gap_share=np.array([state.gap_share for state in counted]),
@@ -188,7 +193,6 @@ def find_trial_states(
         simulated_length=lengths,
         simulated_range=ranges,
         simulated_share=shares,
-        simulated_distance=distances,
         gap_bin=None if pictured is None else np.array([state.gap_bin for state in counted]),
     )
     if not cell.is_stiffer:
@@ -196,6 +200,36 @@ def find_trial_states(
     # Where a state was not followed to its end, that for another work of adhesion may be deeper.
     of_deepest = trial_states.share(lengths, ranges)
     return replace(trial_states, simulated_share=np.maximum(shares, of_deepest))
+
+
+def find_pull_offs(
+    heights: ArrayLike, length: float | tuple[float, float], solid: Solid = HALF_SPACE
+) -> PullOffs:
+    """Pull off closed contact on periodic heights, for falling works of adhesion.
+
+    Parameters and errors are those of `find_trial_states`.
+
+    Examples
+    --------
+    >>> x = 2 * np.pi * np.arange(32) / 32
+    >>> egg_box = np.cos(x)[:, None] * np.cos(x)
+    >>> pull_offs = find_pull_offs(egg_box, length=2 * np.pi)
+    >>> tension = 0.1 * pull_offs.find_held(np.array([0.1]), range=np.array([0.1]))
+    >>> print(f"{tension[0]:.3f}")
+    0.045
+    """
+    heights = grid("heights", heights)
+    cell = _Cell(heights, check_length(length, heights.shape), solid)
+    pulled = [(state, cell.pull_off(state)) for state in cell.follow_closed()][::-1]
+    if not pulled:
+        raise ConvergenceError("no state of closed contact converged", None)
+    return PullOffs(
+        length=np.array([state.law.adhesion_length for state, _ in pulled]),
+        range=np.array([state.law.range for state, _ in pulled]),
+        # What weaker adhesion withstands, stronger adhesion does.
+        tension=np.maximum.accumulate([tension for _, tension in pulled]),
+        area=np.array([state.repulsive_area_fraction for state, _ in pulled]),
+    )
 
 
 class _CountedState(NamedTuple):
@@ -286,32 +320,39 @@ class _Cell:
         return self.count(elastic_energy, contact.gap)
 
     def adhere(
-        self,
-        law: TractionLaw,
-        starts: tuple[str | NDArray | adhesive.Adhesion, ...],
-        pressure: float = 0.0,
+        self, law: TractionLaw, starts: tuple[str | NDArray | adhesive.Adhesion, ...]
     ) -> Iterator[adhesive.Adhesion]:
-        """States of contact at a load, from several starts, but for those that do not converge.
+        """States of zero load, from several starts, but for those that do not converge.
 
         Those on a solid that is stiffer than a half-space count when their iterations are spent,
         too: any state bounds the energy. On the grid, single points hold them back.
         """
         for start in starts:
             try:
-                yield descend(
-                    self.heights,
-                    self.sides,
-                    law,
-                    self.solid,
-                    start,
-                    tol=ADHESION_TOLERANCE,
-                    max_iterations=FEW_ITERATIONS if self.is_stiffer else MOST_ITERATIONS,
-                    pressure=pressure,
-                )
+                yield self.descend(law, start)
             except ConvergenceError as error:
                 if self.is_stiffer and not isinstance(error, adhesive.PullOffError):
                     yield error.contact
                 logging.info("adhesion length %.3g: %s", law.adhesion_length, error)
+
+    def descend(
+        self,
+        law: TractionLaw,
+        start: str | NDArray | adhesive.Adhesion,
+        mean_gap: float | None = None,
+    ) -> adhesive.Adhesion:
+        """State of contact at zero load, or at a mean gap; errors as of `adhesive.solve`."""
+        is_quick = self.is_stiffer and mean_gap is None
+        return descend(
+            self.heights,
+            self.sides,
+            law,
+            self.solid,
+            start,
+            tol=ADHESION_TOLERANCE,
+            max_iterations=FEW_ITERATIONS if is_quick else MOST_ITERATIONS,
+            mean_gap=mean_gap,
+        )
 
     def shorten_range(
         self, state: adhesive.Adhesion, shortest: float
@@ -329,28 +370,59 @@ class _Cell:
                 return
             yield state
 
-    def pull_off(self, state: adhesive.Adhesion, share: float) -> float:
-        """Largest mean tension [E*] that a state of zero load withstands, within some 5 %."""
+    def follow_closed(self) -> Iterator[adhesive.Adhesion]:
+        """Closed contact at zero load, for falling works of adhesion until it is lost."""
+        closed: str | NDArray = adhesive.SEPARATION
+        last_ratio = np.inf
+        last_area = 0.0
+        remaining = list(ENERGY_RATIOS[::-1])
+        while remaining:
+            energy_ratio = remaining.pop()
+            state = next(self.adhere(self.choose_law(energy_ratio), (closed,)), None)
+            if state is None:
+                continue
+            area = state.repulsive_area_fraction
+            # Where contact is lost, the work of adhesion is approached from the last one.
+            if STEEP * area < last_area and CLOSE * energy_ratio < last_ratio:
+                remaining += [energy_ratio, np.sqrt(energy_ratio * last_ratio)]
+                continue
+            closed = state.gap
+            last_ratio = energy_ratio
+            last_area = area
+            if self.is_stiffer:
+                shortest = self.find_shortest_range(energy_ratio)
+                state = [state, *self.shorten_range(state, shortest)][-1]
+            yield state
+            if area < SUMMITS_AREA:
+                return
 
-        def pull(tension: float, start: adhesive.Adhesion) -> adhesive.Adhesion | None:
-            """State under a tension; None if that tears the surfaces apart."""
-            return next(self.adhere(state.law, (start,), -tension), None)
+    def pull_off(self, state: adhesive.Adhesion) -> float:
+        """Largest mean tension [E*] on the way from a state of zero load, at given mean gaps.
 
-        # Halve a tension until the surfaces withstand it.
-        tension = state.law.adhesion_length * share / state.rms_height
-        withstood = pull(tension, state)
-        while withstood is None and tension > 0:
-            tension /= 2
-            withstood = pull(tension, state)
-        # Raise it in steps, and then in shorter ones. From a state that is strained more, the
-        # surfaces may withstand a tension that tore them apart before.
-        step = FIRST_STEP
-        while step > LAST_STEP:
-            further = pull(tension * step, withstood or state)
-            if further is None:
-                step = np.sqrt(step)
-            else:
-                tension *= step
-                withstood = further
-        # Between a tension that they withstand and one that they do not.
-        return tension * step
+        There the tension has a maximum, next to which it hardly changes: mean gaps that are close
+        find it within 3 %. Under a given tension it would be an end, which tolerances of the solver
+        move.
+        """
+
+        def pull(opening: float, start: adhesive.Adhesion) -> adhesive.Adhesion:
+            """State at a mean gap that is wider by an opening, in ranges of the attraction."""
+            mean_gap = state.mean_gap + opening * state.law.range
+            try:
+                return self.descend(state.law, start, mean_gap)
+            except ConvergenceError as error:
+                return error.contact
+
+        # Open until the tension has passed its maximum.
+        opening = FIRST_OPENING
+        opened = pull(opening, state)
+        tensions = [-opened.mean_pressure]
+        while not 0 < tensions[-1] < FALLEN * max(tensions):
+            opening *= WIDER
+            opened = pull(opening, opened)
+            tensions.append(-opened.mean_pressure)
+        # Stiffer edges hold most before the first of these openings.
+        opening = FIRST_OPENING
+        while max(tensions) == tensions[0] and opening > LEAST_OPENING:
+            opening /= WIDER
+            tensions.insert(0, -pull(opening, state).mean_pressure)
+        return max(tensions)

@@ -106,7 +106,7 @@ class Roughness:
     row: int | NDArray = 0  #: of the family of `response`
     response: SolidResponse | None = None  #: of layers on a film and of skins, at other moduli
 
-    # States of contact that replace the theory of share, area and distance.
+    # States of contact that replace the theory of share, area and tension.
     simulated: SimulatedHeights | None = None
     #: Energy of full contact of waves that are not simulated, over that of the others
     lacking: float | NDArray = 0.0
@@ -340,11 +340,7 @@ class Roughness:
         return plain(self._deepest_state(adhesion_length, range).area)
 
     def distance(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
-        """Distance over which what remains acts: its work over the largest tension [length]."""
-        if self.simulated is not None:
-            # Heights times a factor are simulated as they were, in a unit that is so much larger.
-            in_unit = self._ask_simulated("distance", adhesion_length, range)
-            return plain(in_unit * self.height_factor)
+        """Distance [length] over which what remains acts, by theory: work over largest tension."""
         state = self._deepest_state(adhesion_length, range)
         acts = state.tension > 1e-12  # of elastic_energy/h_rms; else nothing holds the surfaces
         tension = np.where(acts, state.tension, 1.0)
@@ -396,17 +392,30 @@ class Roughness:
         """
         length = np.asarray(adhesion_length)
         eta = np.asarray(self.eta)
-        share = np.asarray(self.share(length, range))
-        value, low, high = (TENSION if self.simulated is None else STATES_TENSION).spread
+        if self.simulated is None:
+            value, low, high = TENSION.spread
+        else:
+            unit = float(np.asarray(STATES_TENSION.unit(self.simulated.lost_ratio)))
+            value, low, high = (unit * each for each in STATES_TENSION.spread)
 
-        # The errors of the share and of the distance are independent: they add in quadrature.
+        def find_slow(rough: Roughness) -> NDArray:
+            """Tension of slow separation, with the error of the work of adhesion alone."""
+            if rough.simulated is not None:
+                # Heights times a factor are simulated as they were, in a unit so much larger.
+                in_unit = rough._ask_simulated("tension", length, range, rough.eta)
+                return in_unit * rough.height_factor
+            share = np.asarray(rough.share(length, range)) / rough._fast_ratio
+            return length / rough.distance(length, range) * share
+
+        # The errors of the work and of the tension are independent: they add in quadrature.
+        slow = find_slow(self)
+        exact = find_slow(self.deviating(0.0))
         with np.errstate(divide="ignore", invalid="ignore"):
-            slow = share / self._fast_ratio
-            of_share = np.abs(np.log(slow / self.deviating(0.0).share(length, range)))
-            of_distance = np.abs(np.where(eta < 0, value - low, high - value) * eta)
-            added = np.hypot(of_share, of_distance) - of_share
-        correction = value + np.sign(eta) * np.where(np.isfinite(of_share), added, 0.0)
-        predicted = length / self.distance(length, range) * share * np.exp(correction)
+            of_work = np.abs(np.log(slow / exact))
+            of_tension = np.abs(np.where(eta < 0, value - low, high - value) * eta)
+            added = np.hypot(of_work, of_tension) - of_work
+        correction = value + np.sign(eta) * np.where(np.isfinite(of_work), added, 0.0)
+        predicted = slow * self._fast_ratio * np.exp(correction)
         # Towards full contact, which was not simulated, only the strength bounds the high limit.
         log_known = np.log(PULL_OFF_KNOWN)
         log_unknown = np.log(PULL_OFF_UNKNOWN)

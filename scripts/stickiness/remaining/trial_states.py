@@ -35,16 +35,14 @@ from numpy.typing import ArrayLike, NDArray
 from stickiness.remaining.errors import (
     PATCH,
     PLACE,
-    SHORTENING,
     UNRESOLVED,
     between,
     find_states_error,
 )
+from stickiness.remaining.pull_offs import PullOffs
 from stickiness.traction_laws import EXPONENTIAL, LAWS, find_strength
 
 DEFAULT_SHARE = 0.1  #: of the work of adhesion, from which a pair is said to stick
-#: Range over that of the states, below which pull-offs were not simulated: distances stay
-SHORTEST_RATIO = 0.36
 #: Adhesion lengths over the energy of full contact at which thresholds of parts are looked for
 _LENGTHS = np.geomspace(1e-7, 1e4, 331)
 
@@ -65,8 +63,6 @@ class TrialStates:
     simulated_length: NDArray
     simulated_range: NDArray
     simulated_share: NDArray
-    #: Work that remains over the largest tension on separation [length]; NaN where not simulated
-    simulated_distance: NDArray
     #: Bin of the gap of every pixel, for pictures; None where it is not kept, ``(state, n0, n1)``
     gap_bin: NDArray | None = None
 
@@ -83,7 +79,6 @@ class TrialStates:
             full_contact_energy=self.full_contact_energy * energy_unit,
             simulated_length=self.simulated_length * energy_unit,
             simulated_range=self.simulated_range * height_unit,
-            simulated_distance=self.simulated_distance * height_unit,
         )
 
     def without_adhesion(self) -> Self:
@@ -136,21 +131,6 @@ class TrialStates:
             rows = range == one_range
             area[rows] = np.interp(np.log(adhesion_length[rows]), np.log(nodes), touching)
         return area
-
-    def distance(self, adhesion_length: NDArray, range: NDArray) -> NDArray:
-        """Distance over which what remains acts, ``(n,)``: its work over the largest tension.
-
-        A range beyond the one simulated lengthens it by as much. A shorter one makes edges of
-        contact sharper, which hold more than the work that remains tells: the distance falls with a
-        power of the ratio of both, down to the shortest range on which that was measured.
-        """
-        log_length = np.log(adhesion_length)
-        nodes = np.log(self.simulated_length)
-        distance = np.exp(np.interp(log_length, nodes, np.log(self.simulated_distance)))
-        simulated_range = np.exp(np.interp(log_length, nodes, np.log(self.simulated_range)))
-        ratio = np.clip(range / simulated_range, SHORTEST_RATIO, 1.0)
-        shortened = distance * ratio**SHORTENING.spread.value
-        return shortened + np.maximum(range - simulated_range, 0.0)
 
     def _gains(self, adhesion_length: NDArray, range: NDArray, law: str) -> NDArray:
         """Energy gained in every state over the work of adhesion, ``(n, state)``."""
@@ -223,16 +203,22 @@ def _find_excess(range: NDArray, law: str, simulated_range: NDArray) -> NDArray:
 
 @dataclass(frozen=True, eq=False)
 class SimulatedHeights:
-    """States of contact on a map of heights and on its quarters."""
+    """States of contact on a map of heights and on its quarters, and pull-offs from the map."""
 
     whole: TrialStates
     quarters: tuple[TrialStates, ...]
+    pull_offs: PullOffs
     #: Energy of full contact of the map's waves up to the cutoff, per nominal area [length]
     resolved_energy: float
     pixel: float  #: of the grid simulated [length]
     independent_areas: float  #: of the map, see `standard_heights.StandardMap`
     #: Distances of the quarters from the map, of ranges and laws asked for before
     _distances: dict[tuple[float, str], float] = field(init=False, repr=False, default_factory=dict)
+
+    @property
+    def lost_ratio(self) -> float:
+        """Work of adhesion over the energy of full contact at which contact is nearly lost."""
+        return self.pull_offs.lost_length / self.whole.full_contact_energy
 
     def without_adhesion(self) -> Self:
         """Return the states that were simulated without adhesion, and full contact."""
@@ -321,9 +307,16 @@ class SimulatedHeights:
         shift = self.find_shift(adhesion_length, range, law, lacking)
         return self.whole.find_deepest(adhesion_length * np.exp(shift), range, law)
 
-    def distance(
-        self, adhesion_length: NDArray, range: NDArray, law: str, lacking: NDArray
+    def tension(
+        self,
+        adhesion_length: NDArray,
+        range: NDArray,
+        law: str,
+        lacking: NDArray,
+        eta: NDArray,
     ) -> NDArray:
-        """Distance over which what remains acts, ``(n,)``; arguments as of `share`."""
-        shift = self.find_shift(adhesion_length, range, law, lacking)
-        return self.whole.distance(adhesion_length * np.exp(shift), range / find_strength(law))
+        """Largest mean tension on separation over E*, ``(n,)``; arguments as of `share`."""
+        shift = self.find_shift(adhesion_length, range, law, lacking, eta)
+        maugis_range = range / find_strength(law)
+        held = self.pull_offs.find_held(adhesion_length * np.exp(shift), maugis_range)
+        return adhesion_length * held

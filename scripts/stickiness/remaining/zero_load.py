@@ -120,9 +120,9 @@ def descend(
     start: str | NDArray | adhesive.Adhesion,
     tol: float,
     max_iterations: int = 3000,
-    pressure: float = 0.0,
+    mean_gap: float | None = None,
 ) -> adhesive.Adhesion:
-    """State at a load in which a descent from a start ends; errors as of `adhesive.solve`."""
+    """State of zero load, or at a mean gap, in which a descent ends; errors as of `solve`."""
     with warnings.catch_warnings():
         # The cohesive zone may be as narrow as a pixel: energies need no more.
         warnings.simplefilter("ignore", PlausibilityWarning)
@@ -130,7 +130,8 @@ def descend(
             heights,
             sides,
             law,
-            pressure=pressure,
+            pressure=0.0 if mean_gap is None else None,
+            mean_gap=mean_gap,
             start=start,
             tol=tol,
             max_iterations=max_iterations,

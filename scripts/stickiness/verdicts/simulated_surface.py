@@ -15,6 +15,7 @@ from stickiness.measured.measurement import Measurement
 from stickiness.measured.topography import Topography
 from stickiness.remaining.errors import find_limits
 from stickiness.remaining.height_shape import HeightShape, keep_beyond_chance
+from stickiness.remaining.pull_offs import PullOffs
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.standard_heights import (
     FEWEST_POINTS,
@@ -39,8 +40,9 @@ STATE_VARIABLES = {
     "simulated_length": ("simulated_length", ("part", "simulation")),
     "simulated_range": ("simulated_range", ("part", "simulation")),
     "simulated_share": ("simulated_share", ("part", "simulation")),
-    "simulated_distance": ("simulated_distance", ("part", "simulation")),
 }
+#: The same by the fields of `PullOffs`, of the whole map.
+PULL_OFF_VARIABLES = {field: f"pulled_{field}" for field in ("length", "range", "tension", "area")}
 
 
 def simulate_surface(
@@ -51,7 +53,8 @@ def simulate_surface(
     Returns
     -------
     Dataset or None
-        The variables of `STATE_VARIABLES`, for the whole map and its quarters, and the heights as
+        The variables of `STATE_VARIABLES`, for the whole map and its quarters, those of
+        `PULL_OFF_VARIABLES`, and the heights as
         they are simulated, so that other solids need no file of an instrument. None of a profile,
         of a map that lacks long waves of another measurement or has too few points, and if the
         simulation does not converge.
@@ -135,7 +138,7 @@ def _read_standard(data: xr.Dataset) -> StandardHeights:
 
 
 def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
-    """Variables of `STATE_VARIABLES` and of the grid; `read_simulated` reads them."""
+    """Variables of states, of pull-offs and of the grid; `read_simulated` reads them."""
     parts = (simulated.whole, *simulated.quarters)
     dataset = xr.Dataset(
         {
@@ -148,6 +151,8 @@ def tabulate_simulated(simulated: SimulatedHeights) -> xr.Dataset:
         stacked = _stack([getattr(part, field) for part in parts])
         dataset[name] = dimensions, stacked.astype("i1") if stacked.dtype == bool else stacked
         dataset[name].encoding = {"zlib": True}
+    for field, name in PULL_OFF_VARIABLES.items():
+        dataset[name] = "pull", getattr(simulated.pull_offs, field)
     return dataset
 
 
@@ -189,6 +194,9 @@ def read_simulated(data: xr.Dataset) -> SimulatedHeights | None:
     return SimulatedHeights(
         whole=whole,
         quarters=tuple(quarters),
+        pull_offs=PullOffs(
+            **{field: data[name].values for field, name in PULL_OFF_VARIABLES.items()}
+        ),
         resolved_energy=float(data.resolved_energy),
         pixel=float(data.simulated_pixel),
         independent_areas=float(data.independent_areas),

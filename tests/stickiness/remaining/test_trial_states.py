@@ -1,24 +1,17 @@
 """What remains on given heights, by simulated states, against an independent minimiser."""
 
-from dataclasses import replace
-from types import SimpleNamespace
-
 import numpy as np
 import pytest
 from references.energy_minimiser import find_full_contact_energy, minimise
 
 from stickiness import adhesive, surface
-from stickiness.remaining import height_simulation
-from stickiness.remaining.calibration import find_spread
 from stickiness.remaining.height_simulation import (
     find_trial_states,
     simulate_heights,
     simulate_standard,
 )
-from stickiness.remaining.measurement import measure
 from stickiness.remaining.standard_heights import standardise
 from stickiness.spectrum import SelfAffine
-from stickiness.traction_laws import Exponential
 
 N = 64
 WAVES = 2
@@ -145,63 +138,6 @@ def test_states_bound_a_law_with_a_tail(simulated, energy_ratio):
     assert 0.85 * share - 0.01 < low <= share + 2e-4
 
 
-@pytest.mark.parametrize("strength", [1e-3, 0.11, 0.62, 1.0, 7.3])
-@pytest.mark.parametrize("gain", [1.0, 1.6])
-def test_a_pull_off_is_found_to_5_percent(monkeypatch, strength, gain):
-    """Also where a state that is strained more withstands more, up to a `gain` as much."""
-
-    def adhere(cell, law, starts, pressure):
-        (start,) = starts
-        tension = -pressure
-        is_close = tension < 1.1 * start.tension and tension <= gain * strength
-        holds = tension <= strength or is_close
-        return iter([SimpleNamespace(tension=tension)] if holds else [])
-
-    monkeypatch.setattr(height_simulation._Cell, "adhere", adhere)
-    state = SimpleNamespace(law=Exponential(1.0, 1.0), rms_height=1.0, tension=0.0)
-    found = height_simulation._Cell(None, None, None).pull_off(state, 1.0)
-    assert found == pytest.approx(gain * strength, rel=0.05)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("kind", ["Gaussian", "tops cut"])
-def test_the_distance_is_that_of_the_simulated_pull_off(kind):
-    heights = make_heights(kind)
-    states = find_trial_states(heights, 1.0)
-    length = states.simulated_length[-4]
-    range_ = states.simulated_range[-4]
-    law = adhesive.Exponential(length, range_)
-    pulled = measure(heights, 1.0, law, squeeze=0.02, half_grid=False, steps=40, tol=1e-3)
-    (share,) = states.share(np.array([length]), np.array([range_]))
-    (distance,) = states.distance(np.array([length]), np.array([range_]))
-    assert length * share / distance == pytest.approx(pulled.pull_off, rel=0.08)
-
-
-def test_a_longer_range_lengthens_the_distance_by_as_much(simulated):
-    _, states = simulated
-    distances = np.linspace(0.01, 0.02, len(states.simulated_length))
-    states = replace(states, simulated_distance=distances)
-    lengths = states.simulated_length
-    ranges = states.simulated_range
-    np.testing.assert_allclose(states.distance(lengths, ranges), distances)
-    np.testing.assert_allclose(states.distance(lengths, 4 * ranges), distances + 3 * ranges)
-
-
-def test_a_shorter_range_shortens_the_distance_as_far_as_that_was_measured(simulated):
-    _, states = simulated
-    lengths = states.simulated_length
-    distances = np.linspace(0.01, 0.02, len(lengths))
-    states = replace(states, simulated_distance=distances)
-
-    def find_ratio(factor):
-        return states.distance(lengths, factor * states.simulated_range) / distances
-
-    exponent = find_spread("states", "shortening").value
-    np.testing.assert_allclose(find_ratio(0.5), 0.5**exponent)
-    np.testing.assert_allclose(find_ratio(0.36), 0.36**exponent)
-    np.testing.assert_allclose(find_ratio(0.01), 0.36**exponent)
-
-
 def test_contact_without_adhesion_bounds_less(gaussian):
     pressed = gaussian.without_adhesion()
     length = np.array([0.6 * gaussian.whole.full_contact_energy])
@@ -280,7 +216,7 @@ def test_thinned_maps_keep_their_flat_tops():
     rough = SelfAffine(hurst=0.5, q0=4 * np.pi, q1=64 * np.pi, h_rms=1.0)
     heights = surface.synthesise(rough, n=128, length=1.0, seed=5)
     heights = np.where(heights > -0.3, -0.3 + 0.05 * (heights + 0.3), heights)
-    truth = find_trial_states(heights, 1.0, pull=False)
+    truth = find_trial_states(heights, 1.0)
     simulated = simulate_heights(heights, (1.0, 1.0), most_points=64)
     lacking = simulated.resolved_energy / simulated.whole.full_contact_energy - 1
     assert lacking == pytest.approx(0.0, abs=0.03)
@@ -298,7 +234,7 @@ def test_thinned_maps_keep_their_flat_tops():
 
 def test_surfaces_that_touch_at_the_summit_hold_by_a_long_range_at_any_modulus():
     heights = make_heights("Gaussian")
-    states = find_trial_states(heights, 1.0, pull=False)
+    states = find_trial_states(heights, 1.0)
     range_ = 3 * heights.std()
     rigid = np.mean(np.exp(-(heights.max() - heights) / range_))
     stiff = np.array([1e-6 * states.full_contact_energy])
@@ -311,7 +247,7 @@ def test_states_keep_a_picture_of_their_gaps(simulated):
     assert states.gap_bin is None
     with pytest.raises(ValueError, match="not kept"):
         states.find_gap(0)
-    kept = find_trial_states(heights, 1.0, pull=False, pictured=heights.shape)
+    kept = find_trial_states(heights, 1.0, pictured=heights.shape)
     for index, bins in enumerate(kept.gap_bin):
         counts = np.bincount(bins.ravel(), minlength=kept.gap_share.shape[1])
         np.testing.assert_allclose(counts / bins.size, kept.gap_share[index], rtol=1e-12)

@@ -71,7 +71,7 @@ def test_contact_on_a_thin_layer_is_made_at_longer_ranges():
     rough = SelfAffine(hurst=0.8, q0=1.0, q1=8.0, h_rms=1.0)
     heights = surface.synthesise(rough, n=64, length=2 * LENGTH, seed=1)
     layer = Layer(0.2, 0.5)
-    states = find_trial_states(heights, 2 * LENGTH, solid=layer, pull=False)
+    states = find_trial_states(heights, 2 * LENGTH, solid=layer)
     law = Exponential(adhesion_length=0.5 * states.full_contact_energy, range=0.2)
     bound = states.share(np.array([law.adhesion_length]), np.array([law.range]))[0]
     share = zero_load.share_at_zero_load(heights, 2 * LENGTH, law, solid=layer, tol=1e-3)
