@@ -36,7 +36,7 @@ PAGES = {
         "main > :not(h1, #contact, #contact + figure){ display: none !important }",
     ),
 }
-FIGURES = ("fig11", "fig12", "fig13", "limits")
+FIGURES = ("fig11", "fig12", "fig13", "fig14", "limits")
 
 
 def shot(browser: str, page: Path, height: int, hidden: str) -> Image.Image:

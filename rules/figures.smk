@@ -1,7 +1,7 @@
-# The paper's six figures, panel by panel, and seven on what the models are good for: 7 the DMT sum,
+# The paper's six figures, panel by panel, and eight on what the models are good for: 7 the DMT sum,
 # 8 the theory, 9 the criteria, 10 attraction at the edges of contact, 11 how much adhesion remains, 12
-# what of it heights decide, 13 what remains with sharp edges. scripts/common/paper.py
-# lists the parameters of the paper.
+# what of it heights decide, 13 what remains with sharp edges, 14 area and gaps of Persson's theory.
+# scripts/common/paper.py lists the parameters of the paper.
 
 
 MAGNIFICATIONS = [ROLES.narrow_band, ROLES.middle_band, ROLES.broad_band]
@@ -64,6 +64,12 @@ FIGURE_INPUTS = {
     "fig11": {"table": REMAINING_TABLE},
     "fig12": {"compared": f"{RESULTS}/remaining/heights.nc"},
     "fig13": {"table": REMAINING_TABLE},
+    "fig14": {
+        "ensembles": several(
+            "contact/ensembles/{case}.nc", case=[ROLES.middle_band, ROLES.wide_cell]
+        ),
+        "lattices": several("persson/lattice/{case}.nc", case=[ROLES.middle_band, ROLES.wide_cell]),
+    },
 }
 FIGURES = list(FIGURE_INPUTS)
 

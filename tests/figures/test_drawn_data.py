@@ -23,6 +23,7 @@ from figures import (
     plot_fig9,
     plot_fig10,
     plot_fig13,
+    plot_fig14,
 )
 from stability import plot_stability
 from stickiness import error_budget as budget
@@ -338,6 +339,20 @@ def test_figure_10b_shades_the_error_of_verdicts(ax, edges):
     for index, factor in enumerate((equivalent_sphere.ERROR_WEAK, equivalent_sphere.ERROR_STRONG)):
         _, low, high = band_ends(ax, index)
         np.testing.assert_allclose([low, high], [[1 / factor] * 2, [factor] * 2])
+
+
+def test_figure_14_draws_theory_beside_simulation(ax):
+    loads = [0.01, 0.1]
+    case = {"hurst": 0.8, "magnification": 32.0, "window": 4}
+    ensemble = dataset({"pressure": loads}, {"mean_gap_mean*": [2.0, 1.0]}, **case)
+    values = np.multiply.outer(FACTORS, [2.5, 1.25])
+    lattice = dataset({"variant": VARIANTS, "pressure": loads}, {"mean_gap": values})
+    plot_fig14.draw_means(ax, "mean_gap", [ensemble], [lattice])
+    drawn(ax, loads, [2.0, 1.0], marker="o", color=plotting.BLUE)
+    drawn(ax, loads, [2.5, 1.25], marker="None", color=plotting.BLUE)
+    assert_bars(ax, [2.0, 1.0])
+    _, low, high = band_ends(ax)
+    np.testing.assert_allclose([low, high], [[2.5, 1.25], [3.0, 1.5]])
 
 
 def test_lines_of_the_trade_are_errors_against_costs(ax):

@@ -1,91 +1,71 @@
-"""The theory guide: its worked example is that of the code, and its equations have numbers."""
+"""The theory guide: its worked examples are those of the code, and its equations have numbers."""
 
 import re
-from pathlib import Path
 
-import numpy as np
 import pytest
+from helpers import worked_examples
+from helpers.worked_examples import THEORY, compute, compute_layer, read_table
 
-from stickiness.remaining import predict
 from stickiness.remaining.calibration import find_spread
-from stickiness.remaining.roughness import Roughness
-from stickiness.remaining.share import tough_area, tough_share, weak_share
-from stickiness.spectrum import SelfAffine
 
-THEORY = Path(__file__).parents[2] / "docs/theory"
 CHAPTERS = sorted(THEORY.glob("*.md"))
-ADHESION = (THEORY / "adhesion.md").read_text(encoding="utf-8")
-WALL = SelfAffine(hurst=0.8, q0=2 * np.pi / 100e-6, q1=2 * np.pi / 10e-9, h_rms=1e-6)
-WAFER = SelfAffine(
-    hurst=0.8, q0=2 * np.pi / 10e-6, q_rolloff=2 * np.pi / 1e-6, q1=2 * np.pi / 1e-9, h_rms=1.2e-9
-)
-EXAMPLES = (  # spectrum, law, E* [Pa] and range [m]
-    (WALL, "exponential", 0.27e6, 0.3e-9),
-    (WALL, "exponential", 2.7e6, 0.3e-9),
-    (WAFER, "van_der_waals", 85e9, 0.165e-9),
-)
-WORK = 0.05
 ROUNDING = 6e-4  # of numbers with four digits
 
 
-def compute_example(spectrum, law, modulus, range_):
-    """Numbers of an example in the units of the page, by the first cell of their row."""
-    length = WORK / modulus
-    longest = spectrum.q_rolloff or spectrum.q0
-    rough = Roughness(
-        h_rms=spectrum.h_rms,
-        q0=longest,
-        elastic_energy=spectrum.elastic_energy(),
-        q1=spectrum.q1,
-        rms_slope=spectrum.rms_slope,
-        law=law,
-    )
-    ratio = length / spectrum.elastic_energy()
-    onset = rough.onset(length, range_)
-    found = predict(spectrum, adhesion_length=length, range=range_, law=law)
-    distance = rough.distance(length, range_)
-    return {
-        r"$U_\mathrm{full}$ [J/m²]": modulus * spectrum.elastic_energy(),
-        r"$h'_\mathrm{rms}$": spectrum.rms_slope,
-        r"$x$": ratio,
-        r"$z$": rough.zone(length, range_),
-        r"$k_n$": rough.narrowest_wave(length, range_),
-        r"$N$": 3.7 * onset / (1 - onset),
-        r"$x_0$": onset,
-        r"$s$": 0.74 * onset * np.sqrt(1 - onset),
-        r"$A_\mathrm{t}$": tough_area(ratio, onset),
-        r"$S_\mathrm{t}$": tough_share(ratio, onset),
-        r"$S_\mathrm{w}$": weak_share(ratio, range_ / spectrum.h_rms, rough.load_scale, law),
-        r"$S$": found.separation,
-        r"$\mu$": found.tabor,
-        r"$T$": spectrum.h_rms * ratio * found.separation / distance,
-        r"$\ell$ [µm]": 1e6 * distance,
-        r"$\sigma_\mathrm{po}$ [Pa]": modulus * found.pull_off,
-        r"$E^\ast_\mathrm{th}$ [MPa]": 1e-6 * WORK / rough.threshold(range_, 0.1),
-    }
+def read_chapter(name):
+    return (THEORY / f"{name}.md").read_text(encoding="utf-8")
 
 
-def read_number(text):
-    """A number as the page writes it, such as 3.054 × 10⁻⁸."""
-    digits, _, power = text.partition(" × 10")
-    plain = power.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-"))
-    return float(digits) * 10.0 ** int(plain or 0)
-
-
-def test_the_worked_example_is_that_of_the_code():
-    table = ADHESION.partition("## Worked example")[2].partition("## In the code")[0]
-    rows = [line.strip("| ").split(" | ") for line in table.splitlines() if line.startswith("| $")]
-    on_page = {name: [read_number(cell) for cell in cells] for name, _, *cells in rows}
-    computed = [compute_example(*example) for example in EXAMPLES]
+@pytest.mark.parametrize("place", worked_examples.EXAMPLES, ids=" ".join)
+def test_worked_examples_are_those_of_the_code(place):
+    """Where the code has changed, tests/helpers/worked_examples.py writes their numbers anew."""
+    on_page = read_table(place)
+    computed = compute(place)
     assert on_page.keys() == computed[0].keys()
     for name, numbers in on_page.items():
-        expected = [float(example[name]) for example in computed]
+        expected = [example[name] for example in computed]
         assert numbers == pytest.approx(expected, rel=ROUNDING), name
 
 
+@pytest.mark.parametrize("number", [0.0, -1.0, 2.0, 39952.4, 3.0544e-8, 0.07271, 839.22, 1.00008])
+def test_numbers_of_worked_examples_are_read_as_they_are_written(number):
+    text = worked_examples.write_number(number)
+    assert worked_examples.read_number(text) == pytest.approx(number, rel=5e-4)
+
+
+def test_what_another_energy_ratio_in_one_over_x_would_cost():
+    """Springs on the layer of the second column, with 1/x in place of that of the springs."""
+    (factor,) = re.findall(r"modulus threshold (\d\.\d+) times as high", read_chapter("layers"))
+    thickness, poisson, _ = worked_examples.LAYERS[1]
+    threshold = 1e6 * compute_layer(*worked_examples.LAYERS[1])[r"$E^\ast_\mathrm{th}$ [MPa]"]
+    other = compute_layer(thickness, poisson, float(factor) * threshold)
+    springs = other[r"$S_\mathrm{spring}$"] * other[r"$x_\mathrm{s}/x$"]
+    share = other[r"$(1-c_0)_+^2$"] * springs  # no other state holds
+    assert share == pytest.approx(worked_examples.WANTED, rel=0.02)
+
+
 def test_the_factor_of_the_pull_off_is_that_of_the_limits():
-    (power,) = re.findall(r"e\^\{(0\.\d+)\}, \\frac\{s_Lw\}", ADHESION)
+    (power,) = re.findall(r"e\^\{(0\.\d+)\}, \\frac\{s_Lw\}", read_chapter("adhesion"))
     assert float(power) == find_spread("spectrum", "ln_tension").value
+
+
+def test_ratios_of_the_dmt_sum_are_those_of_the_findings():
+    """The chapter has sum over simulation with limits, the findings the inverse with an error."""
+    findings = (THEORY.parent / "findings.md").read_text(encoding="utf-8")
+    cell = r" ([\d.]+) ± ([\d.]+) \|"
+    found = re.findall(rf"^\| ([\d.]+) \|{cell}{cell}{cell}$", findings, re.M)
+    limited = r" ([\d.]+), ([\d.]+) to ([\d.]+) \|"
+    stated = re.findall(rf"^\| ([\d.]+) \|{limited}{limited}$", read_chapter("criteria"), re.M)
+    assert len(stated) == len(found) == 6
+    for (range_, *at_gap_and_area), (same_range, *ratios) in zip(stated, found, strict=True):
+        area, area_error, gap, gap_error, *_ = map(float, ratios)
+        expected = [
+            1 / each
+            for value, error in ((gap, gap_error), (area, area_error))
+            for each in (value, value + error, value - error)
+        ]
+        assert range_ == same_range
+        assert list(map(float, at_gap_and_area)) == pytest.approx(expected, rel=0.05)
 
 
 @pytest.mark.parametrize("chapter", CHAPTERS, ids=lambda path: path.stem)

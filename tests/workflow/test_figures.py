@@ -16,6 +16,7 @@ from figures import (
     plot_fig9,
     plot_fig10,
     plot_fig12,
+    plot_fig14,
 )
 from stickiness import datasets
 from stickiness.pages import plotting
@@ -55,6 +56,10 @@ def draw_9a(ax, compared):
 
 def draw_12(ax, compared):
     plot_fig12.draw_shares(ax, compared.sel(skewness=1.5))
+
+
+def draw_14b(ax, ensemble, lattice):
+    plot_fig14.draw_means(ax, "mean_gap", [ensemble], [lattice])
 
 
 def find_loading(loop):
@@ -120,6 +125,14 @@ PANELS = {
         draw_12,
         ["remaining/heights.nc"],
         lambda d: [d[name].sel(skewness=1.5) for name in ("theory", "states", "simulated")],
+    ),
+    "14B": (
+        draw_14b,
+        [f"contact/ensembles/{CASE}", f"persson/lattice/{CASE}"],
+        lambda ensemble, lattice: [
+            ensemble.mean_gap_mean,
+            lattice.mean_gap.sel(variant=VARIANT),
+        ],
     ),
 }
 

@@ -83,11 +83,6 @@ def _of(*solids: str, unit: Callable[[Roughness], ArrayLike]) -> Callable[[Rough
     return lambda rough: np.where(np.isin(rough.solid, solids), unit(rough), 0.0)
 
 
-def _flow(rough: Roughness) -> ArrayLike:
-    """How far material has to flow along a layer."""
-    return rough.flow
-
-
 def _measure_bending(rough: Roughness) -> NDArray:
     """Logarithm of what a film takes of a layer's energy by bending."""
     return np.log(np.divide(rough.rigid_base_energy, rough.elastic_energy))
@@ -95,9 +90,14 @@ def _measure_bending(rough: Roughness) -> NDArray:
 
 # Of ln of the work of adhesion, by the solid. Layers err as half-spaces do, but where the material
 # has to flow along them.
-THIN = ErrorLaw("thin", "ln_work", "solids.csv", unit=_of("layer", "film", unit=_flow), label="thin layer")
-FILM = ErrorLaw("film", "ln_work", "solids.csv", unit=_of("film", unit=_measure_bending), label="film")
-SKIN = ErrorLaw("skin", "ln_work", "solids.csv", unit=_of("skin", unit=lambda _: 1.0), label="skin")
+THIN, FILM, SKIN = (
+    ErrorLaw(kind, "ln_work", "solids.csv", unit=unit, label=label)
+    for kind, label, unit in (
+        ("thin", "thin layer", _of("layer", "film", unit=lambda rough: rough.flow)),
+        ("film", "film", _of("film", unit=_measure_bending)),
+        ("skin", "skin", _of("skin", unit=lambda _: 1.0)),
+    )
+)
 #: Where waves were not measured, to which a skin is stiff. How much of the energy they are thought
 #: to hold tells little of the error.
 COATED = ErrorLaw(

@@ -100,8 +100,7 @@ def find_thickness(meeting: Meeting) -> Limited[float]:
         layers = [replace(solid, thickness=each) for each in thickness]
         by_layer = [find_columns(family, layer, rough.q0) for layer in layers]
         columns: dict[str, Any] = {
-            name: np.array([column[name] for column in by_layer])
-            for name in OF_LAYER
+            name: np.array([column[name] for column in by_layer]) for name in OF_LAYER
         }
         changed = replace(
             pair,

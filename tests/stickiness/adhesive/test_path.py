@@ -1,6 +1,7 @@
 """Loading and unloading curves: closed forms of flats, spheres and waves, loops, jumps."""
 
 import itertools
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -37,6 +38,17 @@ def pull_off(heights, length, law, expected, start=None):
     return held
 
 
+def assert_stated(tabor, points, force, closed_form, law):
+    """The theory guide states this force and that of Maugis and Dugdale, over pi R w."""
+    chapter = Path("docs/theory/contact.md").read_text(encoding="utf-8")
+    start = rf"| $\mu={tabor}$ | {law} | {points} | "
+    (row,) = (line for line in chapter.splitlines() if line.startswith(start))
+    simulated, exact, *_ = row.removeprefix(start).split(" | ")
+    unit = -np.pi * RADIUS
+    assert force / unit == pytest.approx(float(simulated), rel=2e-3)
+    assert closed_form / unit == pytest.approx(float(exact), rel=5e-4)
+
+
 def bumps(n):
     """Four waves: smooth, with several summits of unequal height."""
     x = 2 * np.pi * np.arange(n) / n
@@ -63,6 +75,8 @@ def test_weakly_adhesive_sphere_pulls_off_as_maugis_and_dmt_have_it():
     exact = references.MaugisSphere(RADIUS, law.adhesion_length, law.range)
     found = pull_off(paraboloid(96), 1.0, law, exact.pull_off.force)
     assert found == pytest.approx(exact.pull_off.force, rel=0.01)
+    work = law.adhesion_length
+    assert_stated(0.1, 96, found / work, exact.pull_off.force / work, "Maugis")
     # DMT's limit is still 3 % away at this Tabor parameter, by the closed form too
     limit = references.DMTSphere(RADIUS, law.adhesion_length).pull_off_force
     assert found == pytest.approx(limit, rel=0.04)
@@ -85,6 +99,11 @@ def test_sphere_between_the_limits_pulls_off_as_maugis_has_it():
     coarse, fine = (pull_off(paraboloid(n), 1.0, law, expected) for n in (64, 128))
     assert abs(fine - expected) < 0.6 * abs(coarse - expected)
     assert 2 * fine - coarse == pytest.approx(expected, rel=0.01)
+    work = law.adhesion_length
+    assert_stated(1, 64, coarse / work, expected / work, "Maugis")
+    assert_stated(1, 128, fine / work, expected / work, "Maugis")
+    limit = (2 * fine - coarse) / work
+    assert_stated(1, "64 and 128, extrapolated", limit, expected / work, "Maugis")
     # area-load curve: loading lags behind and unloading ahead of the closed form
     loads = np.array([0.5, 0.0, -0.5]) * abs(expected)
     heights = paraboloid(128)
@@ -118,6 +137,10 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
     # the zone of attraction is one pixel wide on the fine grid, half a pixel on the coarse one
     assert abs(fine - expected) < 0.2 * abs(coarse - expected)
     assert fine == pytest.approx(expected, rel=0.04)
+    work = law.adhesion_length
+    maugis = references.MaugisSphere(RADIUS, work, law.range).pull_off.force
+    assert_stated(5, 128, coarse / work, maugis / work, "exponential")
+    assert_stated(5, 256, fine / work, maugis / work, "exponential")
     loading = adhesive.solve(paraboloid(256), 1.0, law, pressure=0.0)
     contact = exact.contact_radius(0.0)
     radius, inner = (
