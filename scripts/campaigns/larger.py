@@ -39,7 +39,7 @@ COLUMNS = OF_TOPOGRAPHY | {
     "found_hurst": "Hurst exponent fitted to the patch",
     "found_rolloff": "wave number of the roll-off fitted to the patch",
     "is_simulated": "1 where states simulated on the patch decide",
-    "longer": "share of the energy in waves longer than the patch",
+    "longer": "mean share of the energy in waves longer than the patch",
     "shape": "of the heights, as a verdict takes it from their skewness",
     "unevenness": "of the roughness from place to place",
     **{
@@ -85,14 +85,14 @@ def judge_patch(patch, side, contact, shortest, range_, thresholds):
         logging.info("not judged: %s", surface.not_judged)
         return {"skewness": skewness, "is_judged": 0, "is_simulated": 0}
     added = surface.family.energy() / scanned.family.energy() - 1
-    longer = float(np.median(np.maximum(added, 0.0)))
+    added = np.maximum(added, 0.0)
     row = {
         "skewness": skewness,
         "is_judged": 1,
         "found_hurst": float(surface.data.hurst),
         "found_rolloff": float(surface.data.get("q_rolloff", np.nan)) * LENGTH_UNIT / Q0,
         "is_simulated": int(surface.simulated is not None),
-        "longer": longer / (1 + longer),
+        "longer": float(np.mean(added / (1 + added))),
         "shape": float(surface.data["shape"]),
         "unevenness": float(surface.data.unevenness),
     }
@@ -120,7 +120,9 @@ def judge_threshold(surface, log_length, name, range_):
     value, low, high = read_limited(judged.modulus_threshold)
     # The stiffer the material may be, the less adhesion it needs.
     moduli = {"value": value, "low": high, "high": low}
-    return {
-        f"{limit}_{name}": float(np.log(WORK_OF_ADHESION / (modulus * unit)))
-        for limit, modulus in moduli.items()
-    }
+    # A share that remains at any modulus has no end of its limits there.
+    with np.errstate(divide="ignore"):
+        return {
+            f"{limit}_{name}": float(np.log(WORK_OF_ADHESION / (modulus * unit)))
+            for limit, modulus in moduli.items()
+        }

@@ -24,7 +24,7 @@ from stickiness.criteria.registry import CRITERIA
 from stickiness.error_budget import ErrorComponent, not_applicable, with_budget
 from stickiness.pages.rendering import write_page
 from stickiness.remaining import errors, sphere
-from stickiness.remaining.errors import APPROACH, BALL, SUMMITS
+from stickiness.remaining.errors import BALL, PATH, SUMMITS
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 from stickiness.spectrum.kinds import SelfAffine
@@ -309,7 +309,7 @@ def predict_quantity(observation, pair, spheres):
     else:
         predicted = predict_remaining(pair)
         if quantity == "work_of_approach":
-            predicted[0] *= np.exp(APPROACH.spread.low)
+            predicted[0] *= np.exp(PATH.spread.low)
     if quantity.startswith("work_of"):
         predicted = predicted * pair.work_of_adhesion
     return predicted

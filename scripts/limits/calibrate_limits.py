@@ -22,19 +22,19 @@ SEED = 1  # of these
 UNRESOLVED_SHARES = {"10": 0.1, "30": 0.3}  # at which what lacks is calibrated, by column
 MOST_RATIO = 0.3  # of the range to that simulated, for a place between both bounds
 LEAST_ROOM = 0.005  # between both bounds of a share, for a place between them
-LEAST_UNLIKE = 0.1  # of what makes a scan unlike Gaussian heights
 SUMMITS = (4.0, 9.3, 20.0)  # independent heights in a zone one wave wide that are tried
 HARD = 1.0  # Tabor's parameter, from which on solids are soft
 MOST_OF_PIXEL = 3.0  # forces of one pixel, below which a sum over rigid solids is not resolved
 NEARLY_LEAST = 1.05  # of errors: factor within which they are taken as equal
+UNLIMITED = "limits have no end on that side"
 ERROR_VARIABLES = {
     "row": "simulation",
     "kind": "by what is predicted",
     "group": "of one kind",
     "required": "size of the error with which limits hold a simulation",
     "left_out": "size by the simulations of all other surfaces",
-    "limit": "error by the limits: of a share, of ln w, of balls of ln of the force",
-    "needed": "that error with which limits hold a simulation",
+    "limit": ("1", "error by the limits: of S, of ln w, of balls of ln of the force", UNLIMITED),
+    "needed": ("1", "that error with which limits hold a simulation", UNLIMITED),
     "distance": ("1", "rms distance of the quarters of a map in ln w", "no map"),
     "share": ("1", "at which thresholds of a map are compared", "no map"),
     "tabor": ("1", "Tabor's parameter of a ball", "no ball"),
@@ -52,15 +52,14 @@ COMMENT = f"""\
 # ln_work, the error of the logarithm of the work of adhesion (of "skewness" over the logarithm of
 # its factor, of "thin" over the flow, of "film" over the logarithm of what bending takes of the
 # energy, of "patch" over the rms distance of the quarters' thresholds, of "larger" contacts over
-# the root of the doublings of the scan, and of "larger non-Gaussian" ones over that times what
-# makes the scan unlike Gaussian heights); ln_tension and ln_path, of simulated over predicted ones,
-# the low limit of a path for making contact and the high one for breaking it (tensions of "states"
-# over a factor that grows with the work of adhesion at which contact is nearly lost); place, of a
-# share between both bounds, over w/U_full (1 - ratio of ranges)^2; unresolved, ln w beyond the
-# energy that lacks, over the root of ln(1 + lacking energy) and the cube of the share lost;
-# ln_force, of balls, over the root of ln of the factor that roughness takes from the force;
-# summits, independent heights in a zone one wave wide, low and high with errors within 5 % of the
-# least.
+# the share of the energy in longer waves times what makes the scan unlike Gaussian heights);
+# ln_tension and ln_path, of simulated over predicted ones, the low limit of a path for making
+# contact and the high one for breaking it (tensions of "states" over a factor that grows with the
+# work of adhesion at which contact is nearly lost); place, of a share between both bounds, over
+# w/U_full (1 - ratio of ranges)^2; unresolved, ln w beyond the energy that lacks, over the root of
+# ln(1 + lacking energy) and the cube of the share lost; ln_force, of balls, over the root of ln of
+# the factor that roughness takes from the force; summits, independent heights in a zone one wave
+# wide, low and high with errors within 5 % of the least.
 """
 
 
@@ -70,7 +69,7 @@ def main(job):
         *fit_theory(tables),
         fit_size(comparisons.of_coated(tables["coated"])),
         fit_size(comparisons.of_patches(tables["patches"])),
-        *fit_larger(tables["larger"]),
+        fit_size(comparisons.of_larger(tables["larger"])),
         fit_balls(tables["balls"]),
     ]
     rows = [describe_size(size) for size in sizes]
@@ -189,7 +188,7 @@ def take_middle(error):
 def list_errors(size):
     """Errors of all rows, as `ERROR_VARIABLES` says."""
     comparison = size.comparison
-    return pd.DataFrame(
+    rows = pd.DataFrame(
         {
             "kind": comparison.law.kind,
             "group": comparison.groups,
@@ -202,6 +201,7 @@ def list_errors(size):
             "tabor": comparison.column("tabor", np.nan),
         }
     )
+    return rows.replace(np.inf, np.nan)
 
 
 def fit_theory(tables):
@@ -212,15 +212,6 @@ def fit_theory(tables):
         *comparisons.of_solids(tables["solids"]),
     )
     return [fit_size(each) for each in compared]
-
-
-def fit_larger(larger):
-    """Limits of what scans say of larger contacts: of Gaussian heights, and of others."""
-    scans = comparisons.of_larger(larger)
-    is_unlike = scans.unit * scans.rows.unlike > LEAST_UNLIKE
-    of_gaussian = fit_size(scans.where(~is_unlike))
-    size = of_gaussian.size
-    return of_gaussian, fit_size(comparisons.of_unlike(scans.where(is_unlike), (0.0, -size, size)))
 
 
 def fit_balls(balls):

@@ -423,24 +423,17 @@ def of_patches(patches):
 
 
 def of_larger(larger):
-    """Thresholds of scans for larger contacts; the error goes with the root of the doublings."""
-    rows = larger.dropna(subset=["value_10", "whole_threshold_10"])
+    """Thresholds of scans for larger contacts, where the share does not remain at any work."""
+    rows = larger[np.isfinite(larger.value_10) & np.isfinite(larger.whole_threshold_10)]
     rows = rows.assign(
         simulated=rows.whole_threshold_10,
         value=rows.value_10,
         low=rows.low_10,
         high=rows.high_10,
-        unit=errors.LARGER.unit(rows.parts),
-        unlike=find_unlikeness(rows.unevenness, rows["shape"]),
+        unit=errors.LARGER.unit(rows.longer, find_unlikeness(rows.unevenness, rows["shape"]))
+        + SMALLEST,
     )
     return Comparison(errors.LARGER, rows)
-
-
-def of_unlike(scans, of_gaussian):
-    """The same with the error of Gaussian heights, and what others add as they are unlike these."""
-    limited = scans.limit(of_gaussian)._asdict()
-    unit = errors.UNLIKE.unit(scans.rows.parts, scans.rows.unlike)
-    return replace(scans, law=errors.UNLIKE, rows=scans.rows.assign(**limited, unit=unit))
 
 
 def of_coated(coated, is_skin=True):

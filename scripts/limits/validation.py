@@ -18,7 +18,7 @@ from stickiness.accuracy import error_models
 from stickiness.formatting import number, percent, table
 from stickiness.limited import Limited
 from stickiness.pages.rendering import make_environment
-from stickiness.remaining.errors import LARGER, PATH, find_states_error
+from stickiness.remaining.errors import PATH, find_states_error
 from stickiness.remaining.roughness import Roughness
 from stickiness.remaining.trial_states import DEFAULT_SHARE
 
@@ -127,11 +127,9 @@ def compare_thresholds(tables):
         ("thin layer on a map", "simulated states", False),
     ):
         yield Compared.of(name, by, comparisons.of_coated(tables["coated"], is_skin))
-    of_gaussian = LARGER.spread
     for family, rows in tables["larger"].groupby("family"):
         name = f"scan for a larger contact, {family.replace('_', ' ')}"
-        scans = comparisons.of_unlike(comparisons.of_larger(rows), of_gaussian)
-        yield Compared.of(name, "scan", scans)
+        yield Compared.of(name, "scan", comparisons.of_larger(rows))
 
 
 def compare_works(remaining):

@@ -143,8 +143,10 @@ def test_larger_contacts_are_judged_both_ways():
     is_skewed = known.family.isin(["skewed_up", "skewed_down"])
     assert known.unevenness[known.family == "gaussian"].median() < 0.05
     assert known.unevenness[is_skewed].median() > 0.2
-    # Where the spectrum shows no roll-off within a patch, none is found.
-    assert known.found_rolloff[known.waves < 4 * known.parts].isna().all()
+    # Where the spectrum shows no roll-off within a patch, none is found. With a direction, most
+    # waves of a ring are weak.
+    is_hidden = (known.waves < 4 * known.parts) & (known.family != "ground")
+    assert known.found_rolloff[is_hidden].isna().all()
 
 
 def test_shares_on_coated_solids_rise_with_the_work():

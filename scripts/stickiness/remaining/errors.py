@@ -181,20 +181,14 @@ def find_needed_error(share: NDArray, missed: NDArray) -> NDArray:
 # Errors of contacts that are larger than a scan, and of balls.
 
 
-def weigh_doublings(ratio: ArrayLike) -> NDArray:
-    """Size of an error to which every doubling of the contact adds, over that of one doubling."""
-    return np.sqrt(np.maximum(np.log2(ratio), 0.0))
-
-
-#: Of Gaussian heights, by the side of the contact over that of the scan.
-LARGER = ErrorLaw("larger", "ln_work", "larger.csv", unit=weigh_doublings, label="larger contact")
-#: Of others, by how unlike these they are, too.
-UNLIKE = ErrorLaw(
-    kind="larger non-Gaussian",
+#: By the share of the energy in waves longer than the scan, and by how unlike Gaussian heights of
+#: even roughness those of the scan are. The draws of the longer waves hold Gaussian heights.
+LARGER = ErrorLaw(
+    kind="larger",
     quantity="ln_work",
     source="larger.csv",
-    unit=lambda ratio, unlikeness: weigh_doublings(ratio) * unlikeness,
-    label="larger, not Gaussian",
+    unit=lambda longer, unlikeness: longer * unlikeness,
+    label="larger contact",
 )
 #: Of ln of the force, by ln of the factor that roughness takes from it.
 BALL = ErrorLaw(
@@ -209,4 +203,4 @@ BALL = ErrorLaw(
 SUMMITS = ErrorLaw("ball", "summits", "balls.csv", unit=np.ones_like)
 
 #: Those with a name on pages, in their order there.
-SHOWN = (SHARE, SKEWNESS, THIN, FILM, SKIN, COATED, PATCH, LARGER, UNLIKE, BALL)
+SHOWN = (SHARE, SKEWNESS, THIN, FILM, SKIN, COATED, PATCH, LARGER, BALL)

@@ -216,7 +216,7 @@ def find_pull_offs(
     >>> pull_offs = find_pull_offs(egg_box, length=2 * np.pi)
     >>> tension = 0.1 * pull_offs.find_held(np.array([0.1]), range=np.array([0.1]))
     >>> print(f"{tension[0]:.3f}")
-    0.045
+    0.054
     """
     heights = grid("heights", heights)
     cell = _Cell(heights, check_length(length, heights.shape), solid)

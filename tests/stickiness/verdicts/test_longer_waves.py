@@ -7,6 +7,7 @@ import pytest
 
 from stickiness import Material, Surface, judge
 from stickiness.pages import plotting
+from stickiness.remaining.errors import LARGER
 from stickiness.solids import Layer
 from stickiness.spectrum import SelfAffine
 from stickiness.statistics import COVERS
@@ -14,7 +15,6 @@ from stickiness.surface import realised_spectrum, synthesise
 from stickiness.verdicts.longer_waves import (
     FIRST_WAVE,
     LongerWaves,
-    find_larger_error,
     find_unlikeness,
     lengthen,
 )
@@ -115,6 +115,20 @@ def test_a_rolloff_below_the_fit_is_seen_in_the_longest_waves():
         assert 0.7 < np.median(surface.family.energy()) / energy < 1.5
 
 
+def test_nothing_longer_than_half_the_scan_is_seen_in_the_longest_waves():
+    """The law would go on to a contact with two to four times as much energy."""
+    ended = SelfAffine(hurst=0.8, **BAND | {"q0": 8 * BAND["q0"]})
+    ratios = []
+    for seed in (1, 2, 3, 4):
+        heights = synthesise(ended, n=N, length=SIDE, seed=seed)
+        resolved = 1.3 * 2 * np.pi / ROUGH.q1
+        surface = Surface.from_heights(heights[:128, :128], SIDE / 4, contact=SIDE, fit_to=resolved)
+        assert "q_rolloff" not in surface.data
+        energy = realised_spectrum(heights, SIDE).elastic_energy()
+        ratios.append(np.median(surface.family.energy()) / energy)
+    assert np.median(ratios) < 1.4
+
+
 def test_longer_waves_meet_a_layer_draw_by_draw():
     """A layer stiffens the longest waves most: limits contain the energy of the whole surface."""
     layer = Layer(5e-5, poisson=0.5)
@@ -176,24 +190,26 @@ def test_patches_tell_the_threshold_of_the_whole_surface():
             inside += [bool(contains.sel(surface=f"{parts}{SIDE}")) for parts in (2, 4, 8)]
             without += [bool(contains.sel(surface=f"{parts}None")) for parts in (2, 4, 8)]
     assert np.mean(inside) >= 0.9
-    assert np.mean(without) < 0.6, without
+    assert np.mean(without) < np.mean(inside) - 0.25, without
 
 
 def test_uneven_scans_tell_less_of_a_larger_contact(patch):
-    """Errors of every doubling add up, and a scan of even roughness has less of them."""
+    """The error goes with the energy in longer waves, and is none for Gaussian heights."""
     even = patch.data.assign(unevenness=0.0, shape=0.0).drop_vars("trial_energy")
     uneven = even.assign(unevenness=0.3)
     scan = float(patch.data.scan)
+    of_scan = read_family(even).energy()
 
     def find_added(times):
         energies = [read_family(lengthen(data, times * scan)).energy() for data in (even, uneven)]
-        return float(np.std(np.log(energies[1] / energies[0])))
+        longer = 1 - of_scan / np.maximum(energies[0], of_scan)
+        return float(np.std(np.log(energies[1] / energies[0]))), float(np.mean(longer))
 
-    added = find_added(2)
-    assert added == pytest.approx(find_larger_error(0.3, 2.0) / COVERS, rel=0.1)
-    assert find_added(16) == pytest.approx(2 * added)
-    assert find_added(1.001) < 0.1 * added
-    assert find_larger_error(0.3, 4.0) >= find_larger_error(0.0, 4.0)
+    added, longer = find_added(4)
+    assert longer > 0.2
+    assert added == pytest.approx(LARGER.half_width(longer, 0.3) / COVERS, rel=0.1)
+    assert added > 2 * find_added(1.001)[0]
+    assert LARGER.half_width(longer, 0.0) == 0
     assert find_unlikeness(0.3, -0.4) == pytest.approx(0.5)
 
 
@@ -210,4 +226,4 @@ def test_simulated_tops_tell_the_shape_of_the_heights(patch):
     assert longer["shape"].item() > surface.data["shape"].item()
     # Longer waves are halfway between heights of this shape and Gaussian ones.
     added = np.maximum(1 - surface.family.energy() / read_family(longer).energy(), 0)
-    assert longer["shape"].item() == pytest.approx(found.shape * (1 - np.median(added) / 2))
+    assert longer["shape"].item() == pytest.approx(found.shape * (1 - np.mean(added) / 2))
