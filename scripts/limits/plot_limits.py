@@ -34,7 +34,7 @@ def draw_kinds(ax, errors):
         drawn = rows.sample(min(MOST, len(rows)), random_state=1)
         x = place + rng.uniform(-SPREAD, SPREAD, len(drawn))
         draw_errors(ax, x, drawn)
-        low, middle, high = np.quantile(rows.limit, (0.25, 0.5, 0.75))
+        low, middle, high = rows.limit.quantile([0.25, 0.5, 0.75])
         ax.bar(place, high - low, 0.8, bottom=low, color=GREY, alpha=0.35, linewidth=0)
         ax.plot([place - 0.4, place + 0.4], [middle, middle], color="black")
         ax.text(place, HIGHEST, f"{100 * rows.is_inside.mean():.0f}", ha="center", fontsize=7)
