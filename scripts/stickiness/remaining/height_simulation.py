@@ -420,9 +420,10 @@ class _Cell:
             opening *= WIDER
             opened = pull(opening, opened)
             tensions.append(-opened.mean_pressure)
-        # Stiffer edges hold most before the first of these openings.
+        # Stiffer edges hold most before the first of these openings, which may have torn contact
+        # that is nearly lost: then the surfaces press there.
         opening = FIRST_OPENING
-        while max(tensions) == tensions[0] and opening > LEAST_OPENING:
+        while opening > LEAST_OPENING and (tensions[0] <= 0 or max(tensions) == tensions[0]):
             opening /= WIDER
             tensions.insert(0, -pull(opening, state).mean_pressure)
         return max(tensions)

@@ -50,6 +50,23 @@ def test_the_top_of_a_curve_of_tension_is_found_to_3_percent(monkeypatch, place)
     assert found == pytest.approx(1.0, rel=0.03)
 
 
+def test_the_top_is_found_before_an_opening_that_tears_contact(monkeypatch):
+    """Contact that is nearly lost holds up to a small opening; then summits press, and attract."""
+
+    def descend(cell, law, start, mean_gap):
+        opening = (mean_gap - state.mean_gap) / law.range
+        if opening < 0.4:
+            tension = 1 - (opening / 0.2 - 1) ** 2
+        else:
+            tension = 0.01 - 0.3 * np.exp(-opening) if opening < 20 else 0.001
+        return SimpleNamespace(mean_pressure=-tension)
+
+    monkeypatch.setattr(height_simulation._Cell, "descend", descend)
+    state = SimpleNamespace(law=Exponential(1.0, 2.0), mean_gap=0.3)
+    found = height_simulation._Cell(None, None, None).pull_off(state)
+    assert found == pytest.approx(1.0, rel=0.03)
+
+
 @pytest.mark.parametrize("family", FAMILIES)
 def test_last_bits_of_heights_move_no_pull_off(family):
     rng = np.random.default_rng(1)
