@@ -56,8 +56,8 @@ def count_failed_claims(results):
     [
         ("that sum overestimates the attraction 2.7 times", 2.7, 0.05, read_sum),
         (
-            "is within 25 % of five in six shares",
-            100 * 5 / 6,
+            "is within 25 % of six in seven shares",
+            100 * 6 / 7,
             1,
             read_heights("theory", ["Gaussian"], "within_quarter"),
         ),
