@@ -93,14 +93,11 @@ SMALL = {
     "heights": ("H0.5_zeta8_2x2", 2),
     "remaining": ("H0.8_zeta4_coarse", 1),
 }
-#: Of a path and of states, whose descents take other steps since: within 1 %, and jumps are counted
-#: anew.
-ROUGHLY = {"remaining": ("approach", "separation", "pull_off"), "heights": ("states",)}
+#: Of a path, which takes other steps since: within 1 %, and jumps are counted anew.
+ROUGHLY = {"remaining": ("approach", "separation", "pull_off")}
 #: Limits by the calibration of their time, and times.
 NOT_COMPARED = {
     "remaining": ("jumps",),
-    "coated": ("low", "high"),
-    "larger": ("value_10", "low_10", "high_10", "value_30", "low_30", "high_30"),
     "heights": tuple(each for each in heights.COLUMNS if each.endswith(("_low", "_high"))),
 }
 SLOW = ("patches", "larger", "coated", "heights")
