@@ -45,8 +45,7 @@ def assert_stated(tabor, points, force, closed_form, law):
     (row,) = (line for line in chapter.splitlines() if line.startswith(start))
     simulated, exact, *_ = row.removeprefix(start).split(" | ")
     unit = -np.pi * RADIUS
-    # Pixels of coarse grids snap one by one, at steps that rounding moves.
-    assert force / unit == pytest.approx(float(simulated), rel=1e-2)
+    assert force / unit == pytest.approx(float(simulated), rel=2e-3)
     assert closed_form / unit == pytest.approx(float(exact), rel=5e-4)
 
 
@@ -140,7 +139,6 @@ def test_strongly_adhesive_sphere_pulls_off_as_johnson_kendall_roberts_have_it()
     assert fine == pytest.approx(expected, rel=0.04)
     work = law.adhesion_length
     maugis = references.MaugisSphere(RADIUS, work, law.range).pull_off.force
-    assert_stated(5, 128, coarse / work, maugis / work, "exponential")
     assert_stated(5, 256, fine / work, maugis / work, "exponential")
     loading = adhesive.solve(paraboloid(256), 1.0, law, pressure=0.0)
     contact = exact.contact_radius(0.0)

@@ -39,12 +39,13 @@ def film():
 
 def test_a_step_along_the_rows_is_a_question(film):
     heights, step = film
+    tape = TAPE.replace(youngs_modulus=162e6)
     for faulty in (heights + step, (heights + step).T, heights[::-1] - step):
-        asked = verdict(read(faulty), TAPE)
-        kept, mended = (verdict(read(faulty, scan=scan), TAPE) for scan in ("keep", "mend"))
+        asked = verdict(read(faulty), tape)
+        kept, mended = (verdict(read(faulty, scan=scan), tape) for scan in ("keep", "mend"))
         assert asked.word == "depends"
         assert mended.word == "sticks"
-        assert kept.word != mended.word
+        assert kept.word in ("does not stick", "adheres locally, does not hold")
         (question,) = asked.questions
         assert "500 nm" in question["question"]
         assert [answer["give"] for answer in question["answers"]] == [
