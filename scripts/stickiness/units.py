@@ -95,12 +95,12 @@ def _registry() -> pint.UnitRegistry:
     import pint
 
     spellings = [partial(re.sub, typed, meant) for typed, meant in _SPELLINGS]
-    try:  # a folder in which pint keeps units, ready made
-        folder = os.environ["STICKINESS_UNITS"]
+    try:  # pint keeps its units ready made in a folder, by default in the user's cache
+        folder = os.environ.get("STICKINESS_UNITS", ":auto:")
         registry: pint.UnitRegistry = pint.UnitRegistry(
             cache_folder=folder, preprocessors=spellings.copy()
         )
-    except Exception:  # no such variable, a folder or file that is of no use
+    except Exception:  # a folder or file that is of no use
         registry = pint.UnitRegistry(preprocessors=spellings.copy())
     for unit, names in _ALIASES.items():
         registry.define(f"@alias {unit} = {names}")
