@@ -101,6 +101,13 @@ def integer(name: str, value: int, least: int) -> int:
     return int(value)
 
 
+def flag(name: str, value: bool) -> bool:
+    """Return a truth value; ValueError unless it is one."""
+    if not isinstance(value, bool | np.bool_):
+        raise ValueError(f"{name} must be True or False, got {value!r}")
+    return bool(value)
+
+
 def grid(name: str, values: ArrayLike, square: bool = False) -> NDArray:
     """Return finite, unmasked real values on a (square) grid ``(n0, n1)`` as floats in C order."""
     array = numbers(name, values)

@@ -41,7 +41,13 @@ def relax(problem, gap, tol, max_iterations, closing=True):
     points_before = count_points()
     if gap is None:
         fine = min(problem.heights.shape) >= _MIN_POINTS_TO_COARSEN
-        if fine and problem.wall and problem.law.smooth and problem.pressure is not None:
+        if (
+            fine
+            and not problem.mirrored
+            and problem.wall
+            and problem.law.smooth
+            and problem.pressure is not None
+        ):
             state = _from_coarser_grids(problem, tol, max_iterations, observe)
         if state is None:
             gap = _without_adhesion(problem, max_iterations)
@@ -149,7 +155,8 @@ def _surely_stable(problem, state):
     if problem.mean_gap is None:
         return False
     smoother = problem.smoother
-    softest = min(smoother.shift, np.pi / max(problem.sides))
+    longest = max(problem.sides) * (2 if problem.mirrored else 1)
+    softest = min(smoother.shift, np.pi / longest)
     softening = _softening(problem, state)
     if float(softening.max()) < softest:
         return True
@@ -260,6 +267,7 @@ def _without_adhesion(problem, max_iterations):
             sides=problem.sides,
             load=problem.pressure,
             solid=problem.solid,
+            mirrored=problem.mirrored,
         )
         return solver.press(alone, _START_TOLERANCE).gap
     gap = mean_gap - problem.heights

@@ -20,13 +20,13 @@ class Smoother:
     On an even grid ``constant + B apply B^T``, where B gathers from the coarse points around each.
     """
 
-    def __init__(self, shape, sides, solid):
-        stiffness = half_space.effective_wavenumbers(shape, sides, solid).T / 2
+    def __init__(self, shape, sides, solid, mirrored=False):
+        stiffness = half_space.effective_wavenumbers(shape, sides, solid, mirrored).T / 2
         # It stands for the grip of what touches on the mean gap, which no elasticity holds.
         self.shift = LONGEST
-        if solid != HALF_SPACE and stiffness.any():
+        if (mirrored or solid != HALF_SPACE) and stiffness.any():
             self.shift = float(stiffness[stiffness > 0].min())
-        self.halved = min(shape) >= 4 and shape[0] % 2 == 0 and shape[1] % 2 == 0
+        self.halved = not mirrored and min(shape) >= 4 and shape[0] % 2 == 0 and shape[1] % 2 == 0
         if self.halved:
             self._constant = np.float32(_SHORT / (stiffness.max() + self.shift))
             shape = tuple(n // 2 for n in shape)
@@ -38,12 +38,12 @@ class Smoother:
             weights = [(1 + np.cos(np.pi * np.fft.rfftfreq(n)) ** 2) / 2 for n in shape]
             symbol -= self._constant
             symbol /= 64 * np.outer(weights[1], weights[0])
-        self._convolution = convolution.convolution(shape, np.float32)
+        self._convolution = convolution.convolution(shape, np.float32, mirrored)
         self._every = np.arange(shape[0])
         self._symbol = self._convolution.symbol(symbol / (shape[0] * shape[1]))
 
     def share_of(self, free):
-        """Shares of free points around the coarse ones; None on an odd grid."""
+        """Shares of free points around the coarse ones; None on an odd or mirrored grid."""
         # Beside the wall long waves give way less: coarse points take part by this share.
         return halving.gather(free) / np.float32(16) if self.halved else None
 

@@ -29,23 +29,30 @@ class Problem:
     law: object  #: TractionLaw or FrozenTraction
     unit: float  #: pressure that residuals are measured in
     solid: Solid = HALF_SPACE  #: its thickness in the unit of the sides
+    mirrored: bool = False  #: whether all fields go on as their mirror images
     pressure: float | None = None
     mean_gap: float | None = None
 
     @property
     def exact(self):
         """Elasticity in double precision."""
-        return half_space.half_space(self.heights.shape, self.sides, solid=self.solid)
+        return self._operator(np.float64)
 
     @property
     def quick(self):
         """Elasticity in single precision."""
-        return half_space.half_space(self.heights.shape, self.sides, np.float32, self.solid)
+        return self._operator(np.float32)
+
+    def _operator(self, dtype):
+        """Compliance on this grid, and its inverse."""
+        return half_space.half_space(
+            self.heights.shape, self.sides, dtype, self.solid, mirrored=self.mirrored
+        )
 
     @property
     def smoother(self):
         """Approximate inverse of the stiffness."""
-        return half_space.keep(Smoother, self.heights.shape, self.sides, self.solid)
+        return half_space.keep(Smoother, self.heights.shape, self.sides, self.solid, self.mirrored)
 
     @property
     def wall(self):

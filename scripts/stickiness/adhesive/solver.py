@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from stickiness.adhesive import edge_zone
 from stickiness.adhesive.equilibrium import relax
 from stickiness.adhesive.problem import Problem, lowered, sum_blocks
-from stickiness.arguments import check_length, grid, integer, number, numbers
+from stickiness.arguments import check_length, flag, grid, integer, number, numbers
 from stickiness.plausibility import PlausibilityWarning, warn_of_heights, warn_of_pressure
 from stickiness.repulsive.half_space import measure_scale, measure_slope
 from stickiness.repulsive.solver import Contact, ConvergenceError
@@ -84,6 +84,7 @@ def solve(
     tol: float = 1e-8,
     max_iterations: int = 3000,
     solid: Solid = HALF_SPACE,
+    mirrored: bool = False,
 ) -> Adhesion:
     """Solve the adhesive contact of an elastic solid with a rigid periodic surface.
 
@@ -119,6 +120,9 @@ def solve(
         Elastic solid, a half-space by default; the thickness of a layer is in the unit of
         `length`. The mean gap is measured between the surfaces: see `solids.layers` on the approach
         of the backing.
+    mirrored : bool
+        Whether the surface goes on as its mirror image at every side, instead of repeating as it
+        is, and the state as well. It takes a quarter of the work of heights with their images.
 
     Returns
     -------
@@ -150,7 +154,7 @@ def solve(
     check_law(law)
     control = _check_control(pressure, mean_gap, law)
     effort = Effort(tol=tol, max_iterations=max_iterations)
-    scaled = Scaled.of(heights, lengths, law, check_solid(solid))
+    scaled = Scaled.of(heights, lengths, law, check_solid(solid), flag("mirrored", mirrored))
     _check_start(start, heights.shape, mean_gap)
     warn_of_heights(scaled.rms_height, lengths[0])
     if pressure is not None and pressure > 1:
@@ -297,7 +301,7 @@ class Scaled:
     flattening: float  #: rms pressure of full contact, scaled
 
     @classmethod
-    def of(cls, heights, lengths, law, solid=HALF_SPACE):
+    def of(cls, heights, lengths, law, solid=HALF_SPACE, mirrored=False):
         """Scale heights, law and solid."""
         mean, rms = measure_scale(heights)
         height = rms if rms > 0 else law.range
@@ -313,6 +317,7 @@ class Scaled:
             law=scaled_law,
             unit=scaled_law.strength,
             solid=solid.in_unit(lengths[0]),
+            mirrored=mirrored,
         )
         flattening = float(np.sqrt(np.mean(problem.exact.stiffness(scaled_heights) ** 2)))
         return cls(

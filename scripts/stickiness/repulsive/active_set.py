@@ -47,6 +47,7 @@ class Problem:
     load: float  #: mean pressure [E*]; for `relax` in units of E* times rms height over side
     solid: Solid = HALF_SPACE
     periodic: bool = True  #: or a rectangle on a half-space without end
+    mirrored: bool = False  #: periodic together with its mirror images
 
     def operator(self, dtype):
         """Compliance on this grid, and its inverse, be it approximate."""
@@ -56,6 +57,7 @@ class Problem:
             dtype=dtype,
             solid=self.solid,
             periodic=self.periodic,
+            mirrored=self.mirrored,
             kept=self.heights.size <= _LARGEST_KEPT,
         )
 
@@ -99,6 +101,7 @@ class _Grid:
         self.sides = problem.sides
         self.solid = problem.solid
         self.periodic = problem.periodic
+        self.mirrored = problem.mirrored
         self.active = np.zeros(self.heights.size, bool)
         # One array in double precision, or two in single: an image is read before the next is made.
         memory = convolution.aligned_zeros(self.heights.size, np.float64)

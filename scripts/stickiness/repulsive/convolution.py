@@ -11,6 +11,7 @@ All plans are made with ``FFTW_ESTIMATE``: by timing, last bits would depend on 
 
 import threading
 from functools import partial
+from itertools import product
 from types import SimpleNamespace
 from weakref import WeakValueDictionary
 
@@ -47,8 +48,10 @@ def count_points():
     return _OF_THREAD.points
 
 
-def convolution(shape, dtype):
-    """Convolution on one grid, in single or double precision, at once or in blocks."""
+def convolution(shape, dtype, mirrored=False):
+    """Convolution on one grid, in single or double precision: mirrored, at once or in blocks."""
+    if mirrored:
+        return MirroredConvolution(shape, dtype)
     most_points = _SMALL_PACKED if _is_packed(shape, dtype) else _SMALL
     if shape[0] * shape[1] <= most_points:
         return WholeConvolution(shape, dtype)
@@ -100,6 +103,72 @@ class WholeConvolution:
             out[...] = image
         else:
             out[rows_out] = image[rows_out]
+
+
+class MirroredConvolution:
+    """Convolution of fields that go on as their mirror images at every side.
+
+    The cosine transform of a field x is a Fourier transform V of its even points followed by the
+    odd ones in reverse (Makhoul, IEEE Trans. Acoust. 28:27, 1980, doi 10.1109/TASSP.1980.1163351):
+    along one axis ``2 x_k = e V_k + conj(e V_k)`` with ``e = exp(-i t)``, ``t = pi k / (2 n)``. So
+    the convolution with the symbol S is ``V'_k = s V_k + d exp(2 i t) V_-k`` where s and d are half
+    the sum and half the difference of S at k and at n - k, and S is 0 at n.
+    """
+
+    def __init__(self, shape, dtype):
+        self.shape = shape
+        self._points = pyfftw.zeros_aligned(shape, dtype, n=_ALIGNED)
+        numbers = np.result_type(dtype, np.complex64)
+        self._spectrum = pyfftw.zeros_aligned((shape[0], shape[1] // 2 + 1), numbers, n=_ALIGNED)
+        self._forward = _plan(self._points, self._spectrum, "FFTW_FORWARD", axes=(0, 1))
+        self._backward = _plan(self._spectrum, self._points, "FFTW_BACKWARD", axes=(0, 1))
+        # Places of points: the first half of an axis has the even ones.
+        first = [slice(0, (n + 1) // 2) for n in shape]
+        rest = [slice(n, (n + 1) // 2 - 1, -1) for n in shape]
+        even, odd = slice(0, None, 2), slice(1, None, 2)
+        axes = [((one, even), (other, odd)) for one, other in zip(first, rest, strict=True)]
+        self._in_order = [tuple(zip(*places, strict=True)) for places in product(*axes)]
+        self._opposite = -np.arange(shape[0]) % shape[0]  # rows of opposite wave numbers
+
+    def symbol(self, values):
+        """Prepare a symbol for `apply`: normalised values ``(n1, n0)`` of cosine waves."""
+        symbol = np.pad(values.T, (0, 1))
+        rows, columns = self._spectrum.shape
+        turn0 = np.exp(1j * np.pi / rows * np.arange(rows))[:, None]
+        turn1 = np.exp(1j * np.pi / self.shape[1] * np.arange(columns))
+
+        def combine(sign0, sign1):
+            """Half the sums or differences along both axes."""
+            along0 = symbol + sign0 * symbol[::-1]
+            return (along0 + sign1 * along0[:, ::-1])[:rows, :columns] / 4
+
+        numbers = self._spectrum.dtype
+        return (
+            combine(1, 1).astype(self._points.dtype),
+            (turn0 * combine(-1, 1)).astype(numbers),
+            (turn1 * combine(1, -1)).astype(numbers),
+            (turn0 * turn1 * combine(-1, -1)).astype(numbers),
+        )
+
+    def apply(self, symbol, field, out, rows_in=None, rows_out=None):
+        """Convolve `field` into `out`, both of all rows, whatever `rows_in` and `rows_out` are."""
+        _OF_THREAD.points += self.shape[0] * self.shape[1]
+        for ours, theirs in self._in_order:
+            self._points[ours] = field[theirs]
+        self._forward.execute()
+        # Opposite waves along axis 1 are not kept: they are conjugate to those opposite along both.
+        waves = self._spectrum
+        opposite0 = waves[self._opposite]
+        opposite = np.conj(waves)
+        opposite1 = np.conj(opposite0)
+        weight, *weights = symbol
+        waves *= weight
+        for others, weight in zip((opposite0, opposite1, opposite), weights, strict=True):
+            others *= weight
+            waves += others
+        self._backward.execute()
+        for ours, theirs in self._in_order:
+            out[theirs] = self._points[ours]
 
 
 class BlockedConvolution:

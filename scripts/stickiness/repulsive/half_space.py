@@ -1,4 +1,4 @@
-"""Grids and the Fourier operators of an elastic solid on them, periodic or with free edges.
+"""Grids and the Fourier operators of an elastic solid: periodic, mirrored or with free edges.
 
 A pressure wave ``p_q`` (in units of E*) displaces a half-space by ``u_q = 2 p_q / |q|``, q != 0
 (Johnson, *Contact Mechanics*, 1985, section 13.2; Stanley and Kato, J. Tribol. 119:481, 1997,
@@ -39,16 +39,23 @@ def clear_caches():
     _last.cache_clear()
 
 
-def wavenumbers(shape, lengths):
-    """Magnitudes ``|q|`` of one quadrant of wave vectors, ``(n0 // 2 + 1, n1 // 2 + 1)``."""
+def wavenumbers(shape, lengths, mirrored=False):
+    """Magnitudes ``|q|`` of one quadrant of wave vectors, ``(n0 // 2 + 1, n1 // 2 + 1)``.
+
+    Or those of the cosines of a cell that is `mirrored`, ``(n0, n1)``: its period has twice the
+    sides.
+    """
+    if mirrored:
+        steps = [np.pi / side for side in lengths]
+        return np.hypot.outer(*(step * np.arange(n) for step, n in zip(steps, shape, strict=True)))
     q0 = 2 * np.pi * np.fft.rfftfreq(shape[0], lengths[0] / shape[0])
     q1 = 2 * np.pi * np.fft.rfftfreq(shape[1], lengths[1] / shape[1])
     return np.hypot.outer(q0, q1)
 
 
-def effective_wavenumbers(shape, lengths, solid=HALF_SPACE):
+def effective_wavenumbers(shape, lengths, solid=HALF_SPACE, mirrored=False):
     """Wave numbers ``|q|``/S, zero at q = 0, at which a half-space is as stiff as the solid."""
-    q = wavenumbers(shape, lengths)
+    q = wavenumbers(shape, lengths, mirrored)
     if solid != HALF_SPACE:
         q[0, 0] = 1.0
         q /= solid.factor(q)
@@ -71,6 +78,8 @@ class HalfSpace:
     pressure under a pixel lifted alone, per unit of lift. No two threads may use it at once.
     """
 
+    mirrored = False  #: whether the period has twice the sides, and fields are even there
+
     def __init__(self, shape, lengths, dtype, solid):
         self.dtype = np.dtype(dtype)
         self.shape = shape
@@ -79,11 +88,12 @@ class HalfSpace:
         self.pairs = 0
         n0, n1 = shape
         # FFTW does not normalise; the symbols carry the 1 / (n0 n1) of the inverse transform.
-        q = effective_wavenumbers(shape, lengths, solid).T
+        q = effective_wavenumbers(shape, lengths, solid, self.mirrored).T
         # Waves mirror one another but for the first and a last along each axis.
-        across = np.where(np.arange(q.shape[0]) % (n1 / 2), 2.0, 1.0)
-        along = np.where(np.arange(q.shape[1]) % (n0 / 2), 2.0, 1.0)
-        self.mean_stiffness = float(across @ q @ along) / (2 * n0 * n1)
+        half0, half1 = (n if self.mirrored else n / 2 for n in shape)
+        across = np.where(np.arange(q.shape[0]) % half1, 2.0, 1.0)
+        along = np.where(np.arange(q.shape[1]) % half0, 2.0, 1.0)
+        self.mean_stiffness = float(across @ q @ along) / (8 * half0 * half1)
         q[0, 0] = np.inf
         np.divide(2 / (n0 * n1), q, out=q)
         self._compliance = _Kernel(self._convolution, self._convolution.symbol(q))
@@ -91,11 +101,11 @@ class HalfSpace:
     # Made on demand: some methods do not need it, and in double precision hardly any the stiffness.
     @cached_property
     def _convolution(self):
-        return convolution.convolution(self.shape, self.dtype)
+        return convolution.convolution(self.shape, self.dtype, self.mirrored)
 
     @cached_property
     def _stiffness(self):
-        q = effective_wavenumbers(self.shape, self.lengths, self.solid).T
+        q = effective_wavenumbers(self.shape, self.lengths, self.solid, self.mirrored).T
         q /= 2 * self.shape[0] * self.shape[1]
         return _Kernel(self._convolution, self._convolution.symbol(q))
 
@@ -115,6 +125,15 @@ class HalfSpace:
         kernel.convolution.apply(kernel.symbol, field, out, rows_in, rows_out)
         self.pairs += math.prod(kernel.convolution.shape) / math.prod(self.shape)
         return out
+
+
+class MirroredHalfSpace(HalfSpace):
+    """The same for heights that are periodic together with their mirror images.
+
+    The rectangle is a quarter of the period. So fields on it take a quarter of the work.
+    """
+
+    mirrored = True
 
 
 class FreeHalfSpace(HalfSpace):
@@ -156,9 +175,17 @@ class FreeHalfSpace(HalfSpace):
         self.pairs += self._split.share
 
 
-def half_space(shape, lengths, dtype=np.float64, solid=HALF_SPACE, periodic=True, kept=True):
-    """`HalfSpace` or `FreeHalfSpace` of a grid; if `kept`, for the next call of the same thread."""
-    kind = HalfSpace if periodic else FreeHalfSpace
+def half_space(
+    shape,
+    lengths,
+    dtype=np.float64,
+    solid=HALF_SPACE,
+    periodic=True,
+    mirrored=False,
+    kept=True,
+):
+    """Operators of a grid, of one of three kinds; if `kept`, for the next call of a thread."""
+    kind = MirroredHalfSpace if mirrored else HalfSpace if periodic else FreeHalfSpace
     most = _MANY if periodic and solid == HALF_SPACE else _FEW
     if not kept:
         return kind(tuple(shape), tuple(lengths), np.dtype(dtype), solid)
@@ -177,11 +204,11 @@ def measure_scale(heights):
     return mean, largest * math.sqrt(math.fsum(squares) / flat.size)
 
 
-def measure_slope(heights, lengths):
-    """Root mean square gradient of periodic heights, from differences of neighbours."""
+def measure_slope(heights, lengths, mirrored=False):
+    """Root mean square gradient of periodic or mirrored heights, from differences of neighbours."""
     square = 0.0
     for axis, side in enumerate(lengths):
-        step = np.diff(heights, axis=axis, append=np.take(heights, [0], axis))
+        step = np.diff(heights, axis=axis, append=np.take(heights, [-1 if mirrored else 0], axis))
         square += float(np.mean(step**2)) * (heights.shape[axis] / side) ** 2
     return float(np.sqrt(square))
 

@@ -1,5 +1,7 @@
 """Adhesive contact: equilibrium, limits, branches, invariances, extremes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from helpers.rough import on_any_grid
@@ -9,6 +11,7 @@ from scipy import optimize
 from stickiness import adhesive, dmt, repulsive
 from stickiness.adhesive import Exponential, LennardJones, Maugis, VanDerWaals, equilibrium
 from stickiness.adhesive.problem import Problem
+from stickiness.measured.periodic import periodise
 
 # Some of the laws under test are too short of range for these grids, on purpose.
 pytestmark = [pytest.mark.processors, pytest.mark.filterwarnings("ignore:a pixel of")]
@@ -58,6 +61,23 @@ def assert_equilibrium(a, heights, tol=1e-8, sides=SIDES):
     assert a.mean_gap == pytest.approx(a.gap.mean(), rel=1e-12)
     assert a.elastic_energy == pytest.approx(np.mean((a.gap + heights) * elastic) / 2, rel=1e-9)
     assert a.interaction_energy == pytest.approx(np.mean(law.potential(a.gap)), rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", LAWS)
+@pytest.mark.parametrize(
+    "control",
+    [{"pressure": LOAD}, {"pressure": 0.0, "start": "separation"}, {"mean_gap": 0.5 * HEIGHT}],
+    ids=str,
+)
+def test_a_mirrored_surface_is_solved_on_a_quarter_of_its_period(kind, control):
+    heights = rough(128)[:64, :48]
+    sides = (0.5, 0.375)
+    law = law_of(kind, range_over_height=0.3, length_over_range=0.1)
+    state = adhesive.solve(heights, sides, law, mirrored=True, **control)
+    fields = {name: periodise(getattr(state, name), "mirror") for name in ("pressure", "gap")}
+    period = periodise(heights, "mirror")
+    assert_equilibrium(replace(state, **fields), period, sides=(1.0, 0.75))
+    assert 0.01 < state.repulsive_area_fraction < 1
 
 
 @pytest.mark.slow

@@ -7,6 +7,7 @@ import pytest
 from references.contact import displacement
 
 from stickiness import repulsive, spectrum, surface
+from stickiness.measured.periodic import periodise
 from stickiness.repulsive import half_space
 from stickiness.repulsive.active_set import Problem, _Grid
 from stickiness.repulsive.preconditioner import Preconditioner
@@ -44,6 +45,26 @@ def test_operators_equal_plain_transforms(shape, solid):
         result = operator.compliance(some, rows_in=rows, rows_out=rows)
         expected = displacement(some, sides, solid)
         np.testing.assert_allclose(result[rows], expected[rows], rtol=1e-10, atol=1e-14)
+
+
+@pytest.mark.parametrize("shape", [(16, 16), (17, 13), (1, 8), (5, 1), (64, 48), (30, 129)])
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize("solid", [HALF_SPACE, Layer(0.3, 0.2)], ids=str)
+def test_a_mirrored_cell_is_a_quarter_of_its_period(shape, dtype, solid):
+    sides = (0.7, 1.9)
+    accuracy = 1e-10 if dtype == np.float64 else 2e-5
+    operator = half_space.half_space(shape, sides, dtype, solid, mirrored=True)
+    pressure = np.random.default_rng(3).standard_normal(shape).astype(dtype)
+    period = periodise(pressure.astype(float), "mirror")
+    expected = displacement(period, (1.4, 3.8), solid)[: shape[0], : shape[1]]
+    scale = np.abs(expected).max()
+    np.testing.assert_allclose(operator.compliance(pressure), expected, atol=accuracy * scale)
+    back = operator.stiffness(expected.astype(dtype))
+    np.testing.assert_allclose(back, pressure - pressure.mean(), atol=20 * accuracy)
+    if min(shape) > 8:
+        # A pixel lifted alone hardly feels that the shortest wave of the period is no cosine.
+        periodic = half_space.half_space(period.shape, (1.4, 3.8), solid=solid)
+        assert operator.mean_stiffness == pytest.approx(periodic.mean_stiffness, rel=0.15)
 
 
 def test_operators_are_kept_for_a_thread_and_can_be_freed():

@@ -1,6 +1,7 @@
 """Repulsive contact: conditions of contact, closed forms, invariances, extremes."""
 
 import tracemalloc
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from references import contact as reference
 from references.contact import assert_contact_conditions, displacement, solve_directly
 
 from stickiness import repulsive, spectrum, surface
+from stickiness.measured.periodic import periodise
 from stickiness.repulsive import half_space, subpixel
 from stickiness.repulsive.solver import ConvergenceError
 from stickiness.solids import Layer
@@ -46,6 +48,19 @@ def test_narrow_strips(shape):
     sides = (float(shape[0]), float(shape[1]))
     contact = repulsive.solve(heights, sides, 0.05, max_iterations=150)
     assert_solves(contact, heights, sides)
+
+
+@pytest.mark.parametrize("shape", [(64, 64), (65, 48), (256, 256)])
+@pytest.mark.parametrize("scaled_pressure", [1e-4, 0.01, 0.3, 3.0])
+def test_a_mirrored_surface_is_solved_on_a_quarter_of_its_period(shape, scaled_pressure):
+    heights = np.random.default_rng(0).standard_normal(shape)
+    heights = half_space.half_space(shape, (1.0, 1.0), mirrored=True).compliance(heights)
+    slope = half_space.measure_slope(heights, (1.0, 1.0), mirrored=True)
+    contact = repulsive.solve(heights, (1.0, 1.0), scaled_pressure * slope, mirrored=True)
+    period = periodise(heights, "mirror")
+    assert half_space.measure_slope(period, (2.0, 2.0)) == pytest.approx(slope)
+    fields = {name: periodise(getattr(contact, name), "mirror") for name in ("pressure", "gap")}
+    assert_solves(replace(contact, **fields), period, sides=(2.0, 2.0))
 
 
 def test_solution_is_that_of_a_direct_method():
