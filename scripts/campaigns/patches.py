@@ -94,7 +94,7 @@ def measure_patch(patch, side, whole_thresholds, range_):
     """Row of one patch, whose states are simulated as those of a map and of its quarters."""
     standard = standardise(patch, (side, side), most_points=patch.shape[0])
     states = [
-        find_trial_states(part.mirrored, part.mirrored_sides).scaled(part.height_unit, side)
+        find_trial_states(part.heights, part.sides, mirrored=True).scaled(part.height_unit, side)
         for part in (standard.whole, *standard.quarters)
     ]
     correlation = autocorrelation(standard.whole.heights)

@@ -125,7 +125,7 @@ def judge_pairs(wall, pairs, of_pairs, way, grid, seconds):
 def press_parts(standard):
     """Press the map and its quarters without adhesion, as their states do."""
     for part in (standard.whole, *standard.quarters):
-        for _ in press(part.mirrored, part.mirrored_sides):
+        for _ in press(part.heights, part.sides, mirrored=True):
             pass
 
 

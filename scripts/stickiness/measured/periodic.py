@@ -1,9 +1,10 @@
 """Measured heights made periodic, for a solver of periodic surfaces.
 
 There are three ways, and their difference shows the error. A taper pulls the rim of the scan to the
-mean plane; a rim so flat sticks better than the surface. A mirror keeps every height, at four times
-the cost, but slopes change sign across the seams. A smooth correction takes away the steps between
-opposite sides and hardly changes heights further in (Moisan 2011, doi:10.1007/s10851-010-0227-1).
+mean plane; a rim so flat sticks better than the surface. A mirror keeps every height, but slopes
+change sign across the seams. It takes four times the points, unless a solver knows of it (its
+argument `mirrored`). A smooth correction takes away the steps between opposite sides and hardly
+changes heights further in (Moisan 2011, doi:10.1007/s10851-010-0227-1).
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -21,6 +21,7 @@ from scipy.special import erfinv
 from stickiness.adhesive import solver as adhesive
 from stickiness.adhesive.edge_zone import COARSEST
 from stickiness.arguments import check_length, grid
+from stickiness.measured.periodic import periodise
 from stickiness.remaining.full_contact import full_contact_energy
 from stickiness.remaining.pull_offs import PullOffs
 from stickiness.remaining.standard_heights import (
@@ -96,22 +97,20 @@ def simulate_standard(standard: StandardHeights, solid: Solid = HALF_SPACE) -> S
     length_unit = standard.length_unit
     in_unit = solid.in_unit(length_unit)
 
-    def simulate(part: StandardMap, is_whole: bool = False) -> TrialStates:
-        states = find_trial_states(
-            part.mirrored,
-            part.mirrored_sides,
-            solid=in_unit,
-            # Pictures show the whole map, without its mirror images.
-            pictured=part.heights.shape if is_whole else None,
-        )
+    def make_cell(part: StandardMap) -> _Cell:
+        return _Cell(part.heights, part.sides, in_unit, mirrored=True)
+
+    def simulate(cell: _Cell, part: StandardMap, pictured: bool = False) -> TrialStates:
+        states = cell.find_trial_states(pictured)
         return states.scaled(height_unit=part.height_unit, length_unit=length_unit)
 
-    whole = standard.whole
-    pull_offs = find_pull_offs(whole.mirrored, whole.mirrored_sides, solid=in_unit)
+    whole = make_cell(standard.whole)
     return SimulatedHeights(
-        quarters=tuple(simulate(quarter) for quarter in standard.quarters),
-        whole=simulate(whole, is_whole=True),
-        pull_offs=pull_offs.scaled(height_unit=whole.height_unit, length_unit=length_unit),
+        quarters=tuple(simulate(make_cell(quarter), quarter) for quarter in standard.quarters),
+        whole=simulate(whole, standard.whole, pictured=True),
+        pull_offs=whole.find_pull_offs().scaled(
+            height_unit=standard.whole.height_unit, length_unit=length_unit
+        ),
         resolved_energy=standard.resolved_energy,
         pixel=standard.pixel,
         independent_areas=standard.whole.independent_areas,
@@ -122,7 +121,8 @@ def find_trial_states(
     heights: ArrayLike,
     length: float | tuple[float, float],
     solid: Solid = HALF_SPACE,
-    pictured: tuple[int, ...] | None = None,
+    mirrored: bool = False,
+    pictured: bool = False,
 ) -> TrialStates:
     """Simulate states of contact on periodic heights.
 
@@ -134,8 +134,10 @@ def find_trial_states(
         Sides of the cell [length].
     solid : solids.HalfSpace, solids.Layer or solids.Skin
         Elastic solid; the thickness of a layer is in the unit of `length`.
-    pictured : pair of ints, optional
-        Points along both sides of whose gaps pictures are kept, in `TrialStates.gap_bin`.
+    mirrored : bool
+        Whether heights are periodic together with their mirror images.
+    pictured : bool
+        Whether the gaps of all points are kept, in `TrialStates.gap_bin`.
 
     Raises
     ------
@@ -152,58 +154,15 @@ def find_trial_states(
     0.0884 0.27
     """
     heights = grid("heights", heights)
-    cell = _Cell(heights, check_length(length, heights.shape), solid, pictured or (0, 0))
-    # Surfaces that touch at the summit, and contact without adhesion up to full contact.
-    counted = [
-        cell.count(0.0, heights.max() - heights),
-        *(cell.count_contact(each) for each in press(heights, cell.sides, solid)),
-        cell.count(cell.energy, np.zeros(heights.shape)),
-    ]
-    without_adhesion = len(counted)
-
-    # States at zero load, from strong to weak adhesion, and the share in the deepest of each.
-    simulated = []
-    closed: str | NDArray = adhesive.SEPARATION
-    for energy_ratio in ENERGY_RATIOS:
-        law = cell.choose_law(energy_ratio)
-        states = list(cell.adhere(law, (closed, adhesive.APPROACH)))
-        if not states:
-            continue
-        closed = states[0].gap
-        deepest = min(states, key=lambda state: state.energy)
-        if cell.is_stiffer:
-            followed = list(cell.shorten_range(deepest, cell.find_shortest_range(energy_ratio)))
-            states += followed
-            deepest = [deepest, *followed][-1]
-        counted += [cell.count(state.elastic_energy, state.gap) for state in states]
-        adhesion_length = law.adhesion_length
-        share = max(-deepest.energy, 0.0) / adhesion_length
-        simulated.append((adhesion_length, deepest.law.range, share))
-        if share < HARDLY_ANYTHING:
-            break
-    if not simulated:
-        raise ConvergenceError("no state of contact with adhesion converged", None)
-    lengths, ranges, shares = np.array(simulated[::-1]).T
-    trial_states = TrialStates(
-        elastic_energy=np.array([state.elastic_energy for state in counted]),
-        gap_share=np.array([state.gap_share for state in counted]),
-        gap=np.array([state.gap for state in counted]),
-        has_adhesion=np.arange(len(counted)) >= without_adhesion,
-        full_contact_energy=cell.energy,
-        simulated_length=lengths,
-        simulated_range=ranges,
-        simulated_share=shares,
-        gap_bin=None if pictured is None else np.array([state.gap_bin for state in counted]),
-    )
-    if not cell.is_stiffer:
-        return trial_states
-    # Where a state was not followed to its end, that for another work of adhesion may be deeper.
-    of_deepest = trial_states.share(lengths, ranges)
-    return replace(trial_states, simulated_share=np.maximum(shares, of_deepest))
+    cell = _Cell(heights, check_length(length, heights.shape), solid, mirrored)
+    return cell.find_trial_states(pictured)
 
 
 def find_pull_offs(
-    heights: ArrayLike, length: float | tuple[float, float], solid: Solid = HALF_SPACE
+    heights: ArrayLike,
+    length: float | tuple[float, float],
+    solid: Solid = HALF_SPACE,
+    mirrored: bool = False,
 ) -> PullOffs:
     """Pull off closed contact on periodic heights, for falling works of adhesion.
 
@@ -219,17 +178,8 @@ def find_pull_offs(
     0.054
     """
     heights = grid("heights", heights)
-    cell = _Cell(heights, check_length(length, heights.shape), solid)
-    pulled = [(state, cell.pull_off(state)) for state in cell.follow_closed()][::-1]
-    if not pulled:
-        raise ConvergenceError("no state of closed contact converged", None)
-    return PullOffs(
-        length=np.array([state.law.adhesion_length for state, _ in pulled]),
-        range=np.array([state.law.range for state, _ in pulled]),
-        # What weaker adhesion withstands, stronger adhesion does.
-        tension=np.maximum.accumulate([tension for _, tension in pulled]),
-        area=np.array([state.repulsive_area_fraction for state, _ in pulled]),
-    )
+    cell = _Cell(heights, check_length(length, heights.shape), solid, mirrored)
+    return cell.find_pull_offs()
 
 
 class _CountedState(NamedTuple):
@@ -238,22 +188,30 @@ class _CountedState(NamedTuple):
     elastic_energy: float  #: [length]
     gap_share: NDArray  #: of the nominal area, ``(bin,)``
     gap: NDArray  #: mean of every bin [length], ``(bin,)``
-    gap_bin: NDArray  #: of every pixel that is pictured, ``(n0, n1)``
+    gap_bin: NDArray  #: of every pixel, ``(n0, n1)``
 
 
 def press(
-    heights: NDArray, sides: tuple[float, float], solid: Solid = HALF_SPACE
+    heights: NDArray,
+    sides: tuple[float, float],
+    solid: Solid = HALF_SPACE,
+    mirrored: bool = False,
 ) -> Iterator[repulsive.Contact]:
     """Contacts without adhesion at loads where, by theory, `CONTACT_AREAS` touch."""
-    slope = measure_slope(heights, sides)
+
+    def measure_full_contact(solid: Solid) -> float:
+        """Rms pressure of full contact [E*]."""
+        operator = half_space(heights.shape, sides, solid=solid, mirrored=mirrored)
+        return float(np.std(operator.stiffness(heights)))
+
     # By theory a share erf(sqrt(2) p/(E* slope)) of the area touches a half-space. Pressures on
     # another solid rise as those of full contact.
-    rms_pressure, on_half_space = (
-        float(np.std(half_space(heights.shape, sides, solid=each, kept=False).stiffness(heights)))
-        for each in (solid, HALF_SPACE)
+    slope = measure_slope(heights, sides, mirrored)
+    stiffening = measure_full_contact(solid) / measure_full_contact(HALF_SPACE)
+    loads = stiffening * slope * erfinv(CONTACT_AREAS) / np.sqrt(2)
+    return repulsive.load_path(
+        heights, sides, loads, tol=CONTACT_TOLERANCE, solid=solid, mirrored=mirrored
     )
-    loads = rms_pressure / on_half_space * slope * erfinv(CONTACT_AREAS) / np.sqrt(2)
-    return repulsive.load_path(heights, sides, loads, tol=CONTACT_TOLERANCE, solid=solid)
 
 
 @dataclass(frozen=True, eq=False)
@@ -263,7 +221,8 @@ class _Cell:
     heights: NDArray  #: [length]
     sides: tuple[float, float]  #: [length]
     solid: Solid
-    pictured: tuple[int, ...] = (0, 0)  #: points along both sides of which gaps are kept
+    mirrored: bool = False  #: whether heights are periodic together with their mirror images
+    _closed: dict[float, adhesive.Adhesion | None] = field(default_factory=dict)
 
     @cached_property
     def h_rms(self) -> float:
@@ -273,12 +232,17 @@ class _Cell:
     @cached_property
     def energy(self) -> float:
         """Elastic energy of full contact per nominal area over E* [length]."""
-        return full_contact_energy(self.heights, 1.0, self.sides, self.solid, edges="given")
+        return self._find_energy(self.solid)
 
     @cached_property
     def half_space_energy(self) -> float:
         """That of a half-space [length]."""
-        return full_contact_energy(self.heights, 1.0, self.sides, edges="given")
+        return self._find_energy(HALF_SPACE)
+
+    def _find_energy(self, solid: Solid) -> float:
+        period = periodise(self.heights, "mirror" if self.mirrored else "given")
+        sides = np.multiply(self.sides, period.shape) / self.heights.shape
+        return full_contact_energy(period, 1.0, tuple(sides), solid, edges="given")
 
     @property
     def is_stiffer(self) -> bool:
@@ -310,7 +274,7 @@ class _Cell:
             elastic_energy=elastic_energy,
             gap_share=counts / gap.size,
             gap=sums / np.maximum(counts, 1),
-            gap_bin=index.reshape(gap.shape)[: self.pictured[0], : self.pictured[1]].astype("u1"),
+            gap_bin=index.reshape(gap.shape).astype("u1"),
         )
 
     def count_contact(self, contact: repulsive.Contact) -> _CountedState:
@@ -320,20 +284,31 @@ class _Cell:
         return self.count(elastic_energy, contact.gap)
 
     def adhere(
-        self, law: TractionLaw, starts: tuple[str | NDArray | adhesive.Adhesion, ...]
-    ) -> Iterator[adhesive.Adhesion]:
-        """States of zero load, from several starts, but for those that do not converge.
+        self, law: TractionLaw, start: str | NDArray | adhesive.Adhesion
+    ) -> adhesive.Adhesion | None:
+        """State of zero load from a start; None if it does not converge.
 
-        Those on a solid that is stiffer than a half-space count when their iterations are spent,
-        too: any state bounds the energy. On the grid, single points hold them back.
+        One on a solid that is stiffer than a half-space counts when its iterations are spent, too:
+        any state bounds the energy. On the grid, single points hold it back.
         """
-        for start in starts:
-            try:
-                yield self.descend(law, start)
-            except ConvergenceError as error:
-                if self.is_stiffer and not isinstance(error, adhesive.PullOffError):
-                    yield error.contact
-                logging.info("adhesion length %.3g: %s", law.adhesion_length, error)
+        try:
+            return self.descend(law, start)
+        except ConvergenceError as error:
+            logging.info("adhesion length %.3g: %s", law.adhesion_length, error)
+            spent = self.is_stiffer and not isinstance(error, adhesive.PullOffError)
+            return error.contact if spent else None
+
+    def close(
+        self, energy_ratio: float, stronger: adhesive.Adhesion | None
+    ) -> adhesive.Adhesion | None:
+        """State of zero load that contact which `stronger` adhesion has closed ends in.
+
+        None if it does not converge. States are kept: what remains and what holds ask for the same.
+        """
+        if energy_ratio not in self._closed:
+            start = adhesive.SEPARATION if stronger is None else stronger.gap
+            self._closed[energy_ratio] = self.adhere(self.choose_law(energy_ratio), start)
+        return self._closed[energy_ratio]
 
     def descend(
         self,
@@ -352,6 +327,7 @@ class _Cell:
             tol=ADHESION_TOLERANCE,
             max_iterations=FEW_ITERATIONS if is_quick else MOST_ITERATIONS,
             mean_gap=mean_gap,
+            mirrored=self.mirrored,
         )
 
     def shorten_range(
@@ -364,21 +340,24 @@ class _Cell:
         while state.law.range > shortest:
             law = Exponential(state.law.adhesion_length, max(state.law.range / 2, shortest))
             try:
-                (state,) = self.adhere(law, (state,))
+                shorter = self.adhere(law, state)
             except ValueError as error:
                 logging.info("range %.3g: %s", law.range, error)  # the grid would set the edges
                 return
+            if shorter is None:
+                return
+            state = shorter
             yield state
 
     def follow_closed(self) -> Iterator[adhesive.Adhesion]:
         """Closed contact at zero load, for falling works of adhesion until it is lost."""
-        closed: str | NDArray = adhesive.SEPARATION
+        closed = None
         last_ratio = np.inf
         last_area = 0.0
         remaining = list(ENERGY_RATIOS[::-1])
         while remaining:
             energy_ratio = remaining.pop()
-            state = next(self.adhere(self.choose_law(energy_ratio), (closed,)), None)
+            state = self.close(energy_ratio, closed)
             if state is None:
                 continue
             area = state.repulsive_area_fraction
@@ -386,7 +365,7 @@ class _Cell:
             if STEEP * area < last_area and CLOSE * energy_ratio < last_ratio:
                 remaining += [energy_ratio, np.sqrt(energy_ratio * last_ratio)]
                 continue
-            closed = state.gap
+            closed = state
             last_ratio = energy_ratio
             last_area = area
             if self.is_stiffer:
@@ -427,3 +406,67 @@ class _Cell:
             opening /= WIDER
             tensions.insert(0, -pull(opening, state).mean_pressure)
         return max(tensions)
+
+    def find_trial_states(self, pictured: bool) -> TrialStates:
+        """Simulate states of contact; see the function of this name."""
+        # Surfaces that touch at the summit, and contact without adhesion up to full contact.
+        counted = [
+            self.count(0.0, self.heights.max() - self.heights),
+            *map(self.count_contact, press(self.heights, self.sides, self.solid, self.mirrored)),
+            self.count(self.energy, np.zeros(self.heights.shape)),
+        ]
+        without_adhesion = len(counted)
+
+        # States at zero load, from strong to weak adhesion, and the share in the deepest of each.
+        simulated = []
+        closed = None
+        for energy_ratio in ENERGY_RATIOS:
+            law = self.choose_law(energy_ratio)
+            found = self.close(energy_ratio, closed), self.adhere(law, adhesive.APPROACH)
+            closed = found[0] or closed
+            states = [state for state in found if state is not None]
+            if not states:
+                continue
+            deepest = min(states, key=lambda state: state.energy)
+            if self.is_stiffer:
+                followed = list(self.shorten_range(deepest, self.find_shortest_range(energy_ratio)))
+                states += followed
+                deepest = [deepest, *followed][-1]
+            counted += [self.count(state.elastic_energy, state.gap) for state in states]
+            adhesion_length = law.adhesion_length
+            share = max(-deepest.energy, 0.0) / adhesion_length
+            simulated.append((adhesion_length, deepest.law.range, share))
+            if share < HARDLY_ANYTHING:
+                break
+        if not simulated:
+            raise ConvergenceError("no state of contact with adhesion converged", None)
+        lengths, ranges, shares = np.array(simulated[::-1]).T
+        trial_states = TrialStates(
+            elastic_energy=np.array([state.elastic_energy for state in counted]),
+            gap_share=np.array([state.gap_share for state in counted]),
+            gap=np.array([state.gap for state in counted]),
+            has_adhesion=np.arange(len(counted)) >= without_adhesion,
+            full_contact_energy=self.energy,
+            simulated_length=lengths,
+            simulated_range=ranges,
+            simulated_share=shares,
+            gap_bin=np.array([state.gap_bin for state in counted]) if pictured else None,
+        )
+        if not self.is_stiffer:
+            return trial_states
+        # Where a state was not followed to its end, that of another work of adhesion may be deeper.
+        of_deepest = trial_states.share(lengths, ranges)
+        return replace(trial_states, simulated_share=np.maximum(shares, of_deepest))
+
+    def find_pull_offs(self) -> PullOffs:
+        """Pull off closed contact; see the function of this name."""
+        pulled = [(state, self.pull_off(state)) for state in self.follow_closed()][::-1]
+        if not pulled:
+            raise ConvergenceError("no state of closed contact converged", None)
+        return PullOffs(
+            length=np.array([state.law.adhesion_length for state, _ in pulled]),
+            range=np.array([state.law.range for state, _ in pulled]),
+            # What weaker adhesion withstands, stronger adhesion does.
+            tension=np.maximum.accumulate([tension for _, tension in pulled]),
+            area=np.array([state.repulsive_area_fraction for state, _ in pulled]),
+        )

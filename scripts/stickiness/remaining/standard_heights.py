@@ -25,21 +25,11 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class StandardMap:
-    """Heights of a map or of a part of it."""
+    """Heights of a map or of a part of it, which are periodic together with their mirror images."""
 
     heights: NDArray  #: over `height_unit`, ``(n0, n1)``
     sides: tuple[float, float]  #: over the first side of the whole map
     height_unit: float  #: [length]
-
-    @property
-    def mirrored(self) -> NDArray:
-        """Heights and their mirror images, which are periodic, ``(2 n0, 2 n1)``."""
-        return periodic.periodise(self.heights, "mirror")
-
-    @property
-    def mirrored_sides(self) -> tuple[float, float]:
-        """Sides of these, over the first side of the whole map."""
-        return 2 * self.sides[0], 2 * self.sides[1]
 
     @property
     def independent_areas(self) -> float:

@@ -121,6 +121,7 @@ def descend(
     tol: float,
     max_iterations: int = 3000,
     mean_gap: float | None = None,
+    mirrored: bool = False,
 ) -> adhesive.Adhesion:
     """State of zero load, or at a mean gap, in which a descent ends; errors as of `solve`."""
     with warnings.catch_warnings():
@@ -136,4 +137,5 @@ def descend(
             tol=tol,
             max_iterations=max_iterations,
             solid=solid,
+            mirrored=mirrored,
         )

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from common.topographies import make_topography
+from stickiness.measured.periodic import periodise
 from stickiness.remaining import height_simulation
 from stickiness.remaining.height_simulation import CLOSE, STEEP, SUMMITS_AREA, find_pull_offs
 from stickiness.remaining.measurement import measure
@@ -81,10 +82,21 @@ def test_rigid_surfaces_hold_what_attracts_them():
     law = Exponential(1e-9, 1.0)
     heights = make_heights("gaussian")
     cell = height_simulation._Cell(heights, (SIDE, SIDE), HALF_SPACE)
-    (state,) = cell.adhere(law, ("approach",))
+    state = cell.adhere(law, "approach")
     attraction = 1e-9 * np.mean(np.exp(heights - heights.max()))
     # The first state on the way is open by a twentieth of the range.
     assert 0.95 * attraction < cell.pull_off(state) < attraction
+
+
+@pytest.mark.parametrize("family", ["skewed_down", "exponential"])
+def test_a_mirrored_map_holds_what_its_period_does(family):
+    heights = make_topography(family, points=96, waves=6, seed=3)[:48, :48]
+    quarter = find_pull_offs(heights, 1.0, mirrored=True)
+    whole = find_pull_offs(periodise(heights, "mirror"), 2.0)
+    lengths = np.geomspace(whole.length[1], whole.length[-1], 8)
+    ranges = np.full(8, 0.2 * heights.std())
+    held = [each.find_held(lengths, ranges) for each in (quarter, whole)]
+    np.testing.assert_allclose(*held, rtol=0.06)
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ import pytest
 from references.energy_minimiser import find_full_contact_energy, minimise
 
 from stickiness import adhesive, surface
+from stickiness.measured.periodic import periodise
 from stickiness.remaining.height_simulation import (
     find_trial_states,
     simulate_heights,
@@ -41,6 +42,19 @@ def gaussian():
 def simulated(request):
     heights = make_heights(request.param)
     return heights, find_trial_states(heights, 1.0)
+
+
+@pytest.mark.parametrize("kind", TRANSFORMS)
+def test_states_of_a_mirrored_map_are_those_of_its_period(kind):
+    heights = make_heights(kind)[:32, :48]
+    period = periodise(heights, "mirror")
+    quarter = find_trial_states(heights, (0.5, 0.75), mirrored=True)
+    whole = find_trial_states(period, (1.0, 1.5))
+    assert quarter.full_contact_energy == pytest.approx(whole.full_contact_energy)
+    works = quarter.simulated_length
+    np.testing.assert_allclose(works, whole.simulated_length[: works.size])
+    shares = [each.simulated_share[: works.size] for each in (quarter, whole)]
+    np.testing.assert_allclose(*shares, rtol=0.01)
 
 
 @pytest.mark.parametrize("energy_ratio", [0.25, 0.6, 1.1])
@@ -247,7 +261,7 @@ def test_states_keep_a_picture_of_their_gaps(simulated):
     assert states.gap_bin is None
     with pytest.raises(ValueError, match="not kept"):
         states.find_gap(0)
-    kept = find_trial_states(heights, 1.0, pictured=heights.shape)
+    kept = find_trial_states(heights, 1.0, pictured=True)
     for index, bins in enumerate(kept.gap_bin):
         counts = np.bincount(bins.ravel(), minlength=kept.gap_share.shape[1])
         np.testing.assert_allclose(counts / bins.size, kept.gap_share[index], rtol=1e-12)
