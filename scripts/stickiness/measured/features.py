@@ -21,9 +21,9 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 from scipy import fft
-from scipy.spatial import ConvexHull
 
 from stickiness.formatting import amount, number
 from stickiness.measured.levelling import complete_rectangle
@@ -127,7 +127,7 @@ def find_feature(heights: ArrayLike, sides: tuple[float, float]) -> Feature | No
         shape=_name_shape(heights, cell, place),
         share=float(energy[place.cells].sum()),
         area=place.cells.size / energy.size,
-        outline=tuple(map(tuple, points[ConvexHull(points).vertices].tolist())),
+        outline=tuple(map(tuple, points[scipy.spatial.ConvexHull(points).vertices].tolist())),
         centre=tuple(points.mean(axis=0).tolist()),
         angle=None if place.angle is None else float(angle),
         beside=tuple(map(tuple, beside.tolist())),

@@ -15,7 +15,6 @@ from stickiness.pages.plotting import RED
 from stickiness.remaining.trial_states import SimulatedHeights
 from stickiness.verdicts.limits import read_limited
 from stickiness.verdicts.pair_variables import BY_BOUND, BY_SIMULATION
-from stickiness.verdicts.rough_surface import Surface
 from stickiness.verdicts.wording import LEAST_STRESS, MOST_STRESS
 
 MATERIALS = 3  # shown at most
@@ -62,6 +61,8 @@ def find_contact(
     names = pairs.material.values[pairs.decided_by.isin([BY_BOUND, BY_SIMULATION]).values]
     if not names.size:
         return None
+    from stickiness.verdicts.rough_surface import Surface  # loads all that analyses heights
+
     at_hand = dict(simulated or {})
     surface = Surface(data)
     kept = surface.simulated

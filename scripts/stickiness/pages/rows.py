@@ -22,8 +22,8 @@ from stickiness.formatting import (
 )
 from stickiness.statistics import COVERS
 from stickiness.verdicts import wording
-from stickiness.verdicts.judgement import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
 from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.pair_variables import BY_GAUSSIAN_THEORY, BY_SHAPED_THEORY, DECIDED_BY
 
 TONES = ("no", "open", "partly", "yes", "yes", "open")  #: of the verdicts, in the order of codes
 LEAST_ROOM = 0.3  #: decades of the bar of a threshold beside what it shows

@@ -15,13 +15,14 @@ from stickiness.pages.rendering import TEMPLATES, embed_png, write_page
 from stickiness.pages.rows import describe_pair, describe_surface, explain
 from stickiness.statistics import COVERS
 from stickiness.verdicts import wording
-from stickiness.verdicts.judgement import (
+from stickiness.verdicts.limits import read_limited
+from stickiness.verdicts.pair_variables import (
     BY_GAUSSIAN_THEORY,
     BY_SHAPED_THEORY,
+    CONTACT_AREA,
     DECIDED_BY,
+    THRESHOLDS,
 )
-from stickiness.verdicts.limits import read_limited
-from stickiness.verdicts.thresholds import CONTACT_AREA, THRESHOLDS
 
 
 def write_surface_page(
