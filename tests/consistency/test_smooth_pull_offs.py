@@ -1,5 +1,7 @@
 """Pull-off stresses of maps of all families, in small steps of the modulus and the adhesion."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -21,11 +23,14 @@ ENERGY_RATIOS = (0.05, 0.6, 1.1)
 WORK = 0.05
 
 
-def find_pull_offs(surface, modulus, work):
-    """Low limit, value and high limit [Pa]."""
+def let_meet(surface, modulus, work):
     material = Material(modulus=modulus, poisson=0.5, work_of_adhesion=work, range=3e-10)
-    meeting = meet(material, surface, DEFAULT_SHARE)
-    return meeting.limit(meeting.pair.pull_off, meeting.pair)
+    return meet(material, surface, DEFAULT_SHARE)
+
+
+def find_pull_offs(meeting, pair):
+    """Low limit, value and high limit [Pa]."""
+    return meeting.limit(pair.pull_off, pair)
 
 
 @pytest.mark.parametrize("family", FAMILIES)
@@ -36,8 +41,14 @@ def test_softer_solids_and_stronger_adhesion_hold_no_less(family):
     for ratio in ENERGY_RATIOS:
         modulus = 0.75 * WORK / (ratio * energy)
         steps = STEP ** np.arange(STEPS)
-        softer = np.array([find_pull_offs(surface, modulus / step, WORK) for step in steps])
-        stronger = np.array([find_pull_offs(surface, modulus, WORK * step) for step in steps])
-        assert np.all(softer > 0)
-        assert np.all(softer[1:] >= softer[:-1] * (1 - 1e-9))
-        assert np.all(stronger[1:] >= stronger[:-1] * (1 - 1e-9))
+        first = let_meet(surface, modulus, WORK)
+        softer = [first.pair.at_modulus(first.pair.modulus / step) for step in steps]
+        stronger = [replace(first.pair, work_of_adhesion=WORK * step) for step in steps]
+        last = (modulus / steps[-1], WORK), (modulus, WORK * steps[-1])
+        for pairs, material in zip((softer, stronger), last, strict=True):
+            found = np.array([find_pull_offs(first, pair) for pair in pairs])
+            # Materials that differ by nothing else meet the surface in the same way.
+            met = let_meet(surface, *material)
+            np.testing.assert_allclose(found[-1], find_pull_offs(met, met.pair), rtol=1e-12)
+            assert np.all(found > 0)
+            assert np.all(found[1:] >= found[:-1] * (1 - 1e-9))

@@ -191,7 +191,7 @@ def test_shape_of_the_log_normal_distribution(skewness):
         (0.8, 8, 3.0, 0.78, 0.88, 0.08),
         (0.8, 8, -4.0, 0.68, 0.80, 0.10),
         pytest.param(0.5, 32, 1.0, 0.995, 1.001, 0.002, marks=pytest.mark.slow),
-        pytest.param(0.8, 32, -3.0, 0.82, 0.92, 0.08, marks=pytest.mark.slow),
+        pytest.param(0.8, 32, -3.0, 0.84, 0.92, 0.08, marks=pytest.mark.slow),
     ],
 )
 def test_skewness_is_the_one_asked_for_as_far_as_is_said(
@@ -199,7 +199,7 @@ def test_skewness_is_the_one_asked_for_as_far_as_is_said(
 ):
     reached = [
         stats.skew(wide(seed, skewness, hurst, magnification), axis=None) / skewness
-        for seed in range(8)
+        for seed in range(8 if magnification < 32 else 4)
     ]
     assert least < np.mean(reached) < most
     assert np.std(reached) < scatter

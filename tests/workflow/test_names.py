@@ -16,13 +16,8 @@ def rename(workflow):
         for name, entry in config["cases"].items()
     }
     config["roles"] = {role: cases[name] for role, name in config["roles"].items()}
-    for file, content in (
-        (path, config),
-        (
-            workflow / "config/tiny.yaml",
-            yaml.safe_load((workflow / "config/tiny.yaml").read_text()),
-        ),
-    ):
+    tiny = workflow / "config/tiny.yaml"
+    for file, content in ((path, config), (tiny, yaml.safe_load(tiny.read_text()))):
         content["model_surfaces"] = {
             surfaces[name]: entry for name, entry in content["model_surfaces"].items()
         }

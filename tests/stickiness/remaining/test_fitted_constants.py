@@ -43,12 +43,17 @@ def read_intervals(names):
     return np.array(found)
 
 
-def find_onset_of(rows, relative_compliance=1.0):
-    """Onset by the theory, with lengths over 1/q0 and heights over h_rms."""
-    zone = np.square(rows.range) / (rows.adhesion_length * relative_compliance)
-    narrowest = find_narrowest_wave(zone.to_numpy(), rows.magnification.to_numpy())
+def add_scales(rows, compliance=1.0):
+    """What the onset follows from by the theory, with lengths over 1/q0 and heights over h_rms."""
     exponent = find_exponent(rows.magnification.to_numpy(), 4 * rows.half_space_energy.to_numpy())
-    return find_onset(count_scales(narrowest, exponent))
+    zone = np.square(rows.range) / (rows.adhesion_length * compliance)
+    return rows.assign(zone=zone, exponent=exponent)
+
+
+def find_onset_of(rows):
+    """Onset by the theory, of a table with these scales or of its records."""
+    narrowest = find_narrowest_wave(rows["zone"], rows["magnification"])
+    return find_onset(count_scales(narrowest, rows["exponent"]))
 
 
 def find_load_scale(rows):
@@ -61,6 +66,7 @@ def refit(monkeypatch, module, names, rows, evaluate):
     5 and 95 % of what is found, ``(constant, end)``; `evaluate` gives the shares of all rows.
     """
     start = np.array([getattr(module, name) for name in names])
+    simulated = rows.simulated.to_numpy()
     surface, _ = pd.factorize(rows.surface)
     count = surface.max() + 1
 
@@ -69,7 +75,7 @@ def refit(monkeypatch, module, names, rows, evaluate):
             return np.inf
         for name, value in zip(names, constants, strict=True):
             monkeypatch.setattr(module, name, value)
-        return np.sum(weight * np.square(evaluate() - rows.simulated.to_numpy()))
+        return np.sum(weight * np.square(evaluate() - simulated))
 
     rng = np.random.default_rng(1)
     fits = []
@@ -92,9 +98,10 @@ def test_constants_of_tough_contact(monkeypatch):
     assert len(rows) > 150
     known = [getattr(share, name) for name in TOUGH]
     weak = weak_share(rows.energy_ratio, rows.range, find_load_scale(rows))
+    records = add_scales(rows).to_records()
 
     def evaluate():
-        return np.maximum(tough_share(rows.energy_ratio, find_onset_of(rows)), weak)
+        return np.maximum(tough_share(records.energy_ratio, find_onset_of(records)), weak)
 
     found = refit(monkeypatch, share, TOUGH, rows, evaluate)
     assert found == pytest.approx(read_intervals(TOUGH), abs=0.02)
@@ -114,11 +121,12 @@ def test_constants_of_flow_along_thin_layers(monkeypatch):
 
     # Shares of all rows by the factor on their energy ratio, between which is interpolated.
     factors = np.geomspace(1.0, 30.0, 60)
+    onset = find_onset_of(add_scales(rows, rows.relative_compliance))
     shares = [
         remaining_share(
             rows.energy_ratio,
             rows.range,
-            find_onset_of(rows, rows.relative_compliance),
+            onset,
             rows.relative_compliance,
             find_load_scale(rows),
             gain=factor,
@@ -126,10 +134,14 @@ def test_constants_of_flow_along_thin_layers(monkeypatch):
         for factor in factors
     ]
     of_rows = interpolate.CubicSpline(np.log(factors), shares)
+    given = (rows[name].to_numpy() for name in ("energy_ratio", "relative_compliance", "flow"))
+    given, each = tuple(given), np.arange(len(rows))
 
     def evaluate():
-        gain = thin_layers.find_gain(rows.energy_ratio, rows.relative_compliance, rows.flow)
-        return np.diagonal(of_rows(np.log(np.minimum(gain, factors[-1]))))
+        gain = thin_layers.find_gain(*given)
+        log_gain = np.log(np.minimum(gain, factors[-1]))
+        piece = np.clip(np.searchsorted(of_rows.x, log_gain) - 1, 0, None)
+        return np.polyval(of_rows.c[:, piece, each], log_gain - of_rows.x[piece])
 
     found = refit(monkeypatch, thin_layers, FLOW, rows, evaluate)
     assert found == pytest.approx(read_intervals(FLOW), abs=0.01)
@@ -142,8 +154,10 @@ def test_independent_heights_of_a_wave():
     rows = pd.read_csv("config/long_ranges.csv", comment="#").drop_duplicates(["set", "seed"])
 
     def fit(rows):
+        highest, waves = rows.highest.to_numpy(), rows.waves.to_numpy()
+
         def excess(heights):
-            return np.median(rows.highest - find_first_touch(rows.waves, heights))
+            return np.median(highest - find_first_touch(waves, heights))
 
         return optimize.brentq(excess, 1.0, 500.0)
 

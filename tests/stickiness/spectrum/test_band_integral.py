@@ -39,7 +39,7 @@ def test_energy_on_a_layer(rough, thickness, poisson, backing):
     number = len(knots) - 1
     edges = np.interp(np.linspace(0, number, 60 * number + 1), np.arange(number + 1), knots)
     expected = sum(
-        integrate.quad(integrand, a, b, epsabs=0, epsrel=1e-13)[0]
+        integrate.fixed_quad(integrand, a, b, n=10)[0]  # with 12 points the same to 1e-13
         for a, b in zip(edges[:-1], edges[1:], strict=True)
     )
     assert rough.elastic_energy(solid) == pytest.approx(expected, rel=1e-10)
