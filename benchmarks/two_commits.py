@@ -1,14 +1,15 @@
 """Compare the times of two commits of this project, on one machine and in turn.
 
 Each commit is checked out and installed in a folder of its own, outside this one. Every round runs
-each task once with either commit, so that whatever else the machine does meets both. Examples::
+a task once with either commit, so that whatever else the machine does meets both. Examples::
 
     python benchmarks/two_commits.py main~10
     python benchmarks/two_commits.py v0.3.0 --tasks verdict page --rounds 9
 
 The table has the median time of the base, and the ratio of this commit to it: the median over
-rounds, with the least and the largest. Rules of the workflow have the processor time of their jobs.
-Processor time is that of all processes of a task. It needs POSIX, git and make.
+rounds, with the least and the largest. It is printed after each task, from the shortest to the
+longest. Rules of the workflow have the processor time of their jobs. Processor time is that of all
+processes of a task. It needs POSIX, git and make.
 """
 
 import argparse
@@ -22,23 +23,33 @@ import time
 from collections import defaultdict
 from pathlib import Path
 from statistics import median
+from typing import NamedTuple
 
 import pandas as pd
 
 ROOT = Path(__file__).parents[1]
 RUN = ("-m", "snakemake", "-j2", "--quiet", "all", "--config", "results=run")
 TESTS = ("-m", "pytest", "-q", "-n", "2", "--dist", "worksteal")
-#: Arguments of Python. Numba compiles anew for tasks that are called first.
+
+
+class Task(NamedTuple):
+    """What is run."""
+
+    rounds: int
+    arguments: tuple[str, ...]  #: of Python
+
+
+#: Numba compiles anew for tasks that are called first.
 TASKS = {
-    "first verdict": ("-m", "stickiness", "--example", "--no-page"),
-    "verdict": ("-m", "stickiness", "--example", "--no-page"),
-    "page": ("-m", "stickiness", "--example", "--output", "run"),
-    "draft": (*RUN, "fidelity=draft"),
-    "standard": RUN,
-    "quick tests": (*TESTS, "-m", "not slow and not workflow and not peers"),
-    "tests": TESTS,
+    "verdict": Task(5, ("-m", "stickiness", "--example", "--no-page")),
+    "first verdict": Task(3, ("-m", "stickiness", "--example", "--no-page")),
+    "page": Task(5, ("-m", "stickiness", "--example", "--output", "run")),
+    "quick tests": Task(3, (*TESTS, "-m", "not slow and not workflow and not peers")),
+    "draft": Task(2, (*RUN, "fidelity=draft")),
+    "tests": Task(1, TESTS),
+    "standard": Task(1, RUN),
 }
-DEFAULT = ("first verdict", "verdict", "page", "draft")
+DEFAULT = ("verdict", "first verdict", "page", "draft")
 LEAST_TIME = 1.0  #: [s] of processor time, of rules that are shown
 
 
@@ -47,7 +58,7 @@ def main():
     parser.add_argument("base", help="commit to compare with")
     parser.add_argument("--here", default="HEAD", help="commit that is compared (default: HEAD)")
     parser.add_argument("--tasks", nargs="+", choices=TASKS, default=DEFAULT)
-    parser.add_argument("--rounds", type=int, default=3)
+    parser.add_argument("--rounds", type=int, help="of every task (default: fewer of longer ones)")
     options = parser.parse_args()
     with_tests = any(task.endswith("tests") for task in options.tasks)
     with tempfile.TemporaryDirectory(prefix="commits-") as place:
@@ -55,15 +66,21 @@ def main():
             name: check_out(commit, Path(place, name), with_tests=with_tests)
             for name, commit in (("base", options.base), ("here", options.here))
         }
-        times = defaultdict(list)
-        for number in range(options.rounds):
-            # The order changes from round to round.
-            for name in sorted(folders, reverse=bool(number % 2)):
-                for task in options.tasks:
-                    for measured, seconds in run(task, folders[name]).items():
-                        times[measured, name].append(seconds)
-                    print(f"round {number + 1}: {task} of {name}", file=sys.stderr)
-    print(tabulate(times, options.rounds).to_string(index=False))
+        for task in sorted(options.tasks, key=list(TASKS).index):
+            rounds = options.rounds or TASKS[task].rounds
+            print(compare(task, rounds, folders).to_string(index=False), flush=True)
+
+
+def compare(task, rounds, folders):
+    """Table of the times of a task in both folders, which take turns."""
+    times = defaultdict(list)
+    for number in range(rounds):
+        # The order changes from round to round.
+        for name in sorted(folders, reverse=bool(number % 2)):
+            for measured, seconds in run(task, folders[name]).items():
+                times[measured, name].append(seconds)
+            print(f"round {number + 1} of {rounds}: {task} of {name}", file=sys.stderr)
+    return tabulate(times, rounds)
 
 
 def check_out(commit, folder, with_tests):
@@ -90,7 +107,7 @@ def run(task, folder):
     environment = os.environ | {"OMP_NUM_THREADS": "1"}
     if task.startswith("first"):
         environment["NUMBA_CACHE_DIR"] = str(folder / "run" / "compiled")
-    command = [folder / ".venv/bin/python", *TASKS[task]]
+    command = [folder / ".venv/bin/python", *TASKS[task].arguments]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     start = time.monotonic()
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
