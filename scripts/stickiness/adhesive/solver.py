@@ -108,8 +108,9 @@ def solve(
     start : str, Adhesion, repulsive.Contact or array_like, optional
         "approach" (default): the descent starts from the solution without adhesion at the same
         control or, under tension, from the adhesive solution at zero pressure. At a prescribed
-        pressure coarser grids supply a better start unless a descent on one of them meets negative
-        curvature, as a jump would; pass a `repulsive.Contact` to skip them. "separation": the
+        pressure coarser grids, if not mirrored, supply a better start unless a descent on one of
+        them meets negative curvature, as a jump would; pass a `repulsive.Contact` to skip them.
+        "separation": the
         descent starts from full contact, at a prescribed pressure only (`path` follows a mean gap
         back). Or any state on the same grid, or its gap.
     tol : float
@@ -122,7 +123,8 @@ def solve(
         of the backing.
     mirrored : bool
         Whether the surface goes on as its mirror image at every side, instead of repeating as it
-        is, and the state as well. It takes a quarter of the work of heights with their images.
+        is, and the state as well. It takes a quarter of the work of heights with their images. The
+        state is stable among those with this symmetry: heights with their images may leave it.
 
     Returns
     -------
@@ -159,7 +161,7 @@ def solve(
     warn_of_heights(scaled.rms_height, lengths[0])
     if pressure is not None and pressure > 1:
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
-        warn_of_pressure(pressure, measure_slope(heights, lengths) * stiffening)
+        warn_of_pressure(pressure, measure_slope(heights, lengths, mirrored) * stiffening)
     lost = scaled.rms_height > 0 and _check_edges(lengths[0] / heights.shape[0], law, scaled)
     gap = None
     branch = APPROACH

@@ -222,7 +222,8 @@ class _Cell:
     sides: tuple[float, float]  #: [length]
     solid: Solid
     mirrored: bool = False  #: whether heights are periodic together with their mirror images
-    _closed: dict[float, adhesive.Adhesion | None] = field(default_factory=dict)
+    #: States of closed contact by works of adhesion, each with the one that it was reached from
+    _closed: dict[float, tuple[adhesive.Adhesion | None, ...]] = field(default_factory=dict)
 
     @cached_property
     def h_rms(self) -> float:
@@ -305,10 +306,12 @@ class _Cell:
 
         None if it does not converge. States are kept: what remains and what holds ask for the same.
         """
-        if energy_ratio not in self._closed:
+        kept = self._closed.get(energy_ratio)
+        if kept is None or kept[0] is not stronger:
             start = adhesive.SEPARATION if stronger is None else stronger.gap
-            self._closed[energy_ratio] = self.adhere(self.choose_law(energy_ratio), start)
-        return self._closed[energy_ratio]
+            kept = stronger, self.adhere(self.choose_law(energy_ratio), start)
+            self._closed[energy_ratio] = kept
+        return kept[1]
 
     def descend(
         self,

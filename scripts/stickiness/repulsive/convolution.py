@@ -108,9 +108,9 @@ class WholeConvolution:
 class MirroredConvolution:
     """Convolution of fields that go on as their mirror images at every side.
 
-    The cosine transform of a field x is a Fourier transform V of its even points followed by the
+    The cosine transform X of a field is a Fourier transform V of its even points followed by the
     odd ones in reverse (Makhoul, IEEE Trans. Acoust. 28:27, 1980, doi 10.1109/TASSP.1980.1163351):
-    along one axis ``2 x_k = e V_k + conj(e V_k)`` with ``e = exp(-i t)``, ``t = pi k / (2 n)``. So
+    along one axis ``2 X_k = e V_k + conj(e V_k)`` with ``e = exp(-i t)``, ``t = pi k / (2 n)``. So
     the convolution with the symbol S is ``V'_k = s V_k + d exp(2 i t) V_-k`` where s and d are half
     the sum and half the difference of S at k and at n - k, and S is 0 at n.
     """

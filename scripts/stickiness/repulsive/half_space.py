@@ -67,7 +67,11 @@ def effective_wavenumbers(shape, lengths, solid=HALF_SPACE, mirrored=False):
 class _Kernel:
     """A convolution, and the symbol of what a field is convolved with."""
 
-    convolution: convolution.WholeConvolution | convolution.BlockedConvolution
+    convolution: (
+        convolution.WholeConvolution
+        | convolution.MirroredConvolution
+        | convolution.BlockedConvolution
+    )
     symbol: object
 
 
@@ -112,7 +116,8 @@ class HalfSpace:
     def compliance(self, pressure, out=None, rows_in=None, rows_out=None):
         """Displacement under a pressure [E*], in the unit of `lengths` and, if periodic, of mean 0.
 
-        Both fields are zero but in `rows_in`; other rows of `out` than `rows_out` stay as they are.
+        Both fields are zero but in `rows_in`; other rows of `out` than `rows_out` stay as they are,
+        but of a mirrored solid.
         """
         return self._convolve(self._compliance, pressure, out, rows_in, rows_out)
 

@@ -192,7 +192,8 @@ def solve(
     if pressure > 1:
         # a thin layer takes that much more pressure
         stiffening = 1 / solid.factor(2 * np.pi / max(lengths))
-        warn_of_pressure(pressure, half_space.measure_slope(heights, lengths) * stiffening)
+        slope = half_space.measure_slope(heights, lengths, mirrored)
+        warn_of_pressure(pressure, slope * stiffening)
     with sharing.threads(threads):
         mean, rms = half_space.measure_scale(heights)
         warn_of_heights(rms, lengths[0])
