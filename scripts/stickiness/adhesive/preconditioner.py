@@ -18,6 +18,7 @@ class Smoother:
     """Convolution with about ``1 / (|q| / 2 + shift)`` in single precision.
 
     On an even grid ``constant + B apply B^T``, where B gathers from the coarse points around each.
+    Mirrored fields are not halved: points of the coarse grid would not mirror one another.
     """
 
     def __init__(self, shape, sides, solid, mirrored=False):

@@ -110,9 +110,8 @@ def solve(
         control or, under tension, from the adhesive solution at zero pressure. At a prescribed
         pressure coarser grids, if not mirrored, supply a better start unless a descent on one of
         them meets negative curvature, as a jump would; pass a `repulsive.Contact` to skip them.
-        "separation": the
-        descent starts from full contact, at a prescribed pressure only (`path` follows a mean gap
-        back). Or any state on the same grid, or its gap.
+        "separation": the descent starts from full contact, at a prescribed pressure only (`path`
+        follows a mean gap back). Or any state on the same grid, or its gap.
     tol : float
         Largest accepted `Adhesion.residual`.
     max_iterations : int

@@ -37,7 +37,7 @@ _REDUCTION_WHILE_CHANGING = 0.1  # reduction of the gap between changes of the s
 
 def is_worthwhile(grid, count):
     """Whether corrections among `count` points pay on a grid, of about square pixels."""
-    if grid.mirrored:
+    if grid.mirrored:  # kernels of near pairs know no mirror images
         return False
     pixel = [a / n for a, n in zip(grid.sides, grid.shape, strict=True)]
     square = max(pixel) < 1.5 * min(pixel)
