@@ -24,6 +24,7 @@ KAPPA_REP = 2.0  #: area over load without adhesion, A_rep/A_nom = kappa p/(E* h
 
 WEAK = 0.2  #: strength tau up to which adhesion is weak
 STRONGEST_SIMULATED = 4.0  #: strength tau up to which the model was compared with simulation
+LEAST_STRENGTH = 2e-7  # tau below which attraction changes no zone
 TOUGH = 2.0  # strength, and relative distance from JKR, see `tough`
 TOUGH_WITHIN = 0.1
 SMALLEST_SIMULATED = 0.13  #: attractive over contact area from which on it was
@@ -96,21 +97,37 @@ def effect(attractive_over_contact: ArrayLike, strength: ArrayLike) -> float | N
     from scipy.optimize import elementwise  # not needed to read a configuration
 
     t, tau = np.broadcast_arrays(attractive_over_contact, strength)
-    # Radius of contact and of curvature are 1; c = 1/cos(angle). The edge of a sphere has
-    # range/d = (8/3pi) sqrt(t) for small t, which defines its traction at any t.
-    widest = np.arctan(np.sqrt(t))
-    traction = tau * 8 / (3 * np.pi) * np.sqrt(t)
-    reach = _hertz_gap(widest)
+    widest, traction, reach = _describe_edge(t, tau)
 
     def excess(log_angle, traction, reach):
         angle = np.exp(log_angle)
         return _hertz_gap(angle) + traction * _closing(angle) - reach
 
-    # The zone of a crack alone, pi range/(4 traction) wide, is wider than the true one.
-    narrowest = 0.1 * np.minimum(widest, np.sqrt(reach / traction))
+    narrowest = _find_narrowest_zone(widest, traction, reach)
     bracket = (np.log(narrowest), np.log(widest) + 1e-12)
     angle = np.exp(elementwise.find_root(excess, bracket, args=(traction, reach)).x)
-    return plain(2 * (angle / np.cos(angle) ** 2 + np.tan(angle)) / (np.pi * t))
+    return plain(_effect_of_zone(angle, t))
+
+
+def _describe_edge(t: NDArray, tau: ArrayLike) -> tuple[NDArray, NDArray, NDArray]:
+    """Widest angle of the zone, traction over it, and range of the attraction.
+
+    Radius of contact and of curvature are 1; c = 1/cos(angle). The edge of a sphere has
+    range/d = (8/3pi) sqrt(t) for small t, which defines its traction at any t.
+    """
+    widest = np.arctan(np.sqrt(t))
+    traction = tau * 8 / (3 * np.pi) * np.sqrt(t)
+    return widest, traction, _hertz_gap(widest)
+
+
+def _find_narrowest_zone(widest: NDArray, traction: NDArray, reach: NDArray) -> NDArray:
+    """An angle below that of the zone: that of a crack alone, pi range/(4 traction), is wider."""
+    return 0.1 * np.minimum(widest, np.sqrt(reach / traction))
+
+
+def _effect_of_zone(angle: NDArray, t: NDArray) -> NDArray:
+    """Attraction over its DMT sum of a zone up to an angle."""
+    return 2 * (angle / np.cos(angle) ** 2 + np.tan(angle)) / (np.pi * t)
 
 
 @takes_positive
@@ -166,21 +183,32 @@ def adhesion_length_threshold(
     """Adhesion length [length] at which the attraction balances the repulsion."""
     from scipy.optimize import elementwise  # not needed to read a configuration
 
-    surface = np.broadcast_arrays(h_rms, q0, rms_slope, range, a_v)
-    h, q0, slope, range, a_v = surface
+    # The area depends on the surface and the range alone; the DMT sum and the traction of the edges
+    # are in proportion to the adhesion length, here the range.
+    unit = attraction(h_rms, q0, rms_slope, range, range, a_v)
+    t = np.asarray(unit.attractive_over_contact)
+    dmt = np.asarray(unit.ratio) / unit.effect
+    widest, unit_traction, reach = _describe_edge(t, unit.strength)
 
-    def excess(log_length, h, q0, slope, range, a_v):
-        return np.log(attraction(h, q0, slope, np.exp(log_length), range, a_v).ratio)
+    def find_length(angle, unit_traction, reach):
+        """Adhesion length over the range that closes the zone up to an angle."""
+        return (reach - _hertz_gap(angle)) / (unit_traction * _closing(angle))
+
+    def excess(log_angle, t, dmt, unit_traction, reach):
+        """Attraction over repulsion, less 1."""
+        angle = np.exp(log_angle)
+        return dmt * find_length(angle, unit_traction, reach) * _effect_of_zone(angle, t) - 1
 
     # What either limit has for the threshold, and the larger of both is near.
-    unit = attraction(h, q0, slope, range, range, a_v)
-    t = unit.attractive_over_contact
-    tau = unit.strength
-    dmt = traction_ratio(h, q0, range, range, a_v)
-    weak = range / (dmt * weak_effect(t))
-    tough = range / (dmt * tough_effect(t, tau)) ** 2
-    bracket = (np.log(0.5 * weak), np.log(4 * (weak + tough)))
-    return plain(np.exp(elementwise.find_root(excess, bracket, args=surface).x))
+    weak = 1 / (dmt * weak_effect(t))
+    tough = 1 / (dmt * tough_effect(t, unit.strength)) ** 2
+    narrowest = _find_narrowest_zone(widest, 4 * (weak + tough) * unit_traction, reach)
+    bracket = (np.log(narrowest), np.log(widest))
+    root = elementwise.find_root(excess, bracket, args=(t, dmt, unit_traction, reach))
+    length = find_length(np.exp(root.x), unit_traction, reach)
+    # Where attraction is too weak to change the zone, rounding decides its length.
+    is_weak = weak * unit.strength < LEAST_STRENGTH
+    return plain(range * np.where(is_weak, weak, length))
 
 
 def _hertz_gap(angle: NDArray) -> NDArray:
