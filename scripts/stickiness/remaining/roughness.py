@@ -80,6 +80,7 @@ class Roughness:
     q1: float | NDArray = np.inf  #: of the finest waves; infinite: many decades of waves
     rms_slope: float | NDArray = np.inf  #: infinite: without adhesion the area in contact vanishes
     waves: float | NDArray = np.inf  #: longest waves along a side of the contact
+    exponent: float | NDArray = np.nan  #: of the elastic energy; NaN: by the mean wave number
     #: Error of the model in units of its limits: -1 and 1 at the low and the high one
     eta: float | NDArray = 0.0
     law: str | NDArray = EXPONENTIAL  #: name in `traction_laws.LAWS`
@@ -236,9 +237,10 @@ class Roughness:
     def _find_error(self, adhesion_length, range) -> NDArray:
         """Error of the logarithm of the work of adhesion, which covers 90 %."""
         # Beyond the waves that were simulated the onset may rise further.
-        onset = self.onset(adhesion_length, range)
-        simulated_onset = self.onset(adhesion_length, range, finest=FINEST_SIMULATED)
-        extrapolated = EXTRAPOLATION_ERROR * np.log(onset / np.asarray(simulated_onset))
+        narrowest_wave = self.narrowest_wave(adhesion_length, range)
+        onset = self._find_onset(narrowest_wave)
+        simulated_onset = self._find_onset(np.minimum(narrowest_wave, FINEST_SIMULATED))
+        extrapolated = EXTRAPOLATION_ERROR * np.log(onset / simulated_onset)
         return find_work_error(self, extrapolated)
 
     def _ask_simulated(self, quantity: str, adhesion_length, range, *others, **shared) -> NDArray:
@@ -297,7 +299,11 @@ class Roughness:
         Waves finer than `finest`, over q0, are not counted.
         """
         narrowest_wave = self.narrowest_wave(adhesion_length, range)
-        return find_onset(count_scales(np.minimum(narrowest_wave, finest), self._exponent))
+        return plain(self._find_onset(np.minimum(narrowest_wave, finest)))
+
+    def _find_onset(self, narrowest_wave: ArrayLike) -> NDArray:
+        """The same by the narrowest wave that counts, over q0."""
+        return np.asarray(find_onset(count_scales(narrowest_wave, self._exponent)))
 
     def narrowest_wave(self, adhesion_length: ArrayLike, range: ArrayLike) -> float | NDArray:
         """Wave number over q0 up to which attraction does not bridge the waves."""
@@ -310,7 +316,9 @@ class Roughness:
 
     @cached_property
     def _exponent(self) -> NDArray:
-        """Exponent of the elastic energy, by the mean wave number."""
+        """Exponent of the elastic energy, by the mean wave number if it is not known."""
+        if not np.isnan(self.exponent).any():
+            return np.asarray(self.exponent)
         return find_exponent(
             magnification=self.magnification,
             mean_wave_number=4 * self._energy_on_half_space / (np.square(self.h_rms) * self.q0),
@@ -455,7 +463,7 @@ class Roughness:
         start_length = np.nan if adhesion_length is None else adhesion_length
         columns = (range, share, start_length)
         shape = np.broadcast_shapes(surface.shape_of_arrays, *map(np.shape, columns))
-        rough = surface.broadcast(shape)
+        rough = replace(surface, exponent=surface._exponent).broadcast(shape)
         ranges, wanted_shares, start_lengths = (
             np.broadcast_to(column, shape).ravel() for column in columns
         )
