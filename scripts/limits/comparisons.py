@@ -56,6 +56,7 @@ MODELLED = (
 )
 #: Half-widths of limits that are tried, in ln w.
 HALF_WIDTHS = np.linspace(0.0, 3.0, 601)
+TRIED_FIRST = 25  #: every so many of them
 LEAST_SHARE = 0.02  # of which ratios of pull-offs and works are taken
 LEAST_LACKING = 0.02  # energy, over that of the others
 SMALLEST = 1e-9  # unit of an error that is divided by
@@ -230,13 +231,22 @@ class ShareByTheory(ByTheory):
     @cached_property
     def needed(self) -> NDArray:
         """Least half-width in ln w, up to the largest tried, with which limits hold the share."""
+        # First among few of the half-widths, then among those up to the one that was found.
+        found = self._find_first(HALF_WIDTHS[::TRIED_FIRST])
+        nearer = np.maximum(found[:, None] - HALF_WIDTHS[TRIED_FIRST - 1 :: -1], 0.0)
+        return self._find_first(nearer)
+
+    def _find_first(self, half_widths: NDArray) -> NDArray:
+        """First of the rising half-widths ``(row, trial)`` that holds, else the last."""
         low, high = (
-            predict(model(self.rows).deviating(eta).share_by_theory, self.rows, error=HALF_WIDTHS)
+            predict(model(self.rows).deviating(eta).share_by_theory, self.rows, error=half_widths)
             for eta in (-1.0, 1.0)
         )
         simulated = self.simulated[:, None]
         holds = (low - ROUNDING <= simulated) & (simulated <= high + ROUNDING)
-        return np.where(holds.any(axis=1), HALF_WIDTHS[holds.argmax(axis=1)], HALF_WIDTHS[-1])
+        holds[:, -1] = True
+        first = holds.argmax(axis=1)[:, None]
+        return np.take_along_axis(np.broadcast_to(half_widths, holds.shape), first, axis=1)[:, 0]
 
 
 def read_tables(paths) -> dict[str, pd.DataFrame]:
@@ -460,6 +470,7 @@ def of_balls(balls, summits):
     return Comparison(errors.BALL, rows.assign(**logarithms, unit=errors.BALL.unit(lost)))
 
 
+@cache
 def predict_force(ball, summits):
     """Value and limits of the force of a ball over that of a smooth one, without the place's error.
 
