@@ -171,14 +171,15 @@ def test_patches_tell_the_threshold_of_the_whole_surface():
     """Without longer waves small patches seem to stick more than the surface does."""
     inside = []
     ratios = {contact: [] for contact in (SIDE, None)}
+    # How far the largest patches are off for want of longer waves is not looked at.
+    looked_at = [(parts, SIDE) for parts in (2, 4, 8)] + [(parts, None) for parts in (4, 8)]
     for hurst in (0.8, 0.9):
         for seed in (1, 2, 3, 4):
             heights, _ = take_patch(seed, parts=8, hurst=hurst)
             whole = Surface.from_spectrum(realised_spectrum(heights, SIDE))
             patches = {
                 f"{parts}{contact}": take_patch(seed, parts, hurst, contact)[1]
-                for parts in (2, 4, 8)
-                for contact in (SIDE, None)
+                for parts, contact in looked_at
             }
             judged = judge([TAPE], {"whole": whole} | patches, curves=False, thresholds=False)
             judged = judged.isel(material=0)
