@@ -12,6 +12,7 @@ import sys
 import tomllib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from difflib import get_close_matches
 from functools import partial
 from importlib.metadata import version
 from itertools import count
@@ -179,7 +180,9 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
             if key in TEXTS["flags"][title]:
                 value = {"action": "store_const", "const": True}
             group.add_argument(option, dest=key, help=text, **value)
-    options = parser.parse_args(join_negative(arguments))
+    options, unknown = parser.parse_known_args(join_negative(arguments))
+    if unknown:
+        fail(tell_unknown(unknown, re.findall(r"--[a-z-]+", parser.format_help())))
     used = [OPTIONS[key] for key in choose_given(options, "material")]
     if options.tape and used:
         fail(f"--tape describes the material: leave out {', '.join(used)}")
@@ -187,6 +190,18 @@ def read_options(arguments: list[str]) -> argparse.Namespace:
     if not (options.tape or options.common) and not (has_modulus and "--work" in used):
         fail('give --modulus "0.2 MPa" and --work "60 mJ/m^2", --material or --tape; see --help')
     return options
+
+
+def tell_unknown(words: list[str], options: list[str]) -> str:
+    """Return what is not known of the command line, and the option that may be meant."""
+    close = [
+        match
+        for word in words
+        if word.startswith("--")
+        for match in get_close_matches(word.partition("=")[0], options, n=1)
+    ]
+    hint = f"; did you mean {close[0]}?" if close else ""
+    return f"unrecognized arguments: {' '.join(words)}{hint}"
 
 
 def join_negative(arguments: list[str]) -> list[str]:
@@ -217,11 +232,11 @@ def read_radius(text: str, materials: dict[str, Any]) -> float:
         fail(f"--radius {error}")
     if not radius > 0:
         fail(f"--radius {text!r}: must be positive")
-    try:
-        for material in materials.values():
+    for name, material in materials.items():
+        try:
             check_ball(material, radius)
-    except ValueError as error:
-        fail(f"--{error}")
+        except ValueError as error:
+            fail(f"--{error}" if len(materials) == 1 else f"{name}: --{error}")
     return radius
 
 
@@ -441,8 +456,9 @@ def claim_name(folder: Path, stem: str, source: str) -> str:
 
 def check_output(folder: Path) -> None:
     """End the command if the folder for the page cannot be written."""
-    if folder.is_file():
-        fail(f"--output {folder} is a file; give a folder")
-    existing = next(path for path in (folder, *folder.absolute().parents) if path.is_dir())
+    # Of a drive that Windows does not have, nothing exists.
+    existing = next((path for path in (folder, *folder.parents) if path.exists()), folder)
+    if not existing.is_dir():
+        fail(f"--output {folder}: {existing} is no folder; give another")
     if not os.access(existing, os.W_OK):
         fail(f"--output {folder} cannot be written; give another folder")

@@ -236,6 +236,11 @@ def test_another_tape_replaces_the_page(folder, first):
         (["wall#1.npy", *TAPE, "--tape", "a"], "--tape describes the material"),
         (["wall#1.npy", "--modulus", "1 MPa"], 'give --modulus "0.2 MPa" and --work "60 mJ/m^2"'),
         (["wall#1.npy", *TAPE, "--modulos", 1], "unrecognized arguments: --modulos 1"),
+        (
+            ["wall#1.npy", *TAPE, "--lenght", "2 mm"],
+            "unrecognized arguments: --lenght 2 mm; did you mean --length?",
+        ),
+        (["wall#1.npy", *TAPE, *SIZE, "--output", "tape.yaml/out"], "--output tape.yaml/out: tape"),
         (["wall#1.npy", *TAPE, "--work", "60 J/m^2"], "--work '60 J/m^2': "),
         (["wall#1.npy", "--material", "stel"], "--material 'stel': "),
         (["wall#1.npy", *TAPE, "--radius", "1"], "--radius '1' "),
