@@ -253,7 +253,11 @@ MISUSES = [
         lambda: stickiness.judge([], [Surface.from_spectrum(BAND)]),
         "materials must be a list or a mapping",
     ),
-    (lambda: stickiness.judge([GEL], []), "surfaces must be a list or a mapping"),
+    (lambda: stickiness.judge([GEL], []), "surfaces must be a list or a mapping of .*: empty list"),
+    (
+        lambda: stickiness.judge([HEIGHTS], [Surface.from_spectrum(BAND)]),
+        "materials must be .* of Material, got: list of ndarray$",
+    ),
     (lambda: judge(HEIGHTS), "length is missing"),
     (lambda: judge(np.ones((8, 16)), length=1e-3), r"both sides of heights of the shape \(8, 16\)"),
     (lambda: judge(np.ones((1, 1)), length=1e-3), r"at least 4 x 4 points, got \(1, 1\)"),
