@@ -232,8 +232,8 @@ class ShareByTheory(ByTheory):
     def needed(self) -> NDArray:
         """Least half-width in ln w, up to the largest tried, with which limits hold the share."""
         # First among few of the half-widths, then among those up to the one that was found.
-        found = self._find_first(HALF_WIDTHS[::TRIED_FIRST])
-        nearer = np.maximum(found[:, None] - HALF_WIDTHS[TRIED_FIRST - 1 :: -1], 0.0)
+        among_few = self._find_first(HALF_WIDTHS[::TRIED_FIRST])
+        nearer = np.maximum(among_few[:, None] - HALF_WIDTHS[TRIED_FIRST - 1 :: -1], 0.0)
         return self._find_first(nearer)
 
     def _find_first(self, half_widths: NDArray) -> NDArray:

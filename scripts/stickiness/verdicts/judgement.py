@@ -199,14 +199,16 @@ def _check_shares(wanted_share: float, contact_area: float) -> None:
 
 def _name(argument: str, given: Mapping | Sequence, kind: type) -> dict:
     """Materials or surfaces by name, or by number if they come in a sequence."""
-    found = type(given).__name__
+    given_type = type(given).__name__
     named = {}
     if isinstance(given, Mapping | Sequence):
         named = dict(given if isinstance(given, Mapping) else enumerate(given))
         kinds = sorted({type(each).__name__ for each in named.values()})
-        found = f"{found} of {', '.join(kinds)}" if kinds else f"empty {found}"
+        given_type = f"{given_type} of {', '.join(kinds)}" if kinds else f"empty {given_type}"
     if not named or not all(isinstance(each, kind) for each in named.values()):
-        raise ValueError(f"{argument} must be a list or a mapping of {kind.__name__}, got: {found}")
+        raise ValueError(
+            f"{argument} must be a list or a mapping of {kind.__name__}, got: {given_type}"
+        )
     return named
 
 
